@@ -1,7 +1,7 @@
-"""Builds what the package holds beside Python: the FMU for this machine, the library of answers, scenes and licences.
+"""Builds the files of the package other than Python: the FMU for this machine, the library of answers, scenes and licences.
 
-`pip install ./python` comes by here. A package that has its FMU already, as the command `wheel` stages it, is left as it is; the
-wheel's name tells the platforms that the command names."""
+`pip install ./python` runs this hook. If the package already contains an FMU, which the command `wheel` puts there, the hook leaves
+it unchanged. The wheel's name then contains the platforms that this command names."""
 
 import os
 import shutil
@@ -16,12 +16,12 @@ NEEDED = ("bevel-differential is built from its source with Rust, and {what}. In
           "that the project's command `wheel` makes on another machine.")
 
 
-# the platforms of the FMU in a package that has one, joined by dots: as pip calls them, or "this-machine"
+# environment variable: platforms of the FMU in the package, joined by dots, in pip's names or as "this-machine"
 PLATFORMS = "BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS"
 
 
 class FmuHook(BuildHookInterface):
-    """Hatch calls `initialize` before it packs the wheel. `parts`: a folder with the files of the package that are not Python's."""
+    """Build hook; hatch calls `initialize` before it packs the wheel. `parts`: a folder with the package's files other than Python."""
 
     parts = None
 
@@ -34,11 +34,11 @@ class FmuHook(BuildHookInterface):
                 name(build_data, platforms)
             return
         if not (root.parent / "Cargo.toml").is_file():
-            raise SystemExit(NEEDED.format(what="the Rust sources are not beside this folder: install from a whole checkout"))
+            raise SystemExit(NEEDED.format(what="the Rust sources are not next to this folder: install from a whole checkout"))
         cargo = shutil.which("cargo")
         if cargo is None:
             raise SystemExit(NEEDED.format(what="cargo is not on the search path"))
-        # of this build: another one may run at the same time
+        # a separate folder for each build, as another one may run at the same time
         self.parts = tempfile.mkdtemp(prefix="bevel-differential-")
         command = [cargo, "run", "--release", "--locked", "--", "wheel", "--platforms", "this-machine", "--parts", self.parts]
         if subprocess.run(command, cwd=root.parent, check=False).returncode:
@@ -48,13 +48,13 @@ class FmuHook(BuildHookInterface):
         name(build_data, "this-machine")
 
     def finalize(self, version, build_data, artifact_path):
-        """Hatch calls it when the wheel is packed."""
+        """Removes the folder of parts; hatch calls this when the wheel is packed."""
         if self.parts:
             shutil.rmtree(self.parts)
 
 
 def name(build_data, platforms):
-    """Lets the wheel's name tell its platforms, so that pip refuses it elsewhere."""
+    """Writes the platforms into the wheel's name, so that pip refuses it on other platforms."""
     own = sysconfig.get_platform().replace("-", "_").replace(".", "_")
     build_data["pure_python"] = False
     build_data["tag"] = f"py3-none-{platforms.replace('this-machine', own)}"

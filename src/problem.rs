@@ -30,7 +30,7 @@ impl fmt::Display for Problem {
 }
 
 /// Formats two numbers that a message compares, with at least `digits` decimals and enough to distinguish them.
-pub fn told_apart(pair: [f64; 2], digits: usize) -> [String; 2] {
+pub fn distinct_texts(pair: [f64; 2], digits: usize) -> [String; 2] {
     let written = |digits: usize| pair.map(|x| format!("{x:.digits$}"));
     (digits..=MOST_DIGITS).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(digits))
 }

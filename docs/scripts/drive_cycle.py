@@ -1,4 +1,4 @@
-"""The drive cycle of the scene drive_cycle: a course for a car, and what its axle gets; writes scenes/drive_cycle.csv.
+"""Drive cycle of the scene drive_cycle: the course of a car, with torque and speeds of its axle. Writes scenes/drive_cycle.csv.
 
 usage, from the top of the repository:
     target/python/bin/python docs/scripts/drive_cycle.py
@@ -11,11 +11,11 @@ import numpy as np
 FILE = Path(__file__).resolve().parents[2] / "scenes" / "drive_cycle.csv"
 
 MASS, RADIUS, TRACK = 1600.0, 0.32, 1.55  # kg, m (rolling radius of the wheels), m
-TURNING, ROLLING, DRAG = 1.05, 0.012, 0.65  # parts of the mass (wheels turn, too) and of the weight, m2 (area times coefficient)
+TURNING, ROLLING, DRAG = 1.05, 0.012, 0.65  # factor of the mass for rotating wheels, fraction of the weight, m2 (area times coefficient)
 AIR, GRAVITY = 1.2, 9.81  # kg/m3, m/s2
-# N.m at the carrier: an automatic creeps up to a speed, and brakes with its engine from another one, m/s. Brakes at the wheels do the rest
+# lowest carrier torque: CREEP, N.m, up to CREEPS, m/s, and ENGINE_BRAKING, N.m, from BRAKES, m/s. Wheel brakes do the rest
 CREEP, CREEPS, ENGINE_BRAKING, BRAKES = 150.0, 3.0, -150.0, 6.0
-SMOOTHING = np.array([1.0, 2.0, 3.0, 2.0, 1.0]) / 9.0  # over seconds
+SMOOTHING = np.array([1.0, 2.0, 3.0, 2.0, 1.0]) / 9.0  # weights of successive seconds
 
 # time, s: speed, km/h
 SPEED = {
@@ -53,7 +53,7 @@ def main():
 
 
 def smooth(values):
-    """Without corners; still where it stood still."""
+    """Moving weighted mean of `values`."""
     ends = len(SMOOTHING) // 2
     return np.convolve(np.pad(values, ends, mode="edge"), SMOOTHING, mode="valid")
 

@@ -3,7 +3,7 @@
 usage, from the top of the repository, after `cargo run --release`:
     target/python/bin/python docs/scripts/ripple.py [FMU]
 
-Prints the table of docs/study.md. Everything is measured through the FMU but the last two columns.
+Prints the table of docs/study.md. The FMU gives all columns except the last two.
 """
 
 import sys
@@ -59,8 +59,8 @@ def quasi_static(te_one, exponent):
     one = te_one / R_M
     arc = np.linspace(0.0, 1.3 * np.interp(one, GAP_P, DELTA), 4001)
     approach = np.linspace(0.5 ** (1 / exponent), 1.0, 801)[1:-1] * one
-    # the corner pair's share: a^e + (a − g)^e (1 − λ) = one^e; λ = 0 at the planet's tip, g′ at the side gear's, whose
-    # corner rides on the gear that carries the approach: Δ = s_lo − s + a
+    # force balance with a corner pair: a^e + (a − g)^e (1 − λ) = one^e. At the planet's tip λ = 0; at the side gear's tip λ = g′,
+    # because its corner moves with the approach a: Δ = s_lo − s + a
     slopes = []
     for full, rides in (GAP_P, 0.0), (GAP_S, 1.0):
         table = np.interp(arc, DELTA, full)
@@ -76,7 +76,7 @@ def quasi_static(te_one, exponent):
 
 
 def steepest(exponent):
-    """κ = max dy/du of y^e + (y − u²)^e = 1: how steeply the deflection grows as a corner leaves, dimensionless."""
+    """Steepest growth κ of the deflection as a corner leaves, dimensionless: max dy/du of y^e + (y − u²)^e = 1."""
     u = np.linspace(0.0, 1.0, 2001)[:-1]
     low, high = np.maximum(u**2, 0.5 ** (1 / exponent)), np.ones_like(u)
     for _ in range(60):
@@ -88,14 +88,14 @@ def steepest(exponent):
 
 
 def square_root(te_one, exponent):
-    """The same by the short formula κ √(a₁ c), with c = g/Δ² where the gap is the single pair's approach a₁."""
+    """Ripple by the short formula κ √(a₁ c). The coefficient c = g/Δ² is taken at a gap equal to the single pair's approach a₁."""
     one = te_one / R_M
     slope = steepest(exponent) * sum(one / np.interp(one, table, DELTA) for table in (GAP_P, GAP_S))
     return [100.0 * DIFFERENCE / speed * slope for _, speed in SIDES]
 
 
 def turn(changes, step=1e-4):
-    """A record of the turn with changed start values, after a tooth."""
+    """Returns a record of the turn with changed start values, from the end of the first tooth on."""
     values = {"scene.planet_spin": "imposed", "spin.command": (SPIN, "deg/s"), "carrier.speed_command": (CARRIER, "deg/s")}
     outputs = [f"{side}.speed" for side, _ in SIDES] + ["planet[1].left_transmission_error"]
     with Differential(values | changes, fmu=FMU) as differential:
@@ -117,7 +117,7 @@ def per_pair_force():
 
 
 def variants():
-    """Name, changed start values, exponent, output interval."""
+    """Rows of the table: name, changed start values, exponent, output interval [s]."""
     yield "the study's constants", {}, 1.5, 1e-4
     for factor in [0.25, 4, 16, 64]:
         yield f"K × {factor:g}", {"contact.stiffness": STIFFNESS * factor}, 1.5, 1e-4
@@ -135,7 +135,7 @@ def variants():
     yield "half the load", {"left.load_torque": LOAD / 2, "right.load_torque": LOAD / 2}, 1.5, 1e-4
     yield "all speeds × 10", {"carrier.speed_command": (CARRIER * 10, "deg/s"),
                               "spin.command": (SPIN * 10, "deg/s")}, 1.5, 1e-5
-    # laws from the teeth's shape, for which no rule is calculated
+    # contact laws that follow from the tooth shape; the two formulas do not apply to them
     for law in ["line", "line_weber"]:
         yield f"law `{law}`", {"contact.law": law}, None, 1e-4
     yield "`line_weber`, elastic bodies", {"contact.law": "line_weber", "effects.body_compliance": True}, None, 1e-4

@@ -1,4 +1,4 @@
-"""Planets and side gears for the study's car: see README.md. With --write it renews table and picture of docs/design.md."""
+"""Optimises planets and side gears for the study's car: see README.md. With --write, it updates docs/design.md."""
 
 import argparse
 import re
@@ -11,14 +11,14 @@ from bevel_differential.command import main
 HERE = Path(__file__).resolve().parent
 DOCS = HERE.parents[1] / "docs"
 BEGIN, END = "<!-- choice begin -->", "<!-- choice end -->"
-# rows that the page leaves out: of the models, whose spans are below the table, and of further checks
+# rows that the page leaves out: models, whose ranges are below the table, and further checks
 LEFT_OUT = ("| …", "| pin.", "| washer.", "| teeth.", "| face.")
 
 
 def run() -> int:
     """Runs the command `optimise` with the problem file of this folder. Returns its exit status."""
     parser = argparse.ArgumentParser(description=__doc__, epilog="Other arguments are those of the command optimise.")
-    parser.add_argument("--write", action="store_true", help="renew table and picture of docs/design.md")
+    parser.add_argument("--write", action="store_true", help="update the table and picture of docs/design.md")
     parser.add_argument("--out", type=Path, default=Path("target/optimise/study_gears"), help="folder of the results")
     given, others = parser.parse_known_args()
     status = main(["optimise", str(HERE / "study_gears.toml"), "--out", str(given.out), *others])

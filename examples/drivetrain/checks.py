@@ -1,20 +1,20 @@
-"""What theory says about what was measured; none of these numbers comes from a run."""
+"""Checks of the measurements against theory; no expected value comes from a run."""
 
 import numpy as np
 
 import masters
 from measure import INSIDE
 
-# how much two runs of the same method may differ: rounding, through a stiff solver at 1e-10
+# largest allowed difference between two runs of the same method: rounding, amplified by a stiff solver at 1e-10
 SAME = 1e-8
-# how far a method's order may be from theory's
+# largest allowed difference of a method's order from theory
 BAND = 0.25
-# how far two methods of scipy may be from each other on the reference
+# largest allowed difference between two methods of scipy on the reference
 DOUBT = 1e-6
 
 
 def wrong(found):
-    """All that is not as it must be."""
+    """Messages about all measurements that contradict theory."""
     problems = []
     for contact, rows in found["hosts"].items():
         problems += [f"{contact}: {name} differs from FMPy by {value:.1e}, more than {SAME:g}"
@@ -35,7 +35,8 @@ def wrong(found):
 
 
 def errors_wrong(contact, master, rows, limits):
-    """A held input is late by a step at most, so errors stay below frequency times step; and orders are theory's."""
+    """Messages about one master. A held input is late by at most one step, so errors must stay below frequency times step.
+    Orders must be those of theory."""
     problems, good = [], [row for row in rows if row["state"] == "ok"]
     for row in good:
         bound = limits["frequency"] * row["step"]
@@ -49,8 +50,7 @@ def errors_wrong(contact, master, rows, limits):
 
 
 def expected(master, interpolates):
-    """Band of the order: masters that draw lines have 2 if all parts follow them, and between 1 and 2 where one does
-    not."""
+    """Allowed range of the order. Masters with inputs on lines have order 2 if all parts follow lines, otherwise between 1 and 2."""
     return (1.0 if master.order == 2 and not interpolates else master.order) - BAND, master.order + BAND
 
 

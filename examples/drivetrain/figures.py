@@ -1,4 +1,4 @@
-"""Pictures: the launch, errors by communication step, and the flow of signals."""
+"""Pictures: the launch, errors against the communication step, and the flow of signals."""
 
 from math import pi
 
@@ -14,7 +14,7 @@ RPM = 30.0 / pi
 
 
 def launch(file, reference, coupled, contact):
-    """Lines: the whole as one set of equations; dots: the FMUs as plain hosts couple them."""
+    """Draws the launch. Lines: the whole as one set of equations; dots: the FMUs, coupled as in plain hosts."""
     panels = [
         ("torque, N·m", {f"engine × {RATIO:g}": (("engine", "torque"), RATIO), "carrier": (("final_drive", "carrier_torque"), 1),
                          "each half-shaft (both equal)": (("differential", "left.shaft_torque"), 1)}),
@@ -44,7 +44,7 @@ def launch(file, reference, coupled, contact):
 
 
 def errors(file, rows, limits):
-    """Log-log, with lines of order 1 and 2, and the predicted limits as vertical lines."""
+    """Draws errors, log-log, with lines of order 1 and 2, and the predicted limits as vertical lines."""
     contacts = list(dict.fromkeys(row["contact"] for row in rows))
     style.apply()
     figure, axes = style.panels(1, len(contacts), 7.6, sharey=True, squeeze=False)
@@ -72,7 +72,7 @@ def errors(file, rows, limits):
     style.save(figure, file)
 
 
-# boxes of the flow of signals: place, text
+# boxes of the flow of signals: position, text
 BOXES = {
     "engine": (0.0, 1.0, "engine\ntorque by time\nand speed, lag"),
     "final_drive": (2.6, 1.0, "final drive\ninertia, prop shaft,\nratio"),
@@ -85,7 +85,7 @@ WIDTH, HEIGHT = 1.48, 0.8
 
 
 def signals(file):
-    """Which part gives what to which: torques and forces drawn full, speeds dashed."""
+    """Draws the signals between the parts: torques and forces as full lines, speeds as dashed lines."""
     style.apply()
     figure, axis = style.panels(1, 1, 5.2)
     for name, (x, y, text) in BOXES.items():
@@ -118,9 +118,9 @@ def arrow(axis, source, to, output):
 
 
 def port(box, other, forward):
-    """Where an arrow between two boxes meets `box`: the forward one above the one back."""
+    """End of an arrow between two boxes at `box`. Forward arrows are above backward arrows."""
     (x, y, _), (_, y_other, _) = BOXES[box], BOXES[other]
-    # boxes that have two neighbours on one edge keep a half for each
+    # boxes that have two neighbours on one edge reserve half of it for each
     half = 0.0 if y == y_other else (0.21 if y_other > y else -0.21) if box in ("differential", "vehicle") else 0.0
     apart = 0.11 if half else 0.22
     return x + (WIDTH if BOXES[box][0] < BOXES[other][0] else 0.0), y + HEIGHT / 2 + half + (apart if forward else -apart)

@@ -1,4 +1,4 @@
-"""The same archive in hosts written by others, each stepping all parts at once with held inputs."""
+"""Runs the SSP archive in hosts written by others, which step all parts at the same time with held inputs."""
 
 import zipfile
 
@@ -11,7 +11,7 @@ NANO = 1_000_000_000
 
 
 def fmpy(ssp, signals, size, times):
-    """FMPy's SSP simulator. It takes one set of parameters for the whole system: those bound to the components."""
+    """Outputs at `times` from FMPy's SSP simulator. It needs one set of parameters for the whole system."""
     parameters = []
     for component in read_ssd(ssp).system.elements:
         for binding in component.parameterBindings:
@@ -26,7 +26,7 @@ def fmpy(ssp, signals, size, times):
 
 
 def libcosim(ssp, signals, size, times):
-    """The Open Simulation Platform's libcosim."""
+    """Outputs at `times` from libcosim, the Open Simulation Platform."""
     from libcosimpy.CosimExecution import CosimExecution
     from libcosimpy.CosimLogging import CosimLogLevel, log_output_level
     from libcosimpy.CosimObserver import CosimObserver
@@ -40,7 +40,7 @@ def libcosim(ssp, signals, size, times):
     rows = []
     for time in times:
         if not execution.simulate_until(round(time * NANO)):
-            raise RuntimeError(f"libcosim does not come to {time} s")
+            raise RuntimeError(f"libcosim does not reach {time} s")
         rows.append([observer.last_real_values(part, [output])[0] for part, output in places])
     return np.array(rows)
 

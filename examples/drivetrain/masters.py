@@ -1,18 +1,18 @@
-"""Co-simulation masters, each a function that takes a system over one communication step.
+"""Co-simulation masters. Each advances a system by one communication step.
 
     step(system, time, size, y, before) → y at the end of the step
 
-y are all outputs at the begin of the step, `before` those one step earlier. All of a part's inputs act from the begin
+y contains all outputs at the start of the step, `before` those one step earlier. All inputs of a part act from the start
 of the step, held or on a line.
 """
 
 import numpy as np
 
-# iterations stop when outputs change by less than this, relative to the largest of their kind so far
+# iterations stop when outputs change by less than this, relative to their largest values so far
 CONVERGED = 1e-8
 FLOOR = 1e-3
 MOST = 60
-# outputs beyond this have run away, whatever their unit (SI)
+# outputs above this have diverged, in any SI unit
 BOUND = 1e7
 
 
@@ -21,7 +21,7 @@ class NoConvergence(Exception):
 
 
 class Jacobi:
-    """All parts at once, inputs held at the values of the begin: what plain hosts do."""
+    """Steps all parts at the same time, with inputs held at their values at the start, as plain hosts do."""
 
     label, order, states = "Jacobi, held", 1, False
 
@@ -32,7 +32,7 @@ class Jacobi:
 
 
 class GaussSeidel:
-    """One part after the other; each is fed with what those before it have reached by the end of the step."""
+    """Steps one part after the other; each uses the outputs that the parts before it have at the end of the step."""
 
     label, order, states = "Gauss-Seidel, held", 1, False
 
@@ -45,7 +45,7 @@ class GaussSeidel:
 
 
 class Lines:
-    """All parts at once, inputs go on along the line through the last two communication points."""
+    """Steps all parts at the same time; inputs continue along the line through the last two communication points."""
 
     label, order, states = "Jacobi, lines", 2, False
 
@@ -53,13 +53,13 @@ class Lines:
         slope = (y - before) / size
         for part, feeds in zip(system.parts, system.feeds):
             part.step(time, size, y[feeds], slope[feeds])
-        # what comes straight from inputs to outputs sees their values at the end
+        # direct feedthrough uses the inputs at the end of the step
         system.put(y + size * slope)
         return system.read()
 
 
 class IteratedHeld:
-    """The step again and again from its begin, with inputs held at what the last time gave for the end."""
+    """Repeats the step from its start, with inputs held at the outputs of the last repetition, until these converge."""
 
     label, order, states = "rollback, held", 1, True
     lines = False
@@ -69,7 +69,7 @@ class IteratedHeld:
 
     def step(self, system, time, size, y, before):
         saved = system.save()
-        # from where the last step was heading
+        # first guess: outputs continue as in the last step
         guess, count = 2.0 * y - before, 0
         while True:
             count += 1
@@ -88,8 +88,8 @@ class IteratedHeld:
         return found
 
     def again(self, system, time, size, y, guess):
-        """Outputs at the end if inputs are what `guess` makes of them. One part after the other, with what those before
-        have just given: the same in the end as all at once, in fewer rounds."""
+        """Outputs at the end of the step for inputs from `guess`. Parts step one after the other, with the latest outputs. This
+        converges to the same result as stepping all at the same time, in fewer repetitions."""
         found = guess.copy()
         for part, feeds, gives in zip(system.parts, system.feeds, system.gives):
             if self.lines:
@@ -102,7 +102,7 @@ class IteratedHeld:
 
 
 class IteratedLines(IteratedHeld):
-    """The same, with lines from the values of the begin to those of the end."""
+    """Repeats the step with inputs on lines from their values at the start to those at the end."""
 
     label, order = "rollback, lines", 2
     lines = True
@@ -113,7 +113,7 @@ ALL = {"jacobi": Jacobi, "gauss_seidel": GaussSeidel, "lines": Lines, "iterated_
 
 
 def run(system, master, size, count, every=1):
-    """Outputs at the start and after each `every` of `count` steps of `size`. A run that leaves all bounds ends early."""
+    """Outputs at the start and after every `every` of `count` steps of `size` [s]. A run that diverges ends early."""
     y = system.read()
     before, rows = y, [y]
     for k in range(count):

@@ -1,4 +1,4 @@
-"""What is measured on the coupled drivetrain."""
+"""Measurements on the coupled drivetrain."""
 
 import csv
 import sys
@@ -16,13 +16,13 @@ from parameters import END, STEP
 from reference import Teeth, reference
 from slaves import System
 
-# distance of the points at which errors are taken [s]: a multiple of all communication steps
+# distance of the points at which errors are evaluated [s]: a multiple of all communication steps
 GRID = 0.01
 STEPS = (1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5)
 # shortest communication step of masters that repeat their steps [s]
 SHORTEST_REPEATED = 1e-4
 QUICK_STEPS, QUICK_END = (5e-4, 2.5e-4, 1.25e-4), 0.2
-# parts of a predicted limit at which a disturbance must decay and grow
+# fractions of a predicted limit at which a disturbance must decay and grow
 INSIDE, OUTSIDE = 0.85, 1.15
 # a short push of the engine, too weak for any tyre to slide
 PUSH = {("engine", "high"): 1.0, ("engine", "low"): 0.0, ("engine", "rise"): 0.02, ("engine", "fall"): 0.02,
@@ -40,14 +40,14 @@ def progress(fraction, what):
 
 
 def difference(signals, rows, reference_rows):
-    """Largest difference over all times of each quantity, over the quantity's largest value."""
+    """Largest difference of each quantity over all times, relative to the largest value of the quantity."""
     own, right = (dict(zip(signals, values.T)) for values in (rows, reference_rows))
     return {name: np.max(np.abs(np.subtract(of(own), of(right)))) / np.max(np.abs(of(right)))
             for name, of in QUANTITIES.items()}
 
 
 def hosts(folder, fmus, quick):
-    """Largest difference of each host, and of this example's own master, from the first host."""
+    """Largest difference of each host, and of this example's master, from the first host."""
     end = QUICK_END if quick else END
     times = [GRID * k for k in range(1, round(end / GRID) + 1)]
     found = {}
@@ -66,7 +66,7 @@ def hosts(folder, fmus, quick):
 
 
 def references(library_path, fmus, contact):
-    """The reference on the grid, finely for the picture, and how far another method of scipy is from it."""
+    """Reference on the grid and, for the picture, on a finer one, with `doubt`: its difference from another method of scipy."""
     progress(0.1, f"{contact}: the whole as one set of equations")
     with System.of_fmus(fmus, contact) as system:
         signals = system.signals
@@ -99,7 +99,7 @@ def errors(fmus, all_references, quick):
             except masters.NoConvergence:
                 row["state"] = "no convergence"
             except DifferentialError:
-                # an input beyond all ranges is refused
+                # an input outside its range is rejected
                 row["state"] = "no convergence" if master.states else "unstable"
         if row["state"] == "ok":
             right = all_references[contact]
@@ -120,7 +120,7 @@ def write_csv(file, rows):
 
 
 def limits(library, fmus, quick):
-    """Predicted limits of the communication step by master, and how the FMUs themselves do on both sides of them."""
+    """Predicted limits of the communication step by master, with the growth of a disturbance in the FMUs on both sides."""
     with System.of_fmus(fmus, "ideal") as system:
         interpolates = next(part for part in system.parts if part.name == "differential").interpolates
     sliding = stability.linear_system(library, interpolates, 0.0)
@@ -138,7 +138,7 @@ def limits(library, fmus, quick):
 
 
 def swell(fmus, master, step):
-    """By how much what a push of the engine left behind grows from one tenth of a second to one two tenths later."""
+    """Factor by which the disturbance after a push of the engine grows in 0.2 s."""
     with System.of_fmus(fmus, "ideal", PUSH) as system:
         try:
             rows = masters.run(system, master, step, round(0.4 / step))
@@ -168,15 +168,15 @@ def coupled(fmus, contact):
 
 
 def mesh(library):
-    """Fastest motion of loaded teeth [1/s], which a mesh cut open would have to be exchanged at."""
+    """Fastest motion of loaded teeth [1/s], which limits the exchange if the mesh were cut open."""
     teeth = Teeth(library, "tooth")
     x, load = teeth.start.copy(), 300.0
     teeth.lib.foreign_drive(teeth.handle, load, 0.0, 0.0)
-    # against wheels that stand still, until the teeth carry the load
+    # against wheels at rest, until the teeth are loaded
     settled = solve_ivp(teeth.rhs, (0.0, 0.3), x, method="LSODA", rtol=1e-8, atol=1e-10)
     jacobian = teeth.python_jacobian()(0.0, settled.y[:, -1])
     poles = np.linalg.eigvals(jacobian)
     teeth.close()
-    # accelerations by positions alone: as if nothing damped
+    # accelerations from positions only: without damping
     springs = jacobian[teeth.n:, :teeth.n]
     return {"fastest": np.max(np.abs(poles)), "swing": np.sqrt(np.max(np.abs(np.linalg.eigvals(springs)))), "load": load}

@@ -1,8 +1,8 @@
-"""The drivetrain's numbers that are set from outside, one place for the system and for its reference. SI units."""
+"""Numbers of the drivetrain that are set from outside, shared by the system and its reference. SI units."""
 
 # end of the launch [s]
 END = 0.6
-# communication step that the SSP names [s]
+# communication step in the SSP [s]
 STEP = 2e-4
 
 # ice on the left, dry road on the right
@@ -13,32 +13,32 @@ SPEED_DRIVEN = TORQUE_DRIVEN = 2
 REST = 3
 CONTACT = {"ideal": 1, "tooth": 3}
 
-# the half-shafts are the differential's: soft ends that take the speed of a wheel and give it a torque
+# the half-shafts are part of the differential: soft ends with the speed of a wheel as input and its torque as output
 DIFFERENTIAL = {
     "scene.carrier_drive": TORQUE_DRIVEN,
     "scene.left_drive": SPEED_DRIVEN,
     "scene.right_drive": SPEED_DRIVEN,
     "scene.start": REST,
-    # with the ring gear, and the pinion and its shaft by the square of the ratio
+    # including the ring gear, and the pinion with its shaft times the square of the ratio
     "inertia.carrier": 0.28,
     "half_shaft.left_stiffness": 9000.0,
     "half_shaft.right_stiffness": 12000.0,
     "half_shaft.left_damping": 12.0,
     "half_shaft.right_damping": 12.0,
-    # so close that the differential's own error stays below that of the coupling
+    # so fine that the error of the differential stays below that of the coupling
     "solver.relative_tolerance": 1e-10,
 }
 
-# inputs before anything is exchanged: the differential's own start values are those of a car at 60 km/h, and a host may
-# connect inputs after initialisation only
+# inputs before the first exchange: the start values of the differential are those of a car at 60 km/h, and a host may
+# connect inputs only after initialisation
 AT_REST = {name: 0.0 for name in ("carrier.speed_command", "carrier.torque_command", "left.speed_command",
                                   "right.speed_command")}
 
-# parts and the class that makes each; in the order of the flow of power, in which Gauss-Seidel goes through them
+# parts and the class of each, in the order of the power flow, which Gauss-Seidel follows
 PARTS = {"engine": "Engine", "final_drive": "FinalDrive", "differential": "BevelDifferential", "left_wheel": "Wheel",
          "right_wheel": "Wheel", "vehicle": "Vehicle"}
 
-# what feeds each input
+# source of each input
 CONNECTIONS = {
     ("engine", "speed"): ("final_drive", "engine_speed"),
     ("final_drive", "engine_torque"): ("engine", "torque"),

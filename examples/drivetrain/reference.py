@@ -1,8 +1,8 @@
-"""The whole drivetrain as one set of differential equations, integrated at once: nothing is exchanged at steps.
+"""The whole drivetrain as one set of differential equations, integrated together: no signals are exchanged at steps.
 
-Equations are written here once more and share no code with the parts. The differential is Willis' equation, written
-here too (`Ideal`), or the teeth of this program, whose rates the library foreign-solvers gives to any solver (`Teeth`).
-States: torque and speed of the engine, twist of the prop shaft, differential, speed and slip of each wheel, speed.
+The equations are written here again and share no code with the parts. The differential is Willis' equation (`Ideal`) or
+the teeth of this program (`Teeth`), whose rates the library foreign-solvers offers to any solver.
+States: torque and speed of the engine, twist of the prop shaft, speed and slip of each wheel, speed, differential.
 """
 
 import sys
@@ -51,7 +51,7 @@ class Ideal:
         carrier, side, planets = run.inertias()
         run.close()
         both, apart = 0.25 * carrier, 0.25 * planets * TEETH**2
-        # kinetic energy by the speeds of the sides
+        # mass matrix: kinetic energy as a function of the speeds of the sides
         mass = np.array([[side + both + apart, both - apart], [both - apart, side + both + apart]])
         self.inverse = np.linalg.inv(mass)
         # twists of the half-shafts, speeds of the sides
@@ -84,7 +84,7 @@ class Teeth(Run):
         super().__init__(library, DIFFERENTIAL | still | {"scene.gear_contact": CONTACT[contact]})
         self.start = self.u0
         self.n = self.size // 2
-        # where states stand: side gears, carrier, planets, ends
+        # order of the states: side gears, carrier, planets, ends
         self.twists = slice(self.n - 2, self.n)
         self.ends = slice(2 * self.n - 2, 2 * self.n)
         self.rhs = self.python_rhs()
@@ -146,7 +146,7 @@ class Whole:
                 ("vehicle", "speed"): x[7]}
 
     def solution(self, times, method, tolerance):
-        """Outputs at `times` by scipy's `method`."""
+        """Outputs at `times` and the result of scipy's `method`."""
         result = solve_ivp(self.rates, (0.0, times[-1]), self.start, method=method, t_eval=times, rtol=tolerance,
                            atol=tolerance * 1e-2)
         if not result.success:
@@ -155,7 +155,7 @@ class Whole:
 
 
 def reference(library_path, contact, times, signals, method, tolerance):
-    """Outputs at `times`, a row each, in the order of `signals`, and the number of evaluations."""
+    """Outputs at `times`, one row each, in the order of `signals`, and the number of evaluations."""
     library = Library(library_path)
     differential = Ideal(library) if contact == "ideal" else Teeth(library, contact)
     rows, result = Whole(differential).solution(times, method, tolerance)

@@ -1,4 +1,4 @@
-"""What was measured, as Markdown."""
+"""Measurements as Markdown."""
 
 from bevel_differential.text import markdown as table
 from checks import expected, observed
@@ -9,7 +9,7 @@ from parameters import STEP
 
 def markdown(found):
     parts = [hosts(found["hosts"]), limits(found["limits"])]
-    # those of plainer gears are in the picture and in errors.csv
+    # errors with ideal gears are in the picture and in errors.csv
     parts.append(errors(list(found["references"])[-1], found))
     parts.append(quantities(found))
     parts.append(mesh(found["mesh"], found["limits"]))
@@ -43,7 +43,7 @@ def errors(contact, found):
         for name in ALL:
             row = next((row for row in rows if (row["step"], row["master"]) == (step, name)), None)
             line.append("–" if row is None else row["state"] if row["state"] != "ok" else error_cell(row))
-        # steps that no master can take, and those that not all are tried with, are in the picture
+        # steps with which no master succeeds, and those that not all masters use, are in the picture
         states = [row["state"] for row in rows if row["step"] == step]
         if "ok" in states and len(states) == len(ALL):
             lines.append(line)

@@ -1,10 +1,10 @@
-"""The launch of a whole drivetrain on split friction, coupled from FMUs: hosts, errors by communication step, limits.
+"""Launch of a whole drivetrain on split friction, coupled from FMUs: hosts, errors against the communication step, limits.
 
     python run.py FMU LIBRARY FOLDER [--quick]
 
-FMU is this program's, LIBRARY foreign-solvers as cargo built it. Writes drivetrain.ssp, errors.csv and pictures to FOLDER
-and prints the tables. Fails if hosts disagree, or if errors, orders or limits are not what theory says.
-`cargo run -p lab --release -- drivetrain` makes the environment and does all of it.
+FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes drivetrain.ssp, errors.csv and pictures
+to FOLDER and prints the tables. Fails if hosts disagree, or if errors, orders or limits contradict theory.
+`cargo run -p lab --release -- drivetrain` creates the environment and runs this script.
 """
 
 import contextlib
@@ -27,7 +27,7 @@ def main():
     arguments = [argument for argument in sys.argv[1:] if argument != "--quick"]
     if len(arguments) != 3:
         raise SystemExit("usage: run.py FMU LIBRARY FOLDER [--quick]")
-    # what FMUs and hosts say is no part of the tables
+    # messages of FMUs and hosts do not belong in the tables
     with open(os.devnull, "w") as silence, contextlib.redirect_stdout(silence):
         text, wrong = everything(*(Path(argument) for argument in arguments), quick="--quick" in sys.argv)
     print(text, end="")

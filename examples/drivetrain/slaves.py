@@ -1,4 +1,4 @@
-"""A system of FMUs as a master sees it: parts that step over time, give outputs and take their state back."""
+"""System of FMUs for a master: parts that step over time, return outputs, and save and restore their state."""
 
 import numpy as np
 from bevel_differential import Fmu
@@ -23,12 +23,12 @@ class FmuPart:
 
     @property
     def follows_lines(self):
-        """Whether inputs can be lines within a step, by FMI's call or by separate inputs."""
+        """True if inputs can be lines within a step, by FMI's call or by separate inputs."""
         return self.interpolates or self.slopes is not None
 
     def step(self, time, size, u, slope=None):
-        """One communication step with inputs `u` held, or, with a slope, on the line u + slope (t − time). A part that
-        does not support lines gets the middle of the line: its mean, which has the same second order."""
+        """Advances by one communication step with inputs `u` held or, with a slope, on the line u + slope (t − time). A part
+        that does not support lines gets the value at the middle of the line: its mean, which is also of second order."""
         if slope is not None and not self.follows_lines:
             u, slope = u + 0.5 * size * slope, None
         self.put(u)
@@ -60,10 +60,10 @@ class FmuPart:
 
 
 class System:
-    """Parts and what feeds each of their inputs; y is the vector of all outputs, `signals` their names."""
+    """Parts and the sources of their inputs; y is the vector of all outputs, `signals` contains their names."""
 
     def __init__(self, make_part):
-        """`make_part(name, inputs, outputs)` makes each part."""
+        """Creates each part by `make_part(name, inputs, outputs)`."""
         outputs = {part: list(dict.fromkeys(o for source, o in CONNECTIONS.values() if source == part)) for part in PARTS}
         self.signals = [(part, output) for part in PARTS for output in outputs[part]]
         place = {signal: i for i, signal in enumerate(self.signals)}
@@ -76,7 +76,7 @@ class System:
 
     @classmethod
     def of_fmus(cls, fmus, contact, changes=None):
-        """The system that the SSP describes; `changes` are more settings, by part and variable."""
+        """The system that the SSP describes; `changes` are further settings, by part and variable."""
         values = settings(contact) | (changes or {})
 
         def make_part(part, inputs, outputs):

@@ -1,8 +1,8 @@
-"""How long a communication step may be: the coupling of the linearised parts, under the very masters that run the FMUs.
+"""Longest communication step: stability of the coupled linearised parts under the same masters that run the FMUs.
 
-The drivetrain stands still, tyres grip, gears are ideal. Each part is ẋ = A x + B u, o = C x + D u, and steps exactly
-(matrix exponential) with inputs held or on a line. One step of a master is then a matrix; its largest eigenvalue says
-whether a disturbance grows. For a master that repeats its step the matrix of one repetition says whether it converges.
+The drivetrain is at rest, tyres grip, gears are ideal. Each part is ẋ = A x + B u, o = C x + D u, and steps exactly
+(matrix exponential) with inputs held or on a line. One step of a master is then a matrix, and a disturbance grows if its
+largest eigenvalue is above 1. If a master repeats its step, the matrix of one repetition decides on convergence.
 """
 
 import numpy as np
@@ -20,16 +20,16 @@ class LinearPart:
         self.a, self.b, self.c, self.d = (np.array(m, dtype=float) for m in matrices)
         self.follows_lines = follows_lines
         self.x, self.u = np.zeros(len(self.a)), np.zeros(self.b.shape[1])
-        self.kept = {}
+        self.cache = {}
 
     def matrices(self, size):
-        if size not in self.kept:
+        if size not in self.cache:
             n, m = self.b.shape
             whole = np.zeros((n + 2 * m, n + 2 * m))
             whole[:n, :n], whole[:n, n:n + m], whole[n:n + m, n + m:] = self.a, self.b, np.eye(m)
             e = expm(whole * size)
-            self.kept[size] = e[:n, :n], e[:n, n:n + m], e[:n, n + m:]
-        return self.kept[size]
+            self.cache[size] = e[:n, :n], e[:n, n:n + m], e[:n, n + m:]
+        return self.cache[size]
 
     def step(self, time, size, u, slope=None):
         if slope is not None and not self.follows_lines:
@@ -57,7 +57,7 @@ class LinearPart:
 
 
 def parts(library, grip):
-    """Matrices A, B, C, D by part; `grip` of the left tyre: 1, or 0 where it slides."""
+    """Matrices A, B, C, D by part; `grip` of the left tyre: 1, or 0 if it slides."""
     k, c, ratio = r.PROP_STIFFNESS, r.PROP_DAMPING, r.GEAR
     ideal = r.Ideal(library)
     rows = np.eye(7)
@@ -84,7 +84,7 @@ def parts(library, grip):
 
 
 def linear_system(library, interpolates, grip=1.0):
-    """The system of linear parts; `interpolates`: whether the differential follows lines."""
+    """System of linear parts; `interpolates`: true if the differential follows lines."""
     matrices = parts(library, grip)
 
     def make_part(name, inputs, outputs):
@@ -97,7 +97,7 @@ def linear_system(library, interpolates, grip=1.0):
 
 
 def growth(system, master, size):
-    """Largest eigenvalue, by magnitude, of one step of `master`; of one repetition where it repeats the step."""
+    """Largest eigenvalue, by magnitude, of one step of `master`, or of one repetition if the master repeats its step."""
     count, y = sum(len(part.x) for part in system.parts), len(system.signals)
     if isinstance(master, IteratedHeld):
         columns = []
@@ -118,7 +118,7 @@ def growth(system, master, size):
 
 
 def limit(system, master, low=1e-4, high=1e-2):
-    """Longest communication step [s] below which nothing grows (or every repetition converges)."""
+    """Longest communication step [s] below which no disturbance grows, or every repetition converges."""
     sizes = np.geomspace(low, high, 40)
     grows = [growth(system, master, size) > 1.0 + 1e-9 for size in sizes]
     if not any(grows):
@@ -134,7 +134,7 @@ def limit(system, master, low=1e-4, high=1e-2):
 
 
 def whole(system):
-    """ẋ = M x and o = N x of the coupled linear parts."""
+    """Matrices M and N of the coupled linear parts: ẋ = M x, o = N x."""
     count, y = sum(len(part.x) for part in system.parts), len(system.signals)
     a, b, c, d = np.zeros((count, count)), np.zeros((count, y)), np.zeros((y, count)), np.zeros((y, y))
     begin = 0
@@ -150,13 +150,13 @@ def whole(system):
 
 
 def frequency(system):
-    """Highest frequency at which the coupled system swings [rad/s]."""
+    """Highest frequency at which the coupled system oscillates [rad/s]."""
     poles = np.linalg.eigvals(whole(system)[0])
     return max(abs(pole) for pole in poles if abs(pole.imag) > 1e-6 * abs(pole))
 
 
 def order(system, make_master, end=0.02, sizes=(1e-4, 5e-5)):
-    """Order at which `make_master` converges on the linear parts when the torque of the engine dies away."""
+    """Order of convergence of `make_master` on the linear parts while the torque of the engine decays."""
     rates, outputs = whole(system)
     begin = np.zeros(len(rates))
     begin[0] = 1.0
@@ -168,7 +168,7 @@ def order(system, make_master, end=0.02, sizes=(1e-4, 5e-5)):
             part.x, part.u = begin[place:place + len(part.x)], 0.0 * part.u
             place += len(part.x)
         y = outputs @ begin
-        # the line that came before
+        # outputs one step before the start, on the exact solution
         master, before = make_master(), outputs @ expm(-rates * size) @ begin
         for k in range(round(end / size)):
             y, before = master.step(system, k * size, size, y, before), y

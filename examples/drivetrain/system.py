@@ -1,4 +1,4 @@
-"""Makes the other parts with pythonfmu and binds all of them into one archive after the standard SSP 1.0."""
+"""Builds the other parts with pythonfmu and packs all parts into one archive by the standard SSP 1.0."""
 
 import shutil
 import sys
@@ -11,11 +11,11 @@ from pythonfmu.builder import FmuBuilder
 from parameters import CONNECTIONS, END, PARTS, settings
 
 HERE = Path(__file__).parent
-# in each of these FMUs: what parts have in common, and the package's equations of tyre, motor and body
+# files in each of these FMUs: the base class of the parts, and the package's equations of tyre, motor and body
 SHARED = [HERE / "parts" / "part.py", HERE.parents[1] / "python/src/bevel_differential/vehicle/equations.py"]
-# pythonfmu imports a part to describe it; last, as a part.py of the package's own lies there too
+# pythonfmu imports a part to describe it. The folder is last on the path because it also contains a part.py
 sys.path.append(str(SHARED[1].parent))
-# file of each class that pythonfmu makes
+# file of each class that pythonfmu builds
 SOURCES = {"Engine": "engine.py", "FinalDrive": "final_drive.py", "Wheel": "wheel.py", "Vehicle": "vehicle.py"}
 SPACES = ('xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription" '
           'xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" '
@@ -24,7 +24,7 @@ HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
 def make_parts(differential, folder):
-    """The FMUs by class, in `folder`; `differential` is this program's."""
+    """FMUs by class, in `folder`; `differential` is the FMU of this program."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for source in SOURCES.values():
@@ -35,7 +35,7 @@ def make_parts(differential, folder):
 
 
 def write_ssp(file, fmus, contact):
-    """drivetrain.ssp: the FMUs in resources, connectors, connections, and the values of each part."""
+    """Writes the archive: the FMUs in resources, connectors, connections, and the values of each part."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, fmu in sorted(fmus.items()):
             archive.write(fmu, f"resources/{name}.fmu")

@@ -1,9 +1,9 @@
-"""A launch with ice under the left wheel and a dry road under the right: open differential, limited slip, and locked by a controller.
+"""Launch with ice under the left wheel and a dry road under the right: open differential, limited slip, and a controlled lock.
 
     python launch.py [PICTURE]
 
-The open differential gives the dry wheel no more torque than the ice carries. Clutch packs add their preload; a lock that closes at a
-difference of 5 rad/s gives the dry wheel all.
+The open differential gives the dry wheel no more torque than the ice transmits. Clutch packs add their preload. A lock that closes
+at a speed difference of 5 rad/s gives the dry wheel all the torque.
 """
 
 import sys
@@ -18,7 +18,7 @@ OUTPUTS = ["left.wheel_speed", "right.wheel_speed", "left.shaft_torque", "right.
 
 
 def close_the_lock(_time, values):
-    """Locks while one wheel runs ahead."""
+    """Locks while one wheel is faster than the other by more than 5 rad/s."""
     return {"lock.command": 1.0} if abs(values["left.wheel_speed"] - values["right.wheel_speed"]) > 5.0 else None
 
 

@@ -1,9 +1,9 @@
-"""Torque vectoring by braking: a car turns in at 15 m/s, a controller brakes the inner wheel and gives more gas.
+"""Torque vectoring by braking: a car turns in at 15 m/s, a controller brakes the inner wheel and raises the motor torque.
 
     python torque_vectoring.py [PICTURE]
 
-The differential halves the motor's torque. A brake on the inner wheel takes the share of that side, so that the outer wheel alone
-drives: a yaw moment that turns the car into the bend.
+The differential halves the motor's torque. A brake on the inner wheel takes the share of that side, so that only the outer wheel
+drives. This yaw moment turns the car into the bend.
 """
 
 import sys
@@ -14,12 +14,12 @@ SPEED, STEER = 15.0, 0.06
 # the driver turns the wheel within 0.3 s
 TURN_IN = ([0.2, 0.5], [0.0, STEER])
 OUTPUTS = ["body.speed", "body.yaw_rate", "body.steer", "left_tyre.force", "right_tyre.force", "left.brake_torque", "motor.torque"]
-# N.m of yaw moment for each rad/s that is missing, and what the brake may give, N.m
+# yaw moment per missing yaw rate, N.m.s/rad, and maximum torque of a brake, N.m
 GAIN, MOST_BRAKE = 40e3, 800.0
 
 
 class Controller:
-    """Wants the yaw rate of a car without slip, and holds the speed."""
+    """Controls the yaw rate to that of a car without slip, and the speed to a constant."""
 
     def __init__(self, car, vectoring):
         self.car, self.vectoring = car, vectoring
@@ -28,7 +28,7 @@ class Controller:
         body, motor, tyre = self.car.body, self.car.motor, self.car.tyres[0]
         wanted = values["body.speed"] * values["body.steer"] / (body.front + body.rear)
         missing = wanted - values["body.yaw_rate"] if self.vectoring else 0.0
-        # one wheel's force by half the track is a yaw moment; the brake's torque is that force by the radius
+        # yaw moment: one wheel's force times half the track; brake torque: this force times the radius
         brake = min(max(GAIN * missing * tyre.radius / (0.5 * body.track), -MOST_BRAKE), MOST_BRAKE)
         hold = 3000.0 * (SPEED - values["body.speed"]) * tyre.radius
         return {"left.brake_torque": max(brake, 0.0), "right.brake_torque": max(-brake, 0.0),
@@ -38,7 +38,7 @@ class Controller:
 def main():
     print(f"{'brakes':<12}{'yaw rate, rad/s':>17}{'without slip':>14}{'right - left tyre, N':>22}")
     for vectoring in (False, True):
-        # a car that runs wide: the front axle is the softer one
+        # a car that understeers: the front axle is softer
         car = Car({"effects.wheel_brake": True}, body=Body(front_stiffness=70e3))
         record = car.run(OUTPUTS, stop=2.5, step="1 ms", steer=TURN_IN, speed=SPEED, controller=Controller(car, vectoring))
         late = record[record["time"] > 2.0]

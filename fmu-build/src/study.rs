@@ -34,7 +34,7 @@ impl StudyCommand {
         progress.step("looking for Python");
         let environment = Environment::ready(|what| progress.stage(what))?;
         progress.step("packaging the FMU");
-        let fmu = package::package()?;
+        let (fmu, left_out) = package::packed()?;
         let folder = paths::study();
         paths::create_folder(&folder)?;
         progress.step("simulating");
@@ -48,6 +48,7 @@ impl StudyCommand {
         progress.finish();
         print!("{output}");
         println!("FMU: {}", paths::shown(&fmu));
+        left_out.iter().for_each(|remark| println!("{remark}"));
         let program = paths::shown(&environment.launcher(&fmu)?);
         println!("more: {program} --help, such as {program} accuracy torque_bias --within 1%");
         if self.write {

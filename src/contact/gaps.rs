@@ -107,8 +107,8 @@ impl FlankGaps {
     }
 
     /// True if all teeth of each gear are identical, so that the gaps repeat with every pitch.
-    pub fn are_alike_all_round(&self) -> bool {
-        self.chip.is_none() && self.errors.as_ref().is_none_or(ToothErrors::is_alike_all_round)
+    pub fn repeat_every_pitch(&self) -> bool {
+        self.chip.is_none() && self.errors.as_ref().is_none_or(ToothErrors::repeats_every_pitch)
     }
 
     /// Opening of a pair of teeth in `mesh` at position `s` [rad].

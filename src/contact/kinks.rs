@@ -1,6 +1,6 @@
 //! Kinks of a mesh's force. A kink occurs if flanks touch or separate, if a pair enters or leaves contact at a tip
 //! corner, or if it passes from the corner to the path.
-//! //!
+//!
 //! A one-step method loses its order over a kink, and its error estimate does not show it. Positions are smooth, unlike
 //! forces. A kink can therefore be predicted from the present rates, and a step can be made to end on it.
 

@@ -1,5 +1,5 @@
 //! The elastic potential of one mesh, and the force, Jacobian, energy and heat derived from it.
-//! //!
+//!
 //! V(q, x) = Σ U(d, s) over the tooth pairs. Forces are −∇V with ∂V/∂x included, so that an undamped scene conserves
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 

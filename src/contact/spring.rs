@@ -1,6 +1,6 @@
 //! Elastic laws of a tooth pair. A new law implements [`Spring`] and adds one line each to the enumeration and to the
 //! dispatch of [`AnySpring`].
-//! //!
+//!
 //! A pair whose flanks fit has one resultant, at a known cone distance. The penetration d = R p at this distance and
 //! the damping determine its whole force. A pair whose flanks do not fit is summed over the face from the law per unit
 //! of arc (`detailed`).

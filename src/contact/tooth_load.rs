@@ -35,7 +35,7 @@ pub struct ToothLoad {
     pub friction: f64,
     /// Components of the unit normal: along the planet's axis and the side gear's axis, both away from the apex, and
     /// along the rotation.
-    pub parts: [f64; 3],
+    pub components: [f64; 3],
     /// Point of contact of solid teeth. `spot` and `place` describe only aligned teeth.
     pub touch: Option<Touch>,
 }

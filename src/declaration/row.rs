@@ -58,7 +58,7 @@ pub struct Row<A> {
     pub derivative_of: Option<usize>,
     /// Switch of the effect that the variable belongs to, if the variable has no effect without it.
     pub switch: Option<&'static str>,
-    /// Condition on other variables under which the value has an effect, as parsed by `variables::felt`; `None` =
+    /// Condition on other variables under which the value has an effect, as parsed by `variables::effective`; `None` =
     /// always.
     pub when: Option<&'static str>,
     /// Condition under which the value affects more than outputs that repeat it; `None` = as `when`.
@@ -122,14 +122,14 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
 }
 
 impl Row<()> {
-    /// Declares that the value has an effect only under `condition` (`variables::felt`).
+    /// Declares that the value has an effect only under `condition` (`variables::effective`).
     #[inline(never)]
     pub const fn when(self, condition: &'static str) -> Self {
         Row { when: Some(condition), ..self }
     }
 
     /// Declares that outputs repeat the value, but anything else depends on it only under `condition`
-    /// (`variables::felt`).
+    /// (`variables::effective`).
     #[inline(never)]
     pub const fn acts_when(self, condition: &'static str) -> Self {
         Row { acts_when: Some(condition), ..self }

@@ -1,5 +1,5 @@
 //! Assembly of N planets, and the phase of each mesh in its tooth cycle.
-//! //!
+//!
 //! N equally spaced planets can be assembled if 2 z_s / N is an integer. The phase of mesh i on the left side is h_iL =
 //! p_b frac(z_s φ_i / 2π), which is 0 or half a pitch. On the right side, half a pitch is added for odd z_p.
 

@@ -5,7 +5,7 @@ use super::assembly::between_planets;
 use super::solid::Foot;
 use super::{GearSpec, Pair};
 use crate::numeric::{cos, sin};
-use crate::problem::{Problem, told_apart};
+use crate::problem::{Problem, distinct_texts};
 
 const NAMES: [&str; 2] = ["planet", "side gear"];
 const MM: f64 = 1e3;
@@ -88,7 +88,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         }
         let mate = &pair.gears[1 - i];
         if gear.addendum >= mate.dedendum {
-            let [tip, room] = told_apart([gear.addendum * MM, mate.dedendum * MM], 3);
+            let [tip, room] = distinct_texts([gear.addendum * MM, mate.dedendum * MM], 3);
             found.push(problem!(
                 addendum(i),
                 "the {}'s tip would strike the {}'s root: addendum {tip} mm, dedendum {room} mm",
@@ -99,7 +99,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         let (name, bore) = bore(spec, i);
         let toe_root = 2.0 * pair.inner_cone * sin(gear.root);
         if bore >= toe_root && pair.inner_cone > 0.0 {
-            let [bore, limit] = told_apart([bore * MM, toe_root * MM], 3);
+            let [bore, limit] = distinct_texts([bore * MM, toe_root * MM], 3);
             found.push(problem!(name, "{bore} mm is not less than the root circle at the toe, {limit} mm"));
         }
     }
@@ -120,7 +120,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     for (i, mate) in pair.gears.iter().rev().enumerate() {
         if pair.path.clipped[i] {
             let what = if i == 0 { "undercut of the planet" } else { "tip interference in the side gear" };
-            let [modules, limit] = told_apart([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
+            let [modules, limit] = distinct_texts([mate.addendum / m, pair.limit_addendum(1 - i) / m], 3);
             found.push(problem!(
                 "geometry.addendum_system",
                 "{what}: the {}'s addendum {:.3} mm = {modules} modules exceeds the limit of {limit} modules at {:.1} \
@@ -142,7 +142,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
             ));
         }
         if let Some([rim, depth]) = rim(spec, pair, i).filter(|[rim, depth]| *rim < THINNEST_RIM * depth) {
-            let [rim, least] = told_apart([rim * MM, THINNEST_RIM * depth * MM], 2);
+            let [rim, least] = distinct_texts([rim * MM, THINNEST_RIM * depth * MM], 2);
             found.push(problem!(
                 bore(spec, i).0,
                 "the {}'s rim at the toe is {rim} mm, thinner than half the tooth depth there ({least} mm): ISO 6336-3 \
@@ -155,7 +155,7 @@ pub fn warnings(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     found.extend(striking_planets(spec, pair));
     let share = spec.face_width / pair.outer_cone;
     if share > WIDEST_FACE {
-        let [width, widest] = told_apart([spec.face_width * MM, pair.outer_cone * WIDEST_FACE * MM], 2);
+        let [width, widest] = distinct_texts([spec.face_width * MM, pair.outer_cone * WIDEST_FACE * MM], 2);
         found.push(problem!(
             "geometry.face_width",
             "{width} mm is {share:.3} R_e, wider than differential gears are made (R_e/2 = {widest} mm)"
@@ -188,7 +188,7 @@ pub fn remarks(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     }
     let share = spec.face_width / pair.outer_cone;
     if share > USUAL_FACE && share <= WIDEST_FACE {
-        let [width, usual] = told_apart([spec.face_width * MM, pair.outer_cone * USUAL_FACE * MM], 2);
+        let [width, usual] = distinct_texts([spec.face_width * MM, pair.outer_cone * USUAL_FACE * MM], 2);
         found.push(problem!(
             "geometry.face_width",
             "{width} mm is {share:.3} R_e: usual for forged differential gears, wide for cut gears (R_e/3 = {usual} mm)"

@@ -4,7 +4,7 @@ use super::{Allowed, CallError, CallResult, Category, Interface, Kind, Log, Phas
 use crate::declaration::Field;
 use crate::model::{Parameters, Reported, Share, Simulation};
 use crate::problem::{self, Problem};
-use crate::variables::felt::{self, Situation};
+use crate::variables::effective::{self, Situation};
 use crate::variables::unset;
 use crate::variables::{self, Access, Variable};
 
@@ -39,7 +39,7 @@ pub struct Instance {
     /// Inputs that may have derivatives, as a bit mask in the order of the table. The derivatives may be 0.
     pub(super) changing: u32,
     /// Variables for which a warning says that their values have no effect.
-    unfelt: Vec<&'static str>,
+    without_effect: Vec<&'static str>,
 }
 
 /// Tolerance and time interval announced by the host.
@@ -65,7 +65,7 @@ impl Instance {
             announced: None,
             reported: Reported::default(),
             changing: 0,
-            unfelt: Vec::new(),
+            without_effect: Vec::new(),
         }
     }
 
@@ -126,7 +126,11 @@ impl Instance {
             for warning in simulation.warnings() {
                 self.log.warning(&warning.to_string());
             }
-            self.warn_of_unfelt(felt::unfelt(&self.now.parameters, &self.now.inputs, self.situation(true)));
+            self.warn_without_effect(effective::values_without_effect(
+                &self.now.parameters,
+                &self.now.inputs,
+                self.situation(true),
+            ));
         }
         self.report_unset();
         Ok(())
@@ -137,10 +141,10 @@ impl Instance {
     /// torques among them turn the wheels backward.
     fn report_unset(&self) {
         let Snapshot { parameters, inputs, set, .. } = &self.now;
-        let is_own = set.has_own_differential();
-        if self.log.is_on(if is_own { Category::Warning } else { Category::Events }) {
+        let is_another = set.describes_another_differential();
+        if self.log.is_on(if is_another { Category::Warning } else { Category::Events }) {
             let line = unset::in_one_line(&unset::unset(parameters, inputs, set));
-            match (line.is_empty(), is_own) {
+            match (line.is_empty(), is_another) {
                 (true, _) => {}
                 (false, true) => self.log.warning(&line),
                 (false, false) => self.log.event(&line),
@@ -154,9 +158,9 @@ impl Instance {
     }
 
     /// True if a change of the variable affects the present scene.
-    pub fn is_felt(&mut self, reference: u32) -> bool {
+    pub fn has_effect(&mut self, reference: u32) -> bool {
         let situation = self.situation(self.now.phase == Phase::Initialization);
-        felt::is_felt(reference as usize, &mut self.now.parameters, situation)
+        effective::has_effect(reference as usize, &mut self.now.parameters, situation)
     }
 
     fn situation(&self, from_start: bool) -> Situation {
@@ -167,23 +171,23 @@ impl Instance {
     pub fn warn_of_set_value(&mut self, reference: u32, value: f64) {
         if self.now.phase.is_running() && self.log.is_on(Category::Warning) {
             let (index, situation) = (reference as usize, self.situation(false));
-            if variables::table().rows.get(index).is_some_and(|row| self.unfelt.contains(&row.name)) {
+            if variables::table().rows.get(index).is_some_and(|row| self.without_effect.contains(&row.name)) {
                 return;
             }
-            let found = felt::unfelt_value(index, value, &mut self.now.parameters, situation);
-            self.warn_of_unfelt(found);
+            let found = effective::value_without_effect(index, value, &mut self.now.parameters, situation);
+            self.warn_without_effect(found);
         }
     }
 
     /// Logs that values have no effect, once for each variable.
-    fn warn_of_unfelt(&mut self, found: impl IntoIterator<Item = Problem>) {
+    fn warn_without_effect(&mut self, found: impl IntoIterator<Item = Problem>) {
         for problem in found {
             // a tolerance announced by the host does not count as set by the user
             let is_announced =
                 tolerance_row().is_some_and(|(row, _)| row.name == problem.variable) && !self.now.tolerance_chosen;
-            if !is_announced && !self.unfelt.contains(&problem.variable) {
+            if !is_announced && !self.without_effect.contains(&problem.variable) {
                 self.log.warning(&problem.to_string());
-                self.unfelt.push(problem.variable);
+                self.without_effect.push(problem.variable);
             }
         }
     }
@@ -203,7 +207,7 @@ impl Instance {
         self.now = Snapshot::new(self.interface, self.now.kind);
         self.announced = None;
         self.reported = Reported::default();
-        self.unfelt.clear();
+        self.without_effect.clear();
         Ok(())
     }
 

@@ -42,7 +42,7 @@ impl Instance {
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
         }
-        let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.is_felt(known)))).collect();
+        let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.has_effect(known)))).collect();
         let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], vec![0.0; known.len()]);
         self.with_columns(&unknowns, |columns| {
             known.into_iter().zip(&mut sums).try_for_each(|(known, sum)| {
@@ -120,7 +120,7 @@ impl Columns<'_> {
             changes |= change != 0.0;
         }
         if changes {
-            let braked = simulation.with_brakes_put_on(&inputs);
+            let braked = simulation.with_brakes_applied(&inputs);
             let simulation = braked.as_ref().unwrap_or(simulation);
             let direction = simulation.direction(&states, &inputs);
             let mut along = Slopes::new(simulation, &direction);
@@ -152,7 +152,7 @@ impl<'a> Slopes<'a> {
         let Self { simulation, direction, .. } = *self;
         match source {
             OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
-            OutputSource::Forces(of) | OutputSource::Parts(of) => {
+            OutputSource::Forces(of) | OutputSource::Components(of) => {
                 self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of)
             }
             OutputSource::Reading(place) => {

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{CallError, CallResult, Instance, Kind, Phase};
-use crate::model::{Event, StepFailure, Update, Way, six_digits};
+use crate::model::{AdvanceOptions, Event, StepFailure, Update, six_digits};
 use crate::numeric::finite;
 
 /// Features that the host of a co-simulation allows.
@@ -92,7 +92,7 @@ impl Instance {
         let allowed = self.allowed;
         let simulation = self.simulation()?;
         if until > simulation.time() {
-            let outcome = simulation.advance_by(until, Way { pauses: allowed.early_return, is_part });
+            let outcome = simulation.advance_by(until, AdvanceOptions { pauses: allowed.early_return, is_part });
             if let Err(failure) = outcome {
                 return Err(self.step_failed(&failure));
             }
@@ -160,7 +160,7 @@ impl Instance {
     }
 
     /// Enters event mode, in model exchange or between steps of co-simulation.
-    pub fn enter_event_mode_of_any(&mut self) -> CallResult {
+    pub fn enter_event_mode_of_either_kind(&mut self) -> CallResult {
         if self.now.kind == Kind::CoSimulation && !self.allowed.events {
             return Err(CallError::error("the host has said that it does not use event mode"));
         }

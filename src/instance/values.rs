@@ -108,10 +108,10 @@ impl Instance {
                     match source {
                         OutputSource::Constant(of) => of(simulation),
                         OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
-                        OutputSource::Forces(of) => of(simulation.forces_without_parts()),
-                        OutputSource::Parts(of) => of(simulation.forces()),
+                        OutputSource::Forces(of) => of(simulation.forces_without_components()),
+                        OutputSource::Components(of) => of(simulation.forces()),
                         OutputSource::Pair(k, of) => of(&pairs.get_or_insert_with(|| simulation.pair_lines())[k]),
-                        OutputSource::Reading(place) => simulation.forces_without_parts().readings[place],
+                        OutputSource::Reading(place) => simulation.forces_without_components().readings[place],
                         OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger())),
                         OutputSource::LedgerReading(place) => {
                             ledger.get_or_insert_with(|| simulation.ledger()).readings[place]

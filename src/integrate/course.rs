@@ -102,7 +102,7 @@ pub struct Pending<P> {
     /// Kinetic and stored energy at the start.
     pub energy: [f64; 2],
     /// Fraction of the step that is accepted: 1, unless the equations change within the step.
-    pub part: f64,
+    pub accepted_fraction: f64,
     /// Jump of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the integration
     /// continues.
     pub jump: Option<f64>,
@@ -152,9 +152,9 @@ impl<const N: usize, P> Course<N, P> {
 
     fn accept_until(&mut self, end: f64) {
         if let Some(pending) = &mut self.pending {
-            let part = (end - self.time) / pending.attempt.h;
-            if part > 0.0 {
-                pending.part = part.min(1.0);
+            let fraction = (end - self.time) / pending.attempt.h;
+            if fraction > 0.0 {
+                pending.accepted_fraction = fraction.min(1.0);
             } else {
                 self.pending = None;
             }

@@ -134,7 +134,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
         if let Some(pending) = &course.pending {
             let Attempt { h: size, error, cut, to_kink, .. } = pending.attempt;
             short = pending.attempt.short;
-            let h = size * pending.part;
+            let h = size * pending.accepted_fraction;
             let mut reached = course.time + h;
             let done = course.end - reached <= resolution;
             if reached + resolution >= until && !(done && ends) {
@@ -143,15 +143,15 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             if done {
                 reached = course.end;
             }
-            let end = course.extension.at(pending.part);
-            let mut halfway = if pending.part > WHOLE {
+            let end = course.extension.at(pending.accepted_fraction);
+            let mut halfway = if pending.accepted_fraction > WHOLE {
                 pending.ledger_rates[1]
             } else {
                 statistics.evaluations += 1;
-                let middle = course.extension.at(0.5 * pending.part);
+                let middle = course.extension.at(0.5 * pending.accepted_fraction);
                 let mut rates = system.evaluate_at(&middle, course.time + 0.5 * h).1;
                 if pending.jump.is_some() {
-                    system.take_change_back(&middle, &mut rates);
+                    system.undo_torque_change(&middle, &mut rates);
                 }
                 rates
             };
@@ -162,10 +162,10 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             };
             statistics.evaluations += u64::from(done);
             if pending.jump.is_some() {
-                system.take_change_back(&end, &mut last);
+                system.undo_torque_change(&end, &mut last);
             }
-            if pending.part > WHOLE && pending.part < 1.0 {
-                let (first, ends) = (&pending.ledger_rates[0], 0.5 * (pending.part - 1.0));
+            if pending.accepted_fraction > WHOLE && pending.accepted_fraction < 1.0 {
+                let (first, ends) = (&pending.ledger_rates[0], 0.5 * (pending.accepted_fraction - 1.0));
                 halfway = system.combined([(-ends, first), (0.0, first), (1.0, &halfway), (0.0, &last), (ends, &last)]);
             }
             let mut ledger_rates = [pending.ledger_rates[0], halfway, last];
@@ -205,7 +205,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             }
             (unbalanced, after_rejection, retries) = (0, false, false);
             control.accept(method, size, cut, error, pending.attempt.after_rejection);
-            control.on_kink = to_kink && pending.part == 1.0;
+            control.on_kink = to_kink && pending.accepted_fraction == 1.0;
             if pending.jump.is_some() {
                 control.jump(pending.jump);
             }
@@ -213,7 +213,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
             let start = std::mem::replace(&mut course.point, end);
             course.time = reached;
             let step = Step { h, time: reached, start: &start, end: &end, ledger_rates };
-            let flow = observe(step, (&course.extension, pending.part));
+            let flow = observe(step, (&course.extension, pending.accepted_fraction));
             course.pending = None;
             let flow = flow.map_err(Failure::Refused)?;
             if done || flow == AfterStep::Stop {
@@ -256,7 +256,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                 (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
                 let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole, short };
                 let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
-                course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0, jump: None });
+                course.pending = Some(Pending { attempt, ledger_rates, energy, accepted_fraction: 1.0, jump: None });
                 continue;
             }
         }
@@ -298,10 +298,10 @@ fn refined<const N: usize, S: SecondOrder<N> + ?Sized>(
 ) -> S::Rates {
     let Some(pending) = &course.pending else { return *halfway };
     let at = |fraction: f64| {
-        let point = course.extension.at(fraction * pending.part);
+        let point = course.extension.at(fraction * pending.accepted_fraction);
         let mut rates = system.evaluate_at(&point, course.time + fraction * h).1;
         if pending.jump.is_some() {
-            system.take_change_back(&point, &mut rates);
+            system.undo_torque_change(&point, &mut rates);
         }
         rates
     };

@@ -108,8 +108,8 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
         inverse.fill(shape, &mut matrix_of(system, &lin, s))?;
         inverse.solve(shape, &mut change);
         let full = at(std::array::from_fn(|i| y.v[i] + change[i]));
-        let part = system.reach(&y, &full);
-        y = if part < 1.0 { at(std::array::from_fn(|i| y.v[i] + part * change[i])) } else { full };
+        let fraction = system.safe_fraction(&y, &full);
+        y = if fraction < 1.0 { at(std::array::from_fn(|i| y.v[i] + fraction * change[i])) } else { full };
     }
     let finite = y.q.iter().chain(&y.v).sum::<f64>().is_finite();
     finite.then_some(y)

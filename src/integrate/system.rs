@@ -180,7 +180,7 @@ pub trait SecondOrder<const N: usize> {
 
     /// Converts ledger rates at `at` to the rates before the torques changed. Does nothing if they did not change.
     #[inline]
-    fn take_change_back(&self, _at: &Point<N>, _rates: &mut Self::Rates) {}
+    fn undo_torque_change(&self, _at: &Point<N>, _rates: &mut Self::Rates) {}
 
     /// Σ weight · rates over five points of a step. The default, for rates that are not used, returns those in the
     /// middle.
@@ -223,7 +223,7 @@ pub trait SecondOrder<const N: usize> {
     /// Fraction of an iteration from `from` to `to` that may be applied without jumping deep into a contact whose force
     /// is not evaluated yet.
     #[inline]
-    fn reach(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
+    fn safe_fraction(&self, _from: &Point<N>, _to: &Point<N>) -> f64 {
         1.0
     }
 

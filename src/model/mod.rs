@@ -30,7 +30,7 @@ pub use crate::contact::tooth_load::{ToothLoad, Touch};
 pub use assembly::gear_cache::{GearCache, Share};
 pub use assembly::inertias::Inertias;
 pub use assembly::model::Given;
-pub use dynamics::event::{Event, Events, Happening, Way};
+pub use dynamics::event::{AdvanceOptions, Event, Events, Happening};
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
 pub use effects::strength::Fatigue;

@@ -1,5 +1,5 @@
 //! Load cycles of a tooth: rolling of a gear relative to the carrier, and the flank that a mesh loads.
-//! //!
+//!
 //! Every mesh of a gear loads each of its teeth once per revolution relative to the carrier. A planet's tooth is loaded
 //! once by the left and once by the right side gear, on opposite flanks, because a planet is an idler. A side gear's
 //! tooth is loaded N times, on the same flank as long as the torque keeps its direction. In straight driving nothing

@@ -2,7 +2,7 @@
 //!
 //! A spherical involute at arc ψ from its tangent point has the radius ρ = R tanψ at cone distance R. Contact at s on
 //! the path has ψ_p = ψ_p0 + s and ψ_s = ψ_s0 − s. Therefore ρ = R τ(s) with τ = sinψ_p sinψ_s / sin(ψ_p + ψ_s).
-//! //!
+//!
 //! The `impact` law acts at R_m, with w = F/b. Under the line laws w = 2FR/(R_e² − R_i²) grows with R in the same way
 //! as ρ, so the pressure is uniform over the face. Because R_e² − R_i² = 2 b R_m, it equals the pressure at R_m under
 //! `impact`. One formula therefore serves both: p_H = √(F E* / (π b R_m τ(s))). F acts at the cone distance of the

@@ -1,5 +1,5 @@
 //! Load swings while teeth are in mesh, counted tooth by tooth.
-//! //!
+//!
 //! Each tooth has the damage of its own passages. A planet's tooth meshes once per revolution with each side gear, on
 //! opposite flanks. In a side gear, one tooth meshes with each planet. All planets count as equal, and so do the teeth
 //! of a side gear that are in mesh at an instant: the most heavily loaded mesh of a side represents all.

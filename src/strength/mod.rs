@@ -1,5 +1,5 @@
 //! Strength of the teeth: contact pressure, root stress, and the resulting damage while the gears turn.
-//! //!
+//!
 //! The formulas use forces and angles and have no access to the model state: a simulation passes the values of each
 //! accepted step. [`Rating`] contains the constants of a pair of gears. [`ToothDamage`] contains the damage of passages
 //! through the mesh. [`TeethInMesh`] contains, tooth by tooth, the damage of load swings during the passages, which

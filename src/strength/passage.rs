@@ -1,10 +1,10 @@
 //! Load cycles of a tooth while it is in mesh, and the damage that they cause to its roots.
-//! //!
+//!
 //! A tooth in mesh touches with one flank or, if the torque reverses, with the other. A force on its drive flank causes
 //! tension in the fillet at that flank and compression in the fillet at the coast flank. A force on the coast flank
 //! does the opposite. Both fillets therefore have the same stress history with opposite signs: a cycle of one is a
 //! cycle of the other with the mean negated. One rainflow count serves both.
-//! //!
+//!
 //! A tooth that rolls through its mesh enters and leaves without load, so all its cycles close. The largest of them is
 //! the passage itself, which is counted separately ([`super::ToothDamage`]). A cycle only closes inside a range that is
 //! at least as large, so the largest cycle stays open until the tooth leaves. All cycles of a tooth that stays in mesh

@@ -1,5 +1,5 @@
 //! Position of the gears between their teeth, which determines the tooth of each gear that is in mesh.
-//! //!
+//!
 //! A tooth has the load of its mesh over one pitch, from half a pitch before its middle to half a pitch behind it. If
 //! two teeth share the load, elastic wind-up rocks the gears without a change of teeth. The previous tooth therefore
 //! returns only when the gears have turned back by [`SLACK`].

@@ -1,5 +1,5 @@
 //! Rainflow counting of a load history while it is recorded, ASTM E1049-85 (2017), section 5.4.4.
-//! //!
+//!
 //! It serves teeth that stay in mesh while the gears do not roll. Peaks and valleys are stored on a stack of fixed
 //! size. Ranges on the stack decrease from the bottom to the top, so only a decaying oscillation fills it. If it is
 //! full, the smallest range is immediately counted as a full cycle. This is exact if the load exceeds the range again,

@@ -1,5 +1,5 @@
 //! Damage sums of each tooth of a gear, in an array of fixed size. Zeros after the last used tooth are not saved.
-//! //!
+//!
 //! Stacks are small on the target systems, and few gears of differentials have more than [`MAX_SUMS`] teeth. In a
 //! larger gear, neighbouring teeth share a sum, their mean.
 

@@ -13,7 +13,7 @@ pub enum OutputSource {
     /// Forces, which need one evaluation of the teeth.
     Forces(fn(&Forces) -> f64),
     /// Components of normal forces along axes and across pins, which also need an evaluation of the teeth.
-    Parts(fn(&Forces) -> f64),
+    Components(fn(&Forces) -> f64),
     /// Loaded tooth pair of planet 1 with the left side gear, by its number.
     Pair(usize, fn(&PairLine) -> f64),
     /// Ledger and statistics of the solver.
@@ -36,7 +36,7 @@ impl OutputSource {
         match self {
             Self::Constant(of) => of(simulation),
             Self::Motion(of) => of(&simulation.motion()),
-            Self::Forces(of) | Self::Parts(of) => of(simulation.forces()),
+            Self::Forces(of) | Self::Components(of) => of(simulation.forces()),
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
             Self::Reading(place) => simulation.forces().readings[place],
             Self::Ledger(of) => of(&simulation.ledger()),

@@ -4,7 +4,7 @@
 mod access;
 mod added;
 mod calculated;
-pub mod felt;
+pub mod effective;
 mod inputs;
 mod named;
 mod outputs;

@@ -1,6 +1,6 @@
 //! Rows of the outputs.
 
-use super::access::OutputSource::{self, Forces, Heat, Ledger, LedgerReading, Motion, Pair, Parts, Reading};
+use super::access::OutputSource::{self, Components, Forces, Heat, Ledger, LedgerReading, Motion, Pair, Reading};
 use crate::declaration::units::{self, DEG, DEG_PER_S, MM, MPA};
 use crate::declaration::{Row, Shown, row};
 use crate::model::{CONTACT_HEAT, Changes, efficiency, heats, readings};
@@ -65,7 +65,7 @@ macro_rules! side {
             row(concat!($name, ".normal_force"), "Normal forces of all meshes of the side gear, summed")
                 .output(units::NEWTON, Forces(|f| f.side_normal[$s])),
             row(concat!($name, ".thrust_force"), "Thrust of all meshes on the side gear, away from the apex")
-                .output(units::NEWTON, Parts(|f| f.side_thrust[$s])),
+                .output(units::NEWTON, Components(|f| f.side_thrust[$s])),
         ]
     };
 }
@@ -93,9 +93,9 @@ macro_rules! planet {
             row(concat!($name, ".right_pairs"), "Tooth pairs under load in the mesh with the right side gear")
                 .output(units::ONE, Forces(|f| f.mesh[$i][1].pairs)),
             row(concat!($name, ".pin_force"), "Resultant of the mesh forces across the pin")
-                .output(units::NEWTON, Parts(|f| f.pin_force[$i])),
+                .output(units::NEWTON, Components(|f| f.pin_force[$i])),
             row(concat!($name, ".thrust_force"), "Thrust of both meshes on the planet, away from the apex")
-                .output(units::NEWTON, Parts(|f| f.planet_thrust[$i])),
+                .output(units::NEWTON, Components(|f| f.planet_thrust[$i])),
             row(
                 concat!($name, ".left_transmission_error"),
                 "Approach of the drive flanks to the left side gear at the mean cone distance; 0 at first touch",

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::felt::{Situation, acts, written_as_shown};
+use super::effective::{Situation, acts, written_as_shown};
 use super::named::{index_of, number};
 use super::table::table;
 use super::{Access, Causality, Variable};
@@ -40,9 +40,9 @@ impl SetValues {
     }
 
     /// True if a value that describes the differential was set, so that it is not the differential of the study.
-    pub fn has_own_differential(&self) -> bool {
+    pub fn describes_another_differential(&self) -> bool {
         let rows = table().rows.iter().enumerate();
-        rows.filter(|(_, row)| OWN.contains(&group(row))).any(|(index, _)| self.contains(index))
+        rows.filter(|(_, row)| DIFFERENTIAL.contains(&group(row))).any(|(index, _)| self.contains(index))
     }
 }
 
@@ -51,7 +51,7 @@ const DRIVES: &str = "drives and loads";
 /// Group of the lock, which its command activates.
 const LOCK: &str = "lock";
 /// Groups that describe the differential itself.
-const OWN: [&str; 3] = ["geometry", "material", "inertia"];
+const DIFFERENTIAL: [&str; 3] = ["geometry", "material", "inertia"];
 /// Groups that determine how a scene is computed. Their values select methods and do not describe a differential.
 const METHODS: [&str; 4] = ["scene", "effects", "solver", "solid"];
 /// Variables with only one valid value.
@@ -208,13 +208,13 @@ mod tests {
 
     #[test]
     fn values_of_gears_material_or_inertia_describe_another_differential() {
-        for (name, own) in [
+        for (name, describes) in [
             ("geometry.module", true),
             ("material.density", true),
             ("inertia.carrier", true),
             ("left.load_torque", false),
         ] {
-            assert_eq!(set_of(&[name]).has_own_differential(), own, "{name}");
+            assert_eq!(set_of(&[name]).describes_another_differential(), describes, "{name}");
         }
     }
 

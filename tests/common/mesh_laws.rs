@@ -38,7 +38,7 @@ pub struct Built {
     /// Face concentrated in one point.
     pub face: Face,
     /// Face at many points, if the law is valid at every cone distance.
-    pub cut: Option<Face>,
+    pub distributed: Option<Face>,
 }
 
 impl Built {
@@ -54,14 +54,14 @@ impl Built {
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
         let centroid = 2.0 * moment / (outer.powi(2) - inner.powi(2));
-        let (spring, cone, weight, cut) = match kind {
+        let (spring, cone, weight, distributed) = match kind {
             Kind::Impact => {
                 let cone = pair.mean_cone;
                 (AnySpring::Impact(ImpactSpring { law: impact(exponent), cone }), cone, 1.0, None)
             }
-            Kind::Line => (AnySpring::Line(stiffness.line()), centroid, moment, Some(Face::cut(inner, outer))),
+            Kind::Line => (AnySpring::Line(stiffness.line()), centroid, moment, Some(Face::linear(inner, outer))),
             Kind::LineWeber => {
-                (AnySpring::LineWeber(stiffness.line_weber()), centroid, moment, Some(Face::sliced(inner, outer)))
+                (AnySpring::LineWeber(stiffness.line_weber()), centroid, moment, Some(Face::general(inner, outer)))
             }
             Kind::Lumped => {
                 let k = stiffness.mesh_mean() * moment / (centroid * centroid);
@@ -69,6 +69,11 @@ impl Built {
             }
         };
         let width = (outer - inner) * pair.mean_cone / cone;
-        Self { spring, whole: Resultant::new(cone, weight), face: Face::whole(Slice { cone, weight, width }), cut }
+        Self {
+            spring,
+            whole: Resultant::new(cone, weight),
+            face: Face::whole(Slice { cone, weight, width }),
+            distributed,
+        }
     }
 }

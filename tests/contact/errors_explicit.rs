@@ -1,6 +1,6 @@
 //! Gaps caused by misalignment and runout, checked against explicit flanks that are displaced in space and turned until
 //! they touch.
-//! //!
+//!
 //! The flanks of planet and side gear are moved by about a micrometre. The side gear's rotation at first touch on the
 //! sphere of radius R is then searched over the whole flank and compared with that of the undisplaced gears. Their
 //! difference times R sinδ_b is the gap that the displacement opens. Axes, flanks and displacements are vectors in the

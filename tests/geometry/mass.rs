@@ -1,5 +1,5 @@
 //! Tests of volumes, masses and moments of inertia, compared with integrals over the outline that use no facets.
-//! //!
+//!
 //! At every azimuth, the half-plane from the axis cuts the body between the apex and its end at the cone distance R in
 //! the polygon apex – outline – root circle – axis. The same polygon at the toe, and the bore, are subtracted. Over a
 //! triangle from the apex to P = (ρ, z) and Q, a moment of degree n is |P × Q|/(n + 2) times its mean along PQ. The

@@ -2,7 +2,7 @@
 //! it.
 
 use bevel_differential::model::{
-    CarrierDrive, Event, GearContact, Happening, Inputs, Parameters, Simulation, Start, Way,
+    AdvanceOptions, CarrierDrive, Event, GearContact, Happening, Inputs, Parameters, Simulation, Start,
 };
 
 /// Wheels at rest without loads, with brakes.
@@ -60,7 +60,7 @@ fn commands_that_hold_or_release_at_standstill_are_events_at_the_start_of_the_st
 fn inputs_that_are_applied_before_the_step_give_the_same_state() {
     for contact in [GearContact::Ideal, GearContact::Lumped, GearContact::Tooth] {
         let (start, inputs) = at_rest(contact);
-        let ways = [Way::default(), Way { pauses: true, ..Way::default() }];
+        let options = [AdvanceOptions::default(), AdvanceOptions { pauses: true, ..AdvanceOptions::default() }];
         let mut simulations = [0; 3].map(|_| start.clone());
         for (k, (command, expected)) in (1u8..).zip(commands(&inputs)) {
             let until = f64::from(k) * 0.125;
@@ -73,7 +73,7 @@ fn inputs_that_are_applied_before_the_step_give_the_same_state() {
             assert_eq!(before.begin(), !expected.is_empty());
             assert!(!before.begin(), "{contact:?}: the inputs act already");
             while before.time() < until {
-                before.advance_by(until, ways[1]).unwrap();
+                before.advance_by(until, options[1]).unwrap();
             }
             // a reaction to the event at the same time
             twice.set_inputs(&Inputs { carrier_torque: 3.0, ..command });
@@ -81,7 +81,7 @@ fn inputs_that_are_applied_before_the_step_give_the_same_state() {
             twice.set_inputs(&command);
             assert!(!twice.begin(), "{contact:?}: the reaction holds nothing");
             while twice.time() < until {
-                twice.advance_by(until, ways[usize::from(k % 2)]).unwrap();
+                twice.advance_by(until, options[usize::from(k % 2)]).unwrap();
             }
             assert!(before.state() == by_step.state(), "{contact:?}, {until} s");
             assert!(twice.state() == by_step.state(), "{contact:?}, {until} s");

@@ -8,7 +8,7 @@ mod commands;
 mod common;
 mod communication;
 mod differential;
-mod felt;
+mod effective;
 mod gear_cache;
 mod gear_parameters;
 mod ideal_half_shafts;

@@ -282,7 +282,7 @@ fn assert_alike(one: &[ToothLoad], other: &[ToothLoad], flanks_differ: bool, sen
         for (x, y) in touches(a).polar.iter().zip(touches(b).polar) {
             assert!((x - y).abs() < 1e-6, "{x} {y}");
         }
-        for (i, (x, y)) in a.parts.iter().zip(b.parts).enumerate() {
+        for (i, (x, y)) in a.components.iter().zip(b.components).enumerate() {
             let y = if i == 2 { sense * y } else { y };
             assert!((x - y).abs() < 1e-6, "{i}: {x} {y}");
         }
@@ -326,7 +326,7 @@ fn sections_of_all_planets_carry_the_side_gears_torque() {
             let torque: f64 = shown(&simulation, side)
                 .iter()
                 .map(|l| {
-                    let [point, [planet, _, across]] = [l.touch.expect("solid teeth").point, l.parts];
+                    let [point, [planet, _, across]] = [l.touch.expect("solid teeth").point, l.components];
                     // the component along the planet's axis is reported as it acts on the planet
                     l.cone * (point[0] * across + point[2] * planet) * l.normal
                 })

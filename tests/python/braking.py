@@ -1,11 +1,11 @@
-"""Scenes with wheel brakes: both wheels with inertia, no loads but brakes, the carrier driven by torque."""
+"""Scenes with wheel brakes: both wheels have inertia and no loads except brakes, and the carrier is driven by torque."""
 
 import numpy as np
 from driving import SIDES, UNLOADED
 
 CONTACTS = ["ideal", "lumped", "tooth", "solid"]
 STIFFNESS, END, CARRIER_INERTIA = 1e5, 0.5, 0.02
-# of all that turns with the carrier, gears left out
+# inertia of everything that turns with the carrier, without gears
 WHOLE = CARRIER_INERTIA + 2.0 * END
 BRAKED = {"effects.wheel_brake": True, "wheel_brake.stiffness": STIFFNESS, "inertia.left_end": END,
           "inertia.right_end": END, "inertia.carrier": CARRIER_INERTIA, "scene.carrier_drive": "torque"} | UNLOADED

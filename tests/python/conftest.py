@@ -1,4 +1,4 @@
-"""The packaged FMU for the tests, and ways to use it: `run` a scene, `drive` it from step to step, `fmu.open` it call by call."""
+"""Fixtures for the packaged FMU: `run` a scene, `drive` it from step to step, `fmu.open` it for single calls."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ from fmpy import read_model_description, simulate_fmu
 
 FOLDERS = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python/src", "fmu-build/python")]
 sys.path[:0] = FOLDERS
-# for processes that tests start
+# for processes started by tests
 os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)
 
 from bevel_differential import Differential, Fmu  # noqa: E402
@@ -20,17 +20,17 @@ from fmi3 import Unit3  # noqa: E402
 
 def pytest_addoption(parser):
     parser.addoption("--scenes", type=int, default=int(os.environ.get("SCENES", "200")),
-                     help="how many random scenes (or by the environment variable SCENES)")
+                     help="number of random scenes (or by the environment variable SCENES)")
 
 
 def pytest_configure(config):
-    # tests of warnings catch them; elsewhere thousands would be listed
+    # tests of warnings catch them; other tests would list thousands
     config.addinivalue_line("filterwarnings", "ignore::bevel_differential.values.DifferentialWarning")
 
 
 @pytest.fixture(scope="session")
 def fmu_file():
-    """Path of the .fmu, from the environment variable FMU."""
+    """Path of the .fmu file, from the environment variable FMU."""
     path = os.environ.get("FMU", "")
     if not os.path.isfile(path):
         pytest.exit("FMU does not name the packaged .fmu; use: cargo run -p lab --release -- test-python", returncode=2)
@@ -39,7 +39,7 @@ def fmu_file():
 
 @pytest.fixture(scope="session")
 def fmu(fmu_file):
-    """The extracted FMU, with its variables; `fmu.open()` is an instance."""
+    """Extracted FMU with its variables; `fmu.open()` is an instance."""
     return Fmu.of(fmu_file)
 
 
@@ -51,13 +51,13 @@ def outputs(fmu):
 
 @pytest.fixture(scope="session")
 def fmu3(fmu_file):
-    """Path of the unit for FMI 3.0, which is in the folder of that for FMI 2.0."""
+    """Path of the unit for FMI 3.0, which is in the same folder as that for FMI 2.0."""
     return Path(fmu_file).with_name("BevelDifferential3.fmu")
 
 
 @pytest.fixture
 def exchange(fmu3):
-    """exchange(values): an instance for model exchange in event mode, after its first update."""
+    """exchange(values): instance for model exchange in event mode, after its first update."""
     units = []
 
     def make(values):
@@ -82,13 +82,13 @@ def plain_outputs(fmu3):
 
 @pytest.fixture(scope="session")
 def description(fmu_file):
-    """The model description, valid by fmpy's rules."""
+    """Model description, validated by fmpy."""
     return read_model_description(fmu_file, validate=True)
 
 
 @pytest.fixture(scope="session")
 def run(fmu_file, outputs):
-    """run(start_values, stop, step, output): a record of a simulation; of all outputs, if none are named."""
+    """run(start_values, stop, step, output): record of a simulation, by default of all outputs."""
 
     def simulate(start_values=None, stop=0.5, step=0.001, output=None):
         with Differential(start_values, fmu=fmu_file) as differential:
@@ -99,7 +99,7 @@ def run(fmu_file, outputs):
 
 @pytest.fixture(scope="session")
 def through_fmpy(fmu):
-    """through_fmpy(values, stop, **options): a record of fmpy's own loop; `options` are those of simulate_fmu."""
+    """through_fmpy(values, stop, **options): record of fmpy's own loop; `options` are those of simulate_fmu."""
 
     def simulate(values=None, stop=0.1, logger=lambda *_: None, **options):
         numbers = {variable.name: number for variable, number in fmu.numbers(values)}
@@ -111,6 +111,6 @@ def through_fmpy(fmu):
 
 @pytest.fixture
 def drive(fmu):
-    """drive(values): a started scene (see driving.py); all are freed at the end of the test."""
+    """drive(values): started scene (see driving.py). All scenes are freed at the end of the test."""
     with ExitStack() as begun:
         yield lambda values=None: begun.enter_context(Drive(fmu, values))

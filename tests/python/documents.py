@@ -10,17 +10,17 @@ ROOT = Path(__file__).resolve().parents[2]
 FOR_USERS = sorted(ROOT.glob("docs/*.md"))
 PAGES = [ROOT / "README.md", *FOR_USERS, *sorted(ROOT.glob("docs/inside/*.md")), *sorted(ROOT.glob("examples/*/README.md"))]
 LINK = re.compile(r'\]\(([^)\s]+)\)|(?:src|href)="([^"]+)"')
-# a command may stand in a comment, if the page's text says in other words what was run
+# a command may be in an HTML comment if the page's text describes it in other words
 COMMAND = re.compile(r"^(?: {4}|\$ |<!-- )?((?:bevel-differential|cargo run|target/python/bin/fmpy) (?:.*\\\n)*.*?)(?: -->)?$", re.MULTILINE)
 SAVED = re.compile(r"`(\w+\.toml)`[^\n]*\n\n```toml\n(.*?)```", re.DOTALL)
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-# what a command of the laboratory renews
+# sections that a command of the laboratory updates
 MARKED = re.compile(r"^<!-- ([\w -]+?)[ :]begin.*?^<!-- \1[ :]end", re.MULTILINE | re.DOTALL)
 
 
 @dataclass(frozen=True)
 class Command:
-    """A command line of a page."""
+    """Command line of a page."""
 
     page: str
     words: tuple[str, ...]
@@ -31,7 +31,7 @@ class Command:
 
 @dataclass(frozen=True)
 class Block:
-    """The text between two fences of a page; `start` is the number of letters of the page before it."""
+    """Text between two fences of a page; `start`: number of letters of the page before it."""
 
     page: str
     kind: str
@@ -43,26 +43,26 @@ class Block:
 
 
 def links(page: Path) -> list[str]:
-    """Addresses that a page names within the repository."""
+    """Addresses within the repository to which a page links."""
     found = [first or second for first, second in LINK.findall(page.read_text(encoding="utf-8"))]
     return [address for address in found if not address.startswith(("http", "mailto"))]
 
 
 def anchors(page: Path) -> set[str]:
-    """Names of a page's headings, as GitHub makes them."""
+    """Anchors of a page's headings, as created by GitHub."""
     heads = re.findall(r"^#+ (.*)", page.read_text(encoding="utf-8"), re.MULTILINE)
     plain = [re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", re.sub(r"[`*]", "", head)) for head in heads]
     return {re.sub(r"[^\w\- ]", "", head.lower()).replace(" ", "-") for head in plain}
 
 
 def commands(program: str) -> list[Command]:
-    """Command lines of all pages that begin with these words."""
+    """Command lines of all pages that begin with `program`."""
     found = [command for page in PAGES for _, command in _commands(page) if shlex.join(command.words).startswith(program)]
     return list(dict.fromkeys(found))
 
 
 def _commands(page: Path) -> list[tuple[int, Command]]:
-    """Command lines of a page. Text after two blanks is a comment."""
+    """Command lines of a page, with their positions. Text after two blanks is a comment."""
     found = []
     for shown in COMMAND.finditer(page.read_text(encoding="utf-8")):
         line = " ".join(part.strip() for part in shown[1].split("\\\n"))
@@ -72,7 +72,7 @@ def _commands(page: Path) -> list[tuple[int, Command]]:
 
 
 def blocks(*kinds: str) -> list[Block]:
-    """Fenced texts of all pages with these words behind the fence."""
+    """Fenced texts of all pages with one of these words after the fence."""
     return [Block(page.relative_to(ROOT).as_posix(), shown[1], shown.start(2), shown[2]) for page in PAGES
             for shown in FENCE.finditer(page.read_text(encoding="utf-8")) if shown[1] in kinds]
 
@@ -92,5 +92,5 @@ def printed() -> list[tuple[Command | Block, Block]]:
 
 
 def saved(page: str) -> dict[str, str]:
-    """Files that a page tells to save, by name."""
+    """Files that a page tells the reader to save, by name."""
     return dict(SAVED.findall((ROOT / page).read_text(encoding="utf-8")))

@@ -1,4 +1,4 @@
-"""Plays ordinary drives on the FMU, by FMI 2.0 or 3.0, as a plain host does: inputs are sampled, and held through each step."""
+"""Plays ordinary drives on the FMU, by FMI 2.0 or 3.0, like a simple host: inputs are sampled, and held through each step."""
 
 from ctypes import c_double, c_uint
 from dataclasses import dataclass
@@ -13,12 +13,12 @@ from fmpy.fmi1 import FMICallException
 SIDES = ("left", "right")
 BODIES = ("carrier.speed", *(f"{side}.{what}" for side in SIDES for what in ("speed", "wheel_speed")),
           *(f"planet[{i}].spin_speed" for i in range(1, 5)))
-# read at every communication point
+# outputs that are read at every communication point
 READ = (*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque")), "held.wheels",
         "mesh.frequency", "power.in", "power.out", "solver.steps", "solver.rejected", "solver.energy_residual")
-# communication points at which all outputs are read, at most
+# maximum number of communication points at which all outputs are read
 LOOKS = 100
-# Attempts at steps after which a drive is given up, and more of them in each simulated second: far more than any drive is granted.
+# Attempts at steps after which a drive is aborted: a constant number plus one per simulated second. Both are far above the limits.
 GIVEN_UP, GIVEN_UP_PER_SECOND = 500_000, 100_000
 
 
@@ -27,7 +27,7 @@ class Played:
     """Record of a drive until it finished or failed.
 
     `time`: communication points that were reached [s]; `values`: values at these points by the names that were read; `failure`: the
-    message of the failed call, None if the drive finished; `not_finite`: outputs that were no finite numbers; `heat`: sum of all heat
+    message of the failed call, None if the drive finished; `not_finite`: outputs that were not finite numbers; `heat`: sum of all heat
     at the end [J]."""
 
     time: np.ndarray
@@ -38,7 +38,7 @@ class Played:
 
 
 class Two:
-    """An instance of FMI 2.0."""
+    """Instance of FMI 2.0."""
 
     def __init__(self, fmu, drive):
         self.instance, self.names = fmu.open(), list(drive["inputs"])
@@ -66,7 +66,7 @@ class Two:
 
 
 class Three:
-    """An instance of FMI 3.0, with or without event mode."""
+    """Instance of FMI 3.0, with or without event mode."""
 
     def __init__(self, fmu, drive, **options):
         self.fmu, self.inputs, self.events = fmu, list(drive["inputs"]), drive["event_mode"]
@@ -81,7 +81,7 @@ class Three:
             self.unit.raw.enterStepMode()
 
     def _buffer(self, names):
-        """References and room for values of some variables, kept because they are used at every communication point."""
+        """References and buffer of some variables, cached because they are used at every communication point."""
         if names not in self.buffers:
             references = (c_uint * len(names))(*(self.unit.variables[name].valueReference for name in names))
             self.buffers[names] = references, (c_double * len(names))()
@@ -115,7 +115,7 @@ class Three:
 
 
 def play(fmu, drive, names=READ, host=None):
-    """Plays a drive to its end, or until it fails, on the given host or the one that the drive names.
+    """Plays a drive to its end, or until it fails, on the given host or on the host of the drive's FMI version.
 
     With `READ` all outputs are also read at some points, and each of them must be a finite number."""
     times, sampled = ordinary_drives.times(drive), ordinary_drives.sampled(drive)
@@ -152,10 +152,10 @@ def play(fmu, drive, names=READ, host=None):
 
 
 def mesh_forces(fmu, drive):
-    """Normal force of each mesh at each step of the solver, a column for each mesh. Identical planets share a column.
+    """Normal force of each mesh at each solver step, a column for each mesh. Identical planets share a column.
 
-    The drive is repeated with FMI 3.0, whose intermediate updates change no bit of the motion. Inputs are held, because FMI 3.0 has
-    no derivatives of inputs."""
+    The drive is repeated with FMI 3.0, whose intermediate updates do not change the bits of the motion. Inputs are held, because
+    FMI 3.0 has no derivatives of inputs."""
     planets = drive["start"].get("geometry.planet_count", 2)
     names = [f"planet[{i}].{side}_normal_force" for i in range(1, planets + 1) for side in SIDES]
     rows = []

@@ -1,7 +1,7 @@
-"""Requirements on every ordinary drive: it finishes, its energy balances, held wheels stand, and it takes few steps.
+"""Requirements on every ordinary drive: it finishes, its energy balances, held wheels do not move, and it takes few steps.
 
-`judge` plays a drive and returns its measures and the requirements that it violates. Numbers of steps are attempts, accepted and
-rejected ones, because both cost the same."""
+`judge` plays a drive and returns its measures and violated requirements. Numbers of steps are attempts, accepted plus rejected
+ones, because both cost the same."""
 
 from dataclasses import dataclass, field
 
@@ -9,33 +9,33 @@ import numpy as np
 import ordinary_drives
 from drive_player import BODIES, SIDES, mesh_forces, play
 
-# Energy residual over the energy that went through and was stored, in tolerances. A step is repeated if its energy is off by more than
-# four tolerances of the energy exchanged in the step; steps err to both sides.
+# Energy residual over the throughput of energy plus the stored energy, in tolerances. A step is repeated if its energy error is above
+# four tolerances of the energy exchanged in the step; errors of steps have both signs.
 ENERGY = 10.0
 TOLERANCE = 1e-6
-# The method of fixed steps has no error control: this only shows gross errors of its step of 0.1 ms.
+# The method of fixed steps has no error control, so this limit only detects gross errors of its step of 0.1 ms.
 ENERGY_OF_FIXED_STEPS = 0.02
-# Speed at which bodies have the least energy that counts [rad/s]: the solver resolves speeds relative to it.
+# Speed below which the kinetic energy of a body is not reduced further [rad/s]: the solver resolves speeds relative to it.
 RESOLVED = 1.0
-# Speed of a wheel that stands [rad/s], and creep of a held wheel, however long it is held [rad]: at a tyre's radius of 0.3 m half a
+# Speed of a wheel at standstill [rad/s], and total creep of a held wheel [rad]. At a tyre radius of 0.3 m, these are half a
 # millimetre per second and a hundredth of a millimetre. The spring of the brake also yields to the torque of the half-shaft, which
-# swings with the carrier; its factor is that of a load that is applied suddenly.
+# oscillates with the carrier; its factor is that of a suddenly applied load.
 STANDS, CREEP, AT_ONCE = 2e-3, 3e-5, 2.0
-# Speed below which a body is at rest [rad/s]: ten times the least speed that the solver resolves. Shortest time at rest that is
-# looked at [s].
+# Speed below which a body is at rest [rad/s]: ten times the smallest speed that the solver resolves. Shortest checked time at rest
+# [s].
 REST, RESTING = 1e-5, 0.2
-# Attempts at steps that are granted. At rest nothing changes, and a step can last as long as the interval between communication
-# points; 200 a second is far below one for each period of any vibration of the model.
+# Allowed attempts at steps. At rest nothing changes, so a step can be as long as the interval between communication points; 200 per
+# second is far below one step per period of any vibration of the model.
 PER_SECOND_AT_REST = 200.0
-# In motion: a period of shuffle (5 to 30 Hz) takes some 50 steps; a new input begins with a step of 1 µs and is followed by the
-# decaying vibration of the teeth; a tooth that passes, of planets or ring gear, has two hand-overs; a blow is a half-wave with
-# two kinks, the teeth ring after it, and friction of the planets sticks and slips. An imposed speed that jumps strikes the teeth, too.
+# In motion, a period of shuffle (5 to 30 Hz) takes some 50 steps. A new input begins with a step of 1 µs, and a decaying vibration of
+# the teeth follows. Each passing tooth, of planets or ring gear, has two load transfers. An impact is a half-wave with two kinks; then
+# the teeth ring, and the friction of the planets sticks and slips. An imposed speed that jumps also causes impacts of the teeth.
 PER_SECOND, PER_POINT, PER_CHANGE, PER_CYCLE, PER_IMPACT = 2000.0, 1.0, 100.0, 60.0, 400.0
-# Time in which the teeth stop ringing [s]: blows by an imposed speed that jumps sooner again do not add up. Elastic pins, whose damping
-# as delivered is 3 % at 5 kHz, ring on until the next jump.
+# Time in which the teeth stop ringing [s]: impacts of an imposed speed that jumps more often do not add up. Elastic pins, whose default
+# damping is 3 % at 5 kHz, ring until the next jump.
 RINGING, PER_JUMP_OF_PINS = 0.01, 2000.0
-# Processor time [s] per simulated second with communication steps of 1 ms or more, and for the start. It does not count for facets of
-# solid teeth, which take more, and for fixed steps, whose number the user sets.
+# Processor time [s] per simulated second with communication steps of 1 ms or more, and for the start. The limit does not apply to solid
+# teeth, whose facets take longer, and to fixed steps, whose number the user sets.
 SECONDS, SECONDS_OF_START, FROM_STEP = 0.5, 0.5, 0.999e-3
 
 
@@ -43,9 +43,9 @@ SECONDS, SECONDS_OF_START, FROM_STEP = 0.5, 0.5, 0.999e-3
 class Verdict:
     """Measures of a drive.
 
-    `problems`: violated requirements; `steps`: attempts at steps; `granted`: attempts that are granted without impacts. `impacts`:
-    times that a mesh closes; `swings`: maxima of the force of a mesh, which tell vibration from steps without a cause; both are None if
-    they do not matter. `residual`: of the energy, relative; `seconds`: processor time."""
+    `problems`: violated requirements; `steps`: attempts at steps; `granted`: allowed attempts without impacts. `impacts`: number of times
+    that a mesh closes; `swings`: number of maxima of a mesh force, which distinguish vibration from steps without a cause; both are None if
+    they do not matter. `residual`: relative energy residual; `seconds`: processor time."""
 
     problems: list = field(default_factory=list)
     steps: int = 0
@@ -61,7 +61,7 @@ class Verdict:
 
 
 def judge(fmu, drive, seconds=None, played=None):
-    """Plays a drive, unless it was played, and returns the verdict. `seconds`: processor time that it took, if that counts."""
+    """Plays a drive, unless `played` is given, and returns the verdict. `seconds`: its processor time, if the time is limited."""
     played = played or play(fmu, drive)
     verdict = Verdict(seconds=seconds)
     verdict.steps = int(attempts(played)[-1]) if len(played.time) else 0
@@ -93,7 +93,7 @@ def attempts(played):
 
 
 def energy(drive, played, verdict):
-    """Compares the residual with heat, work in and out, and the largest kinetic and elastic energy of bodies whose data are given."""
+    """Compares the residual with heat, work in and out, and the largest kinetic and elastic energy of bodies with given data."""
     values, start = played.values, drive["start"]
     through = float(np.trapezoid(np.abs(values["power.in"]) + np.abs(values["power.out"]), played.time)) + abs(played.heat)
     stored = kinetic(start["inertia.carrier"], values["carrier.speed"])
@@ -109,7 +109,7 @@ def kinetic(inertia, speed):
 
 
 def wound(drive, values, side):
-    """Elastic energy of a half-shaft and of the spring of a brake that holds the load."""
+    """Elastic energy of a half-shaft, and of the brake spring that holds the load."""
     start = drive["start"]
     load = np.max(np.abs([value for _, value in drive["inputs"][f"{side}.load_torque"]]))
     shaft = start.get(f"half_shaft.{side}_stiffness", 1e4) if "effects.half_shaft" in start else 0.0
@@ -121,7 +121,7 @@ def brake_stiffness(drive):
 
 
 def standing(drive, played, hold, verdict):
-    """Demands that wheels whose brakes exceed all that acts on them stand, are held, and do not creep."""
+    """Demands that wheels whose brakes exceed all acting torques do not move, are held, and do not creep."""
     inside = (played.time >= hold["from"]) & (played.time <= hold["to"])
     if np.count_nonzero(inside) < 2:
         return
@@ -152,7 +152,7 @@ def steps_at_rest(drive, played, verdict):
 
 
 def steps(fmu, drive, played, verdict):
-    """Demands few steps over the whole drive. Impacts are counted only if nothing else explains the number."""
+    """Demands few steps over the whole drive. Impacts are counted only if nothing else explains the number of steps."""
     values, start = played.values, drive["start"]
     cycles = np.trapezoid(values["mesh.frequency"], played.time)
     if "effects.final_drive" in start:
@@ -174,7 +174,7 @@ def steps(fmu, drive, played, verdict):
 
 
 def changes(drive):
-    """Mask of the communication steps at whose beginning an input changes, or within which it changes by its derivative."""
+    """Mask of the communication steps at whose start an input changes, or in which it changes by its derivative."""
     rows = np.column_stack(list(ordinary_drives.sampled(drive).values()))
     moved = np.any(np.diff(rows, axis=0) != 0.0, axis=1)
     return moved if drive["slopes"] else np.concatenate(([False], moved[:-1]))

@@ -1,12 +1,12 @@
-"""Drives the FMU from communication point to communication point, accounts for the energy it turns over, and asserts
-the balance of the angular momentum about the axle after every step (momentum.py).
+"""Drives the FMU from communication point to communication point, sums the energy turned over, and asserts the balance of the
+angular momentum about the axle after every step (momentum.py).
 
-Limits of the energy residual, each against what it is compared with:
+Limits of the energy residual:
 
-UNDAMPED  of the energy turned over, in scenes without losses: the requirement on the solver at its default tolerance
-          of 1e-6; smooth damped scenes meet it too
-BLOWS     of the heat, where teeth strike: the heat of a blow is the measure of a clunk or a rattle, and must be
-          correct to four digits"""
+UNDAMPED  relative to the energy turned over, in scenes without losses: the requirement on the solver at its default
+          tolerance of 1e-6; smooth damped scenes also meet it
+BLOWS     relative to the heat, if teeth collide: the heat of an impact measures a clunk or a rattle, and must have four
+          correct digits"""
 
 import numpy as np
 from bevel_differential.batches import Batches
@@ -20,26 +20,26 @@ CARRIER = np.radians(2861.0)
 STEADY_TURN = {"scene.planet_spin": "imposed", "carrier.speed_command": np.radians(954.0),
                "spin.command": np.radians(200.0)}
 TURN = STEADY_TURN | {"scene.start": "rolling"}
-# the carrier driven by torque, wheels held at different speeds: the difference of shaft torques shows friction
+# the carrier is driven by torque, the wheels have different imposed speeds: the difference of shaft torques shows friction
 BIAS = {"scene.carrier_drive": "torque", "carrier.torque_command": 1670.0, "carrier.speed_command": 50.0,
         "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 52.5, "right.speed_command": 47.5}
 UNLOADED = {"left.load_torque": 0.0, "right.load_torque": 0.0}
 # gears with known inertia, about three fifths of that of their solids
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
-# energy below which nothing was turned over [J]
+# energy below which no energy counts as turned over [J]
 LEAST = 1e-9
 
 
 def put(instance, name, value):
-    """Sets what the package would not, so that the FMU judges it."""
+    """Sets a value that the package would refuse, so that the FMU decides on it."""
     Batches([instance.fmu.variable(name)]).set(instance, [value])
 
 
 class Drive(Instance):
-    """A started scene.
+    """Started scene.
 
-    The energy turned over is the heat of all causes and ∫(|P_in| + |P_out|) dt of drives and wheels, by the trapezoidal
-    rule between communication points, powers read under the inputs that act in the step."""
+    The energy turned over is the heat of all causes plus ∫(|P_in| + |P_out|) dt of drives and wheels, by the trapezoidal rule
+    between communication points. Powers are read with the inputs of the step."""
 
     def __init__(self, fmu, values=None):
         super().__init__(fmu)
@@ -65,10 +65,10 @@ class Drive(Instance):
         self.exchanged += 0.5 * size * (begin + self.powers())
 
     def to(self, stop, size, each=None):
-        """On to the time `stop` in steps of `size`; `each(drive)` is called at every communication point passed."""
+        """Advances to the time `stop` in steps of `size`; `each(drive)` is called at every communication point."""
         begin = self.time
         for k in range(1, round((stop - begin) / size) + 1):
-            # no sum of roundings
+            # multiples of the step, so that rounding errors do not sum up
             self.step(begin + k * size - self.time)
             if each:
                 each(self)
@@ -90,6 +90,6 @@ class Drive(Instance):
         return self.residual() / max(self.heat(), LEAST)
 
     def work(self):
-        """What the integrator did: steps accepted and rejected, evaluations of the tooth forces."""
+        """Effort of the integrator: steps accepted and rejected, evaluations of the tooth forces."""
         accepted, rejected, calls = self.read(["solver.steps", "solver.rejected", "solver.rhs_calls"])
         return np.array([accepted + rejected, calls])

@@ -12,7 +12,7 @@ ROOTS, FLANKS = ["damage.planet", "damage.side"], ["damage.planet_flank", "damag
 
 
 def spectrum_of(lines, folder, fmu_file, parameters=None, **options):
-    """The spectrum of a duty cycle with these lines, written to a file in `folder`, for a car."""
+    """Spectrum for a car of a duty cycle with these lines, which are written to a file in `folder`."""
     file = folder / "cycle.csv"
     file.write_text("\n".join(lines), encoding="utf-8")
     return spectrum(file, {**VEHICLE, **(parameters or {})}, fmu=fmu_file, **options)

@@ -5,15 +5,15 @@ import zipfile
 
 from bevel_differential.verify import FOLDER, MANIFEST
 
-# one of a second without teeth, one with teeth from an equilibrium
+# a scene of one second without teeth, and a scene with teeth from an equilibrium
 FEW = ("hil", "study_turning")
 
 
 def packed(fmu_file, target, scenes=FEW, changes=None):
-    """Writes an FMU whose manifest lists these scenes only, and returns its path.
+    """Writes an FMU whose manifest lists only these scenes, and returns its path.
 
-    `changes`: by path in the archive or in the folder of the evidence, the new text, a function of the old text, or None to leave the
-    file out."""
+    `changes`: by path in the archive or in the folder of the evidence, the new text, a function of the old text, or None to
+    remove the file."""
     with zipfile.ZipFile(fmu_file) as archive:
         files = {name: archive.read(name) for name in archive.namelist() if not name.startswith("documentation/")}
     manifest = f"{FOLDER}/{MANIFEST}"
@@ -23,7 +23,7 @@ def packed(fmu_file, target, scenes=FEW, changes=None):
         path = name if name in files else f"{FOLDER}/{name}"
         old = files.pop(path, b"").decode()
         new = change(old) if callable(change) else change
-        assert new != old, f"{name} is as it was"
+        assert new != old, f"{name} is unchanged"
         if new is not None:
             files[path] = new.encode()
     with zipfile.ZipFile(target, "w") as archive:

@@ -1,4 +1,4 @@
-"""A unit of FMI 3.0 driven by fmpy, call by call, with names for value references."""
+"""Unit of FMI 3.0, driven by single calls of fmpy, with names instead of value references."""
 
 import atexit
 import shutil
@@ -15,14 +15,14 @@ CALLS = {"Float64": "Float64", "Int32": "Int32", "Enumeration": "Int64", "UInt64
 
 @cache
 def extracted(file):
-    """Folder of an archive and its model description. An archive is extracted once per process, which removes the folder at its end."""
+    """Folder and model description of an archive. An archive is extracted once per process; its folder is removed at exit."""
     folder = extract(file)
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder, read_model_description(folder)
 
 
 class Unit3:
-    """One instance. `variables` by name; values are SI, numbers of literals, bool."""
+    """One instance. `variables`: by name. Values are SI, numbers of literals, or bool."""
 
     def __init__(self, file, kind="CoSimulation", **options):
         self.folder, self.description = extracted(str(file))
@@ -51,7 +51,7 @@ class Unit3:
             getattr(self.raw, f"fmi3Set{CALLS[variable.type]}")(self.raw.component, references, 1, numbers, 1)
 
     def read(self, names):
-        """Values in their order; of arrays lists."""
+        """Values of variables in their order; values of arrays are lists."""
         return [self._get(self.variables[name]) for name in names]
 
     def _get(self, variable):
@@ -65,7 +65,7 @@ class Unit3:
         return dimension.start if dimension.start is not None else self._get(dimension.variable)
 
     def reals(self, names):
-        """Scalar Float64 variables in one call, as an array."""
+        """Values of scalar Float64 variables, read in one call, as an array."""
         references = (c_uint * len(names))(*(self.variables[name].valueReference for name in names))
         values = np.empty(len(names))
         self.raw.fmi3GetFloat64(self.raw.component, references, len(names),
@@ -83,15 +83,15 @@ class Unit3:
         self.raw.exitInitializationMode()
 
     def step(self, time, size):
-        """(event handling needed, terminate, early return, last successful time)."""
+        """Advances by `size`; returns (event handling needed, terminate, early return, last successful time)."""
         return self.raw.doStep(time, size)
 
     def event(self):
-        """The last event as published: kind, place, time and number."""
+        """Last published event: kind, place, time and number."""
         return tuple(self.read(["event.kind", "event.place", "event.time", "event.count"]))
 
     def update(self):
-        """Iterates in event mode. Returns the events that were reported, none if nothing has happened."""
+        """Iterates in event mode. Returns the reported events, none if nothing has happened."""
         reported, more = [], True
         while more:
             more = self.raw.updateDiscreteStates()[0]
@@ -99,7 +99,7 @@ class Unit3:
         return [event for event in reported if event[-1] > 0]
 
     def handle_event(self, values=None):
-        """Sets `values` in event mode, iterates and returns to step mode. Returns the events that were reported."""
+        """Sets `values` in event mode, iterates and returns to step mode. Returns the reported events."""
         self.raw.enterEventMode()
         self.set(values or {})
         reported = self.update()
@@ -107,7 +107,7 @@ class Unit3:
         return reported
 
     def sensitivity(self, unknowns, knowns, seed, adjoint=False):
-        """Directional derivative, or its adjoint."""
+        """Directional derivative, or adjoint derivative."""
         u, k = ((c_uint * len(names))(*(self.variables[name].valueReference for name in names)) for names in (unknowns, knowns))
         seeds, found = (c_double * len(seed))(*seed), (c_double * len(knowns if adjoint else unknowns))()
         call = self.raw.fmi3GetAdjointDerivative if adjoint else self.raw.fmi3GetDirectionalDerivative

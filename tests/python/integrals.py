@@ -1,25 +1,26 @@
-"""What outputs must be the integral of what: angles of speeds, lengths of speeds along axes, heat of the power lost.
+"""Integrals between outputs: angles of speeds, lengths of speeds along axes, heat of the power lost.
 
-A communication step is taken whole, and the same interval again, from the state at its beginning, in many small steps between
-which the rates are read. Trapezia between the readings are off by at most the step's width times the variation of the rate, where
-the readings catch its turns. Where they do not, as in a blow, the interval is divided further."""
+A communication step is taken as a whole. Then the same interval is repeated from the state at its start, in many small steps
+between which the rates are read. The trapezoidal rule between the readings errs by at most the width of a step times the
+variation of the rate, if the readings resolve the extremes of the rate. If they do not, as in an impact, the interval is divided
+further."""
 
 import math
 
 import numpy as np
 
-# readings of one communication step: at first, and at most; each division is four times finer than the one before
+# smallest and largest number of readings of one communication step; each division is four times finer than the one before
 FIRST, MOST = 32, 2048
-# share of what the largest rate would give in the whole step, beyond which an interval is divided further
+# fraction of the integral of the largest rate over the whole step, above which an interval is divided further
 COARSE = 0.05
-# of a position of many turns; and what the solver resolves, in its tolerances [rad, m, J]
+# rounding of a position of many turns; resolution of the solver, in its tolerances [rad, m, J]
 ROUNDING, RESOLVED = 1e-13, 1e-3
-# speeds within a step of fixed size that does not resolve a blow, over those at its ends
+# speeds within a fixed step that does not resolve an impact, over those at its ends
 OVERSHOOT = 10.0
 
 
 def motions(fmu):
-    """[(position, its rate)]: outputs of an angle with their speed, and the states of positions with their derivative."""
+    """Pairs [(position, its rate)]: angle outputs with their speeds, and states of positions with their derivatives."""
     variables = fmu.variables
     states = [(name.removeprefix("der(").removesuffix(")"), name) for name in variables if name.startswith("der(")]
     states = [(name, rate) for name, rate in states if variables[name].unit in ("rad", "m")]
@@ -31,8 +32,8 @@ def motions(fmu):
 class Walk:
     """Steps of an initialised instance, each compared with the integrals of its rates.
 
-    `pairs`: [(names of quantities, whose sum it is; name of the rate)]. `division`: s, the longest step where the method has steps
-    of fixed size, which then are those between the readings."""
+    `pairs`: [(names of the quantities in a sum, name of the rate of this sum)]. `division`, s: the step size of a method with fixed
+    steps, which then is the interval between readings."""
 
     def __init__(self, opened, pairs, tolerance, division=None):
         self.opened, self.tolerance, self.division = opened, tolerance, division
@@ -44,7 +45,7 @@ class Walk:
         return np.array([sum(next(flat) for _ in names) for names in self.places])
 
     def step(self, size):
-        """Takes a step of `size`; returns [(names, gained, integral, by how much these may differ)] of what differs."""
+        """Takes a step of `size`; returns [(names, gained, integral, allowed difference)] of quantities that differ."""
         one, time = self.opened, self.opened.time
         before, kept = self.now(), one.raw.getFMUstate()
         try:
@@ -70,7 +71,7 @@ class Walk:
 
     def counts(self, size):
         if self.division:
-            # other steps than those of the step that is judged would be another motion
+            # with other steps than those of the judged step, the motion would be different
             return [max(math.ceil(size / self.division - 1e-9), 1)]
         return [count for count in (FIRST * 4**k for k in range(8)) if count <= MOST]
 

@@ -1,9 +1,9 @@
-"""Ctrl-C in tests, and commands whose results are kept more often than usual."""
+"""Ctrl-C in tests, and commands that save their results more often than usual."""
 
 import signal
 import sys
 
-# a part every so many seconds, and files of so many bytes at most
+# saves a part at this interval, s, and limits files to this number of bytes
 CHANGED = """
 import resource, sys
 from bevel_differential import Fmu
@@ -19,11 +19,11 @@ sys.exit(main(sys.argv[3:]))
 
 
 def with_interrupts():
-    """Ctrl-C acts in a process that begins with this: what a shell runs in the background inherits that it is ignored."""
+    """Makes Ctrl-C act in a process that starts with this call; shells let background processes ignore it."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def changed_command(interval, arguments, most=0):
-    """The command with a part of its results every `interval` seconds, so that there is one to find long before the end; `most`: bytes
-    of a file."""
+    """Command that saves a part of its results every `interval` seconds, so that one exists long before the end; `most`: maximum size of
+    a file, bytes."""
     return [sys.executable, "-c", CHANGED, str(interval), str(most), *arguments]

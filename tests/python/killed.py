@@ -1,6 +1,6 @@
-"""Commands in processes of their own that are killed at random moments, or that write at the same time: python killed.py FOLDER SEED.
+"""Commands in separate processes that are killed at random times, or that write at the same time: python killed.py FOLDER SEED.
 
-An answer is calculated once, so that commands spend their time on writing. Prints what was found; fails if a file is neither old nor new."""
+Answers are cached, so that commands spend their time on writing. Prints the results; fails if a file is neither old nor new."""
 
 import os
 import random
@@ -27,7 +27,7 @@ FIGURE = style.figure(1.0)
 
 
 def remembered(function):
-    """The function, which is asked once for each question."""
+    """Function that caches the answer to each question."""
     known = {}
 
     def answer(question, *_, **__):
@@ -60,12 +60,12 @@ def content(folder, names):
 
 
 def forked(work):
-    """Process that works until its end."""
+    """Starts a process that does the work and exits."""
     process = os.fork()
     if process:
         return process
     status = 1
-    # forked processes share the lock of progress bars, and whoever is killed with it would stop all others
+    # forked processes share the lock of progress bars: a killed process that holds it would stop all others
     tqdm.set_lock(threading.RLock())
     try:
         work()
@@ -86,14 +86,14 @@ def killed_after(moment, work):
 
 
 def duration(work):
-    """Time that the work takes in a process of its own, s."""
+    """Duration of the work in a separate process, s."""
     begin = time.monotonic()
     assert os.waitpid(forked(work), 0)[1] == 0
     return time.monotonic() - begin
 
 
 def killed(folder, whole, draw):
-    """Commands that write files, killed before, between and after them."""
+    """Kills commands that write files, before, during and after the writing."""
     (folder / "gears").mkdir(parents=True)
     longest, counts = 1.2 * duration(lambda: written(folder)), []
     for _ in range(KILLS):
@@ -107,7 +107,7 @@ def killed(folder, whole, draw):
 
 
 def together(folder, whole):
-    """Two commands and a reader at the same time."""
+    """Runs two commands and a reader at the same time."""
     folder.mkdir()
 
     def often():
@@ -129,7 +129,7 @@ def together(folder, whole):
 
 
 def resumed(folder, draw):
-    """A sweep that is killed and resumed has the rows of an uninterrupted one. Two sweeps at the same time have them, too."""
+    """Checks that a killed and resumed sweep, and two sweeps at the same time, have the rows of an uninterrupted one."""
     folder.mkdir()
     # a part for each row
     store.INTERVAL = 0.0
@@ -138,7 +138,7 @@ def resumed(folder, draw):
         with Scene("lumped", set=LUMPED, outputs=["left.speed"], stop=2e-3, step=1e-3) as scene:
             return sweep(scene, **SWEEP, out=folder / name, resume=True)
 
-    # from the start to the end, and without a run
+    # durations of a whole sweep, and of one without a run
     longest, least = (duration(lambda: swept("whole.parquet")) for _ in range(2))
     whole, parts, counts = swept("whole.parquet"), folder / "killed.parquet.parts", []
     for _ in range(KILLS):
@@ -152,9 +152,9 @@ def resumed(folder, draw):
 
 
 def begin(folder, seed):
-    """Runs it all."""
+    """Runs all checks."""
     draw = random.Random(seed)
-    # no thread of progress bars: forks of a process with threads may stop
+    # no thread of progress bars, because forks of a process with threads may hang
     tqdm.monitor_interval = 0
     answers.ask = remembered(answers.ask)
     (folder / "whole").mkdir()

@@ -1,8 +1,8 @@
-"""Solutions to hold the FMU against, by a model (plain.py) and an integrator (scipy) that are not the program's.
+"""Reference solutions for the FMU, by an independent model (plain.py) and an independent integrator (scipy).
 
     python tests/python/make_reference.py [CASE]...     writes tests/data/reference_<case>.csv, minutes for each
 
-Each file states how far a second integration by another method is from it: that is its own error."""
+Each file states the difference from a second integration by another method, which is its own error."""
 
 import sys
 from dataclasses import dataclass, field
@@ -15,19 +15,19 @@ from scipy.integrate import DOP853, Radau
 
 DATA = Path(__file__).parent.parent / "data"
 SIDES = ("left", "right")
-# planets of the cases are in phase and move as one, so that the first represents all; checked when the files are written
+# the planets of these cases are in phase and move identically, so that the first represents all; this is checked on writing
 MESH = [f"planet[1].{side}_{what}" for side in SIDES for what in ("normal_force", "transmission_error")]
 OUTPUTS = ["left.speed", "right.speed", "planet[1].spin_speed", "carrier.torque", *MESH]
 UNITS = {"speed": "rad/s", "torque": "N.m", "force": "N", "error": "m"}
 
-# the plain model has no solids to take inertias from
+# inertias are given, because the plain model has no solids
 GIVEN = {"inertia.from_geometry": False, "inertia.side_gear": 9e-5, "inertia.planet": 2e-5}
 TURN = {"carrier.speed_command": radians(954.0), "spin.command": radians(200.0), "scene.planet_spin": "imposed"}
 TURNING = {"carrier_speed": radians(954.0), "spin": radians(200.0), "spin_imposed": True}
-# Planets of a given inertia have that across their axis (about the apex) in the proportion of their solid; this is the
-# solid's at the clunk's backlash, as the FMU divides it into facets: transverse_at_apex / axial of `gear_mass`, or 100 N·m
-# over `carrier.acceleration` in mid-gap, less the given carrier. It is the only number here that comes from the program;
-# without facets it is 5.0016434460, by integrals over the outline as in benches/peers/gears.py.
+# If the inertia of a planet is given, that across its axis (about the apex) has the proportion of its solid. This is the
+# proportion of the solid at the clunk's backlash, as the FMU divides it into facets: transverse_at_apex / axial of `gear_mass`,
+# or 100 N·m over `carrier.acceleration` in mid-gap, less the given carrier. It is the only number here from the program.
+# Without facets it is 5.0016434460, by integrals over the outline as in benches/peers/gears.py.
 PLANET_ACROSS = 5.0016833898
 CLUNK = {"scene.carrier_drive": "torque", "carrier.torque_command": -2e-3, "carrier.speed_command": 0.0,
          "left.load_torque": -1e-3, "right.load_torque": -1e-3, "geometry.backlash": 0.1885e-3,
@@ -49,18 +49,18 @@ class Case:
     plain: dict
     start: str
     times: np.ndarray
-    loads_at_start: dict = field(default_factory=dict)  # of the plain model, for its equilibrium
-    then: dict = field(default_factory=dict)  # inputs of the FMU from the start time on
+    loads_at_start: dict = field(default_factory=dict)  # for the equilibrium of the plain model
+    then: dict = field(default_factory=dict)  # inputs of the FMU after the start
     outputs: list = field(default_factory=lambda: OUTPUTS)
 
     def begin(self):
-        """The plain model and its state at the start."""
+        """Plain model and its state at the start."""
         first = Differential(Scene(**(self.plain | self.loads_at_start)))
         return Differential(Scene(**self.plain)), getattr(first, self.start)()
 
 
 def ticks(*parts):
-    """Times [s] from 0 on: up to each end by its step."""
+    """Times [s] from 0: up to each end, by the step of this part."""
     times, begin = [0.0], 0.0
     for end, step in parts:
         times += [begin + step * (k + 1) for k in range(round((end - begin) / step))]
@@ -84,17 +84,17 @@ CASES = {
 
 
 def jacobian(model, state):
-    """By differences; steps that scipy adapts itself get lost where nothing moves."""
+    """Jacobian by differences with fixed steps; the adaptive steps of scipy fail if nothing moves."""
     steps, still = np.full(model.size, 1e-6), np.array(model.rate(0.0, state))
     steps[model.angles] = 1e-10
     return np.array([(model.rate(0.0, state + step) - still) / step.sum() for step in np.diag(steps)]).T
 
 
 def solve(case, times, method="DOP853", tolerance=1e-12):
-    """Outputs of the plain model at `times`, by scipy, whose steps end on each: interpolated values are less exact."""
+    """Outputs of the plain model at `times`, by scipy. Its steps end at each time, because interpolated values are less accurate."""
     model, state = case.begin()
-    absolute = np.full(model.size, tolerance)  # of speeds [rad/s]
-    absolute[model.angles] *= 1e-3  # of the order of tooth deflections [rad]
+    absolute = np.full(model.size, tolerance)  # speeds [rad/s]
+    absolute[model.angles] *= 1e-3  # angles of the order of tooth deflections [rad]
     options = {"rtol": tolerance, "atol": absolute, "first_step": 1e-9}
     if method == "Radau":
         solver = Radau(model.rate, times[0], state, times[-1], jac=lambda _, y: jacobian(model, y), **options)
@@ -116,8 +116,8 @@ def table(case, rows):
 
 
 def scales(case, values):
-    """What errors are relative to, from the second half, where blows of the start are over: speeds to the fastest,
-    torques to the largest, forces and transmission errors to their means."""
+    """Reference values of relative errors, from the second half, after the impacts of the start: the fastest speed, the largest
+    torque, and the means of forces and transmission errors."""
     size = np.abs(values[len(values) // 2:])
     speeds = [name.endswith("speed") for name in case.outputs]
     return np.array([np.max(size[:, speeds]) if name.endswith("speed") else
@@ -151,7 +151,7 @@ def write(name):
 
 
 def read(name):
-    """Times and values of a file, with the names of its columns."""
+    """Times of a file, and values by the names of its columns."""
     lines = (DATA / f"reference_{name}.csv").read_text().splitlines()
     lines = [line.split(",") for line in lines if not line.startswith("#")]
     values = np.array(lines[1:], dtype=float)

@@ -1,14 +1,15 @@
-"""Balance of the angular momentum about the axle, beside that of the energy: asserted after every step of a `Drive`.
+"""Balance of the angular momentum about the axle, asserted after every step of a `Drive` in addition to that of the energy.
 
-The carrier turns with its planets, or each planet with its compliant pin; side gears end where the half-shafts begin. What
-changes their momentum are the drive, the torques of the shafts and drag. Inertias are given, or of `outline_solids`; what a
-drive that imposes the carrier's speed must give follows from the torques of the meshes.
+The carrier turns with its planets, or each planet turns with its compliant pin; side gears end at the half-shafts. Their
+momentum changes by the drive, the torques of the shafts and drag. Inertias are given, or from `outline_solids`. The torque of a
+drive that imposes the carrier's speed follows from the torques of the meshes.
 
-INSTANT   of all terms at an instant: rounding
-SOLIDS    of the inertias of solids: what the program's facets are off by, as docs/inside/theory.md states
-RUN       tolerances of the solver, of what was turned over, by which the momentum of a run may be off
-SLIDING   slowest motion that tells in which direction a brake acts [rad/s]
-WARMER    of an oil that warms up: drag follows it by 0.1 K, in steps within which it changes as much [K]"""
+INSTANT   relative rounding error of all terms at an instant
+SOLIDS    relative error of the inertias of the program's faceted solids, as stated in docs/inside/theory.md
+RUN       allowed error of the momentum of a run, in solver tolerances of the momentum turned over
+SLIDING   slowest motion that shows in which direction a brake acts [rad/s]
+WARMER    temperature change of an oil that warms up: drag follows in steps of 0.1 K, and the oil may change by as much
+          within a step [K]"""
 
 import numpy as np
 import outline_solids
@@ -16,12 +17,12 @@ import theory
 
 INSTANT, SOLIDS, RUN, SLIDING, WARMER = 1e-9, 2e-5, 10.0, 1e-3, 0.2
 SIDES = ["left", "right"]
-# dry friction between side gears and carrier, of which no output tells
+# dry friction between side gears and carrier, which is not an output
 RUBBING = ["effects.thrust_friction", "effects.limited_slip"]
 
 
 class Momentum:
-    """Of an initialised instance."""
+    """Momentum of an initialised instance."""
 
     def __init__(self, opened):
         self.opened = opened
@@ -52,7 +53,7 @@ class Momentum:
         return next(literal for literal, its in self.opened.fmu.variable(name).literals.items() if its == number)
 
     def inertias(self):
-        """Of a planet about the axle and of a side gear, and how far that of the solids may be off."""
+        """Inertia of a planet about the axle and of a side gear, and weights of the allowed error of solids."""
         def of(name):
             if name == "backlash" and not self.on["effects.backlash"]:
                 return 0.0
@@ -64,7 +65,7 @@ class Momentum:
                         for gear, bore in zip(both, ["planet_bore", "side_bore"]))
         if self.opened.get("inertia.from_geometry"):
             return planet[1], side[0], [1.0, 1.0]
-        # a given planet has its solid's proportions
+        # a given planet inertia has the proportions of its solid
         given = self.opened.get("inertia.planet")
         return planet[1] / planet[0] * given, self.opened.get("inertia.side_gear"), [1.0, 0.0]
 
@@ -73,7 +74,7 @@ class Momentum:
         return np.array([self.carrier, *[self.orbit] * self.planets, self.side, self.side])
 
     def dragged(self, speeds, warmer=0.0):
-        """Torques of drag on carrier and side gears, in an oil warmer by some kelvins."""
+        """Torques of drag on carrier and side gears, in an oil that is warmer by `warmer` kelvins."""
         if not self.on["effects.bearing_drag"]:
             return np.zeros(3)
         d = self.drag
@@ -91,7 +92,7 @@ class Momentum:
         return np.array([carrier, *(seal * built_up[1:] + thick * d["side_viscous"] * speeds[1:])])
 
     def check(self):
-        """Asserts the balance at the present instant."""
+        """Asserts the balance at the present time."""
         one = self.opened
         rates = np.array(one.read([f"der({name})" for name in self.bodies]))
         terms = self.weights() * rates
@@ -115,45 +116,45 @@ class Momentum:
             wanted = np.sum(terms[:-2]) + np.sum(meshes) + drag[0]
         else:
             wanted = drive
-        # sin zθ of an angle of many turns is not known to more than its rounding
+        # sin zθ of an angle of many turns is only known to its rounding error
         assert abs(drive - wanted) <= rounding + facets + 1e-9 * abs(wanted), f"drive gives {drive} N.m, not {wanted}"
         for s, side in enumerate(SIDES):
             self.check_shaft(side, shafts[s], f"{side}.end_speed" if self.twists[s] else f"{side}.speed", rounding)
 
     def check_shaft(self, side, torque, wheel, rounding):
-        """Asserts that the torque of a shaft is that of its spring, and what the wheel at its end needs."""
+        """Asserts that the torque of a shaft equals that of its spring, and the torque that the wheel at its end needs."""
         one, speed = self.opened, self.opened.get(wheel)
         if wheel.endswith("end_speed"):
             spring, damper = one.read([f"half_shaft.{side}_stiffness", f"half_shaft.{side}_damping"])
             terms = [spring * one.get(f"{side}.shaft_twist"), damper * (one.get(f"{side}.speed") - speed)]
             assert abs(torque - sum(terms)) <= rounding + INSTANT * sum(map(abs, terms)), f"the spring at the {side} is off"
         brake = one.get(f"{side}.brake_torque") if self.on["effects.wheel_brake"] else 0.0
-        # a brake whose friction varies, or that holds
+        # skips a brake that holds, or whose friction varies
         if self.imposed[f"{side}_drive"] or brake and (self.brake_varies or one.get("held.wheels") or abs(speed) < SLIDING):
             return
         needed = one.get(f"inertia.{side}_end") * one.get(f"der({wheel})") + one.get(f"{side}.load_torque") + brake * np.sign(speed)
         assert abs(torque - needed) <= rounding + INSTANT * abs(needed), f"the end at the {side} is off"
 
     def now(self):
-        """Momentum with the ends, and the magnitudes of its parts."""
+        """Momentum including the ends, and the sum of the magnitudes of its parts."""
         speeds = np.array(self.opened.read(self.bodies))
         ends = [self.opened.get(f"{s}.end_speed" if twists else f"{s}.speed") for s, twists in zip(SIDES, self.twists)]
         parts = np.append(self.weights() * speeds, np.array(self.ends) * ends)
         return np.sum(parts), np.sum(np.abs(parts))
 
     def commands(self):
-        """External torques, where commands alone tell all of them."""
+        """External torques, or None if commands do not determine all of them."""
         if (self.on["effects.bearing_drag"] or self.on["effects.final_drive"] or any(self.imposed.values())
                 or any(self.opened.read(["left.brake_torque", "right.brake_torque"]))):
             return None
         return np.array(self.opened.read(["carrier.torque_command", "left.load_torque", "right.load_torque"]))
 
     def before_step(self):
-        """Inputs may have been set since the last step."""
+        """Reads the state and the inputs, which may have changed since the last step."""
         self.momentum, self.external = self.now(), self.commands()
 
     def after_step(self, size):
-        """Asserts the balance at the end of a step of `size`, and that over all steps."""
+        """Asserts the balance at the end of a step of `size`, and over all steps."""
         self.check()
         external, now = self.commands(), self.now()
         if external is None or self.external is None or np.any(external != self.external):

@@ -1,12 +1,12 @@
-"""Random scenes whose teeth have errors, most of which open the meshes, at rest against each other under constant loads.
+"""Random scenes with tooth errors, most of which open the meshes, with gears at rest against each other under constant loads.
 
-Every value is drawn from one generator, so that a scene is known by its number."""
+Every value is drawn from one generator, so a scene is identified by its number."""
 
 import numpy as np
 
-# planets, their teeth, teeth of the side gears: all planets in phase, or every other one half a pitch aside
+# planets, their teeth, teeth of the side gears: all planets in phase, or every other one offset by half a pitch
 GEARS = [(2, 10, 16), (2, 11, 16), (2, 10, 15), (3, 10, 15), (3, 11, 15), (4, 10, 16), (4, 11, 16), (4, 10, 14), (4, 9, 14)]
-# given ones, so that torques follow from accelerations
+# given inertias, so that torques follow from accelerations
 INERTIAS = {"inertia.from_geometry": False, "inertia.side_gear": 1.5e-4, "inertia.planet": 3e-5, "inertia.carrier": 0.02}
 UM = 1e-6
 
@@ -51,7 +51,7 @@ def scene(number, seed=30):
         values |= {"effects.pin_compliance": True, "pin_compliance.pin_stiffness": float(10.0 ** random.uniform(8.0, 9.5))}
     if chance(0.25):
         values |= {"effects.half_shaft": True, "inertia.left_end": 0.3, "inertia.right_end": 0.5}
-    # washers may hold what the teeth do not, with springs that are wound up first
+    # washers may hold loads that the teeth do not carry, with springs that are wound up first
     friction = [("thrust_friction", 0.15)] if load == other else []
     for effect, share in [("bearing_drag", 0.2), ("tooth_friction", 0.15), *friction]:
         if chance(share):

@@ -1,7 +1,7 @@
-"""Courses of ordinary drives: inputs over time, written phase by phase, and the holds that each course promises.
+"""Courses of ordinary drives: inputs over time, written phase by phase, and the holds that each course requires.
 
-A course estimates the speeds of both wheels from its own inputs. The estimate tells how long a stop lasts, and it is the command
-of a carrier that is driven by speed. It takes rigid wheels on ideal gears without friction: with the inertia J of a wheel, J_c of
+A course estimates the speeds of both wheels from its inputs. The estimate determines how long a stop lasts, and it is the
+command of a speed-driven carrier. It assumes rigid wheels on ideal gears without friction: with the inertia J of a wheel, J_c of
 the carrier, the torque T_c on the carrier, and load T_s and brake B_s of a wheel
 
     (J + J_c/4) ω̇_s + J_c/4 ω̇_other = T_c/2 − T_s − B_s sgn ω_s.
@@ -9,13 +9,13 @@ the carrier, the torque T_c on the carrier, and load T_s and brake B_s of a whee
 
 # step of the estimate relative to the pace of the course [s]
 ESTIMATED = 0.01
-# most steps of the estimate in a phase: parking needs few
+# maximum number of steps of the estimate in a phase, because parking needs few
 PHASE = 300
-# longest stop that the estimate waits for, relative to the pace [s], and share by which real wheels may take longer
+# longest stop for which the estimate waits, relative to the pace [s], and fraction by which real wheels may take longer
 LONGEST_STOP, LATER = 20.0, 0.3
-# Brake torque of a hold over the sum of all torques that act. With a locked differential all of them may act on one wheel.
+# Brake torque of a hold over the sum of all acting torques. With a locked differential, all of them may act on one wheel.
 FIRM = 1.5
-# Time after which a held wheel must stand still [s]: swings of carrier and half-shafts have faded
+# time after which a held wheel must be at rest [s], because oscillations of carrier and half-shafts have faded
 SETTLING = 1.0
 SIDES = ("left", "right")
 DRIVE, LOCK, SPEED = "carrier.torque_command", "lock.command", "carrier.speed_command"
@@ -25,7 +25,7 @@ NAMES = {"drive": [DRIVE], "lock": [LOCK], "load": [f"{side}.load_torque" for si
 
 
 class Course:
-    """Inputs over time: lines between points, and two points at one time where an input jumps.
+    """Inputs over time: lines between points, with two points at the same time where an input jumps.
 
     `pace` multiplies all durations: a short course has the same phases in a tenth of the time."""
 
@@ -43,18 +43,18 @@ class Course:
         return float(self.random.uniform(low, high))
 
     def starts(self, **inputs):
-        """Sets inputs, by their short names, with which the course begins."""
+        """Sets inputs, by their short names, at the start of the course."""
         for short, value in inputs.items():
             for name in NAMES[short]:
                 self.now[name], self.points[name] = value, [[0.0, value]]
 
     def rolls(self, speed):
-        """Lets the course begin at a speed of both wheels [rad/s]."""
+        """Lets the course start at a speed of both wheels [rad/s]."""
         self.begin = speed * self.pace
         self.speeds, self.track = [self.begin] * 2, [[0.0, self.begin]]
 
     def go(self, seconds, over=0.0, **inputs):
-        """Phase in which inputs, by their short names, change within `over` and then stay."""
+        """Phase in which inputs, by their short names, change within `over` and then remain constant."""
         over, seconds = over * self.pace, max(over, seconds) * self.pace
         for short, value in inputs.items():
             for name in NAMES[short]:
@@ -86,7 +86,7 @@ class Course:
             self.speeds[s] = 0.0 if brakes[s] and after * self.speeds[s] < 0.0 else after
 
     def until_still(self):
-        """Keeps the inputs until both wheels stand, and somewhat longer."""
+        """Keeps the inputs until both wheels are at rest, and somewhat longer."""
         begin = self.time
         while any(self.speeds) and self.time - begin < LONGEST_STOP * self.pace:
             self.go(5 * ESTIMATED)
@@ -98,7 +98,7 @@ class Course:
         return FIRM * sum(map(abs, acting)) + self.vehicle.bias + 0.1 * self.vehicle.wheel
 
     def hold(self, seconds, sides=SIDES):
-        """Holds wheels by their brakes, and promises that they stand after `SETTLING`."""
+        """Holds wheels by their brakes, and requires that they are at rest after `SETTLING`."""
         firm = self.firm()
         brakes = {f"{side}_brake": max(firm, self.now[f"{side}.brake_torque"]) for side in sides}
         self.go(max(seconds, 0.1), over=0.05, **brakes)
@@ -123,7 +123,7 @@ def reversal(c):
 
 
 def stop(c, uneven=1.0):
-    """Braking to a stop, from a speed or after a launch, and standing."""
+    """Braking to a stop, from a speed or after a launch, and waiting at rest."""
     if c.drawn(0.0, 1.0) < 0.5:
         c.rolls(c.drawn(3.0, 30.0))
         c.go(0.2, drive=0.1 * c.pull)
@@ -137,12 +137,12 @@ def stop(c, uneven=1.0):
 
 
 def uneven_stop(c):
-    """Braking to a stop with brakes of different torque: the wheels stop one after the other."""
+    """Braking to a stop with different brake torques: the wheels stop one after the other."""
     stop(c, c.drawn(0.4, 0.9))
 
 
 def hill(c):
-    """Hill hold: standing on a slope by the brakes, starting against it or with it, and stopping on it again."""
+    """Hill hold: holding on a slope by the brakes, starting up or down the slope, and stopping on it again."""
     c.starts(load=c.slope, brake=c.grip + 3.0 * abs(c.slope))
     c.hold(c.drawn(1.5, 2.5))
     drive = 2.0 * c.slope + c.drawn(0.3, 1.0) * c.pull
@@ -194,7 +194,7 @@ def park_for_an_hour(c):
 
 
 def blocked(c):
-    """One wheel blocked by its brake, the other one driven and then braked, too."""
+    """One wheel is blocked by its brake, the other one is driven and then braked."""
     side, other = SIDES if c.drawn(0.0, 1.0) < 0.5 else SIDES[::-1]
     drive = c.drawn(0.1, 0.5) * c.pull
     c.starts(**{f"{side}_brake": c.firm(drive) + FIRM * abs(drive)})
@@ -207,7 +207,7 @@ def blocked(c):
 
 
 def creep(c):
-    """Idling with creep torque against the brakes, creeping as they are let go, and stopping again."""
+    """Idling with creep torque against the brakes, creeping as they are released, and stopping again."""
     torque = c.drawn(0.05, 0.3) * c.pull
     c.starts(brake=c.firm(torque))
     c.go(0.4, over=0.2, drive=torque)
@@ -219,7 +219,7 @@ def creep(c):
 
 
 def turn(c):
-    """Turns to both sides under drive: loads differ, the side gears roll on the planets."""
+    """Turns to both sides under drive: loads differ, and the side gears roll on the planets."""
     c.rolls(c.drawn(10.0, 50.0))
     resistance = c.drawn(0.1, 0.5) * c.pull
     c.go(0.5, over=0.2, drive=resistance, load=0.5 * resistance)
@@ -231,7 +231,7 @@ def turn(c):
 
 
 def locked(c):
-    """Launch with the lock closed, which opens again while rolling."""
+    """Launch with a closed lock, which opens while the car rolls."""
     c.go(0.1, lock=1.0)
     c.go(c.drawn(0.5, 1.0), over=0.2, drive=c.pull, right_load=0.3 * c.pull)
     c.go(0.3, over=0.1, right_load=0.0)

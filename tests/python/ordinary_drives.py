@@ -1,18 +1,17 @@
-"""Ordinary drives, drawn by a seed: what a host of the FMU does with a pedal car, a car or a truck in daily life.
+"""Ordinary drives, drawn by a seed: daily use of the FMU by a host, with a pedal car, a car or a truck.
 
 A drive is plain data and has a JSON form, so that players in other languages can repeat it:
 
-    seed, index, manoeuvre, mirrored    where it comes from
+        seed, index, manoeuvre, mirrored    origin of the drive
     fmi           "2.0" or "3.0"
     event_mode    true if a host of FMI 3.0 handles events within a step
     stop, step    stop time and communication step [s]
     slopes        true if the host gives derivatives of inputs; otherwise inputs are held through each step
     start         start values by name, SI; enumerations by literal
-    inputs        points [time, value] by name; lines between points, and two points at one time are a jump
-    holds         {"from", "to", "wheels"}: from when to when which wheels must stand by their brakes
+        inputs        points [time, value] by name; lines between points, and two points at the same time are a jump
+        holds         {"from", "to", "wheels"}: interval in which these wheels must be at rest by their brakes
 
-The host sets all inputs to their values at 0 before the start, and at each communication point to their values at that time
-(`sampled`)."""
+The host sets all inputs to their values at 0 before the start, and to the values at each communication point (`sampled`)."""
 
 import math
 
@@ -26,17 +25,17 @@ METHODS = {"adaptive": 0.88, "fixed_step": 0.06, "radau": 0.06}
 # communication steps [s]: the shortest one only for short drives, 1 s for parking
 STEPS = {1e-4: 0.08, 1e-3: 0.3, 1e-2: 0.62}
 PARKING_STEPS = {1e-2: 0.3, 0.1: 0.3, 1.0: 0.4}
-# pace of short drives, and of those of solid teeth, whose steps cost ten times as much
+# pace of short drives, and of drives with solid teeth, whose steps cost ten times as much
 SHORT = 0.1
-# shares: carriers driven by speed, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
+# shares of speed-driven carriers, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
 BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
 # shortest hold that is checked [s]
 SHORTEST_HOLD = 0.2
 # variables that change their sign in a mirrored drive
 SIGNED = (DRIVE, SPEED, *(f"{side}.load_torque" for side in SIDES))
-# A point of an input belongs to a communication point that is closer than this share of a step.
+# A point of an input is moved to a communication point that is closer than this fraction of a step.
 ROUNDING = 1e-6
-# digits of values, and decimals of times: enough for any drive, and still readable
+# digits of values, and decimals of times: sufficient for any drive, and still readable
 DIGITS, DECIMALS = 6, 6
 
 
@@ -47,7 +46,7 @@ def drives(seed, count, levels, first=0):
 
 
 def drive(seed, index, levels):
-    """Drive `index` of a seed. The manoeuvres take turns; everything else is drawn."""
+    """Drive `index` of a seed. The manoeuvres alternate; everything else is drawn."""
     random = np.random.default_rng([seed, index])
     manoeuvre = MANOEUVRES[index % len(MANOEUVRES)]
     contact, law = (chosen(random, CONTACTS).split() + ["impact"])[:2]
@@ -75,7 +74,7 @@ def drive(seed, index, levels):
         "event_mode": fmi == "3.0" and bool(random.random() < EVENTS), "stop": step * math.ceil(course.time / step - ROUNDING),
         "step": step, "slopes": fmi == "2.0" and bool(random.random() < SLOPES),
         "start": start | beginning(random, course, by_speed, method), "inputs": inputs(course, by_speed),
-        # inputs that are held through a step are up to a step late
+        # inputs that are held through a step may be one step late
         "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
     return image(readable(made)) if mirrored else readable(made)
 
@@ -95,7 +94,7 @@ def beginning(random, course, by_speed, method):
 
 
 def inputs(course, by_speed):
-    """Inputs of a course. A carrier that is driven by speed gets the speeds that the course estimates in place of its torque."""
+    """Inputs of a course. A speed-driven carrier has the estimated speeds of the course instead of its torque."""
     found = {name: points or [[0.0, course.now[name]]] for name, points in course.points.items()}
     if not course.points[LOCK]:
         del found[LOCK]
@@ -120,7 +119,7 @@ def readable(drive):
 
 def image(drive):
     """Mirrored drive: all speeds and torques change their sign, brakes and lock do not."""
-    # a difference makes no zero with a sign
+    # a difference avoids a negative zero
     start = {name: 0.0 - value if name in SIGNED else value for name, value in drive["start"].items()}
     mirrored = {name: [[time, 0.0 - value] for time, value in points] if name in SIGNED else points
                 for name, points in drive["inputs"].items()}
@@ -138,7 +137,7 @@ def sampled(drive):
 
 
 def on_points(points, step):
-    """Times and values of an input's points, with times that differ from a communication point by rounding only moved there."""
+    """Times and values of an input's points. Times that differ from a communication point only by rounding are moved to it."""
     at, values = np.transpose(points)
     nearest = np.round(at / step)
     return np.where(np.abs(at / step - nearest) < ROUNDING, step * nearest, at), values

@@ -1,28 +1,28 @@
-"""Vehicles of ordinary drives: wheels, gears of their size, and effects of the differential, drawn at random.
+"""Vehicles of ordinary drives: wheels, gears of matching size, and effects of the differential, drawn at random.
 
-Every start value that is drawn here takes effect in its scene, and no scene is refused."""
+Every drawn start value takes effect in its scene, and no scene is refused."""
 
 from dataclasses import dataclass
 from math import sqrt
 
-# inertia at a wheel with its share of the vehicle, from a pedal car to a loaded truck [kg·m²]
+# inertia at a wheel including its share of the vehicle, from a pedal car to a loaded truck [kg·m²]
 LIGHTEST, HEAVIEST = 0.05, 150.0
-# side torque for which the gears as delivered are made, and the highest for which they are kept [N·m]
+# side torque for which the default gears are designed, and the highest torque for which they are used [N·m]
 RATED, KEPT = 835.0, 1200.0
-# size of the smallest gears relative to those as delivered
+# size of the smallest gears relative to the default gears
 SMALLEST = 0.33
-# teeth of planets and side gears, and numbers of planets, that can be assembled
+# teeth of planets and side gears, and number of planets, that can be assembled
 TEETH = [(10, 16, 2), (10, 16, 4), (9, 14, 4), (11, 15, 2), (10, 18, 3)]
 FRICTION_LAWS = ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]
 
 
 @dataclass(frozen=True)
 class Vehicle:
-    """A vehicle as its differential meets it.
+    """Vehicle data that matter for its differential.
 
     `wheel`: inertia at each wheel; `carrier`: inertia at the carrier [kg·m²]. `pull`, `grip`, `slope`: angular accelerations of the
-    wheels by the drive, by one brake each, and by a slope, which has a sign [rad/s²]. `peak`: highest torque of a half-shaft [N·m];
-    `size`: of the gears relative to those as delivered; `by_speed`: true if the carrier is driven by speed."""
+    wheels by the drive, by one brake each, and by a slope, with a sign [rad/s²]. `peak`: highest torque of a half-shaft [N·m]; `size`:
+    size of the gears relative to the default; `by_speed`: true if the carrier is speed-driven."""
 
     wheel: float
     carrier: float
@@ -35,17 +35,17 @@ class Vehicle:
 
     @property
     def bias(self):
-        """Torque that friction of the differential may move from wheel to wheel if the drive gives all that is needed [N·m]."""
+        """Torque that friction of the differential may transfer between the wheels if the drive imposes a speed [N·m]."""
         return 2.0 * self.peak if self.by_speed else 0.0
 
 
 def vehicle(random, by_speed):
-    """Vehicle of any size, evenly by the logarithm of its weight."""
+    """Vehicle of random size, uniform in the logarithm of its weight."""
     wheel = LIGHTEST * (HEAVIEST / LIGHTEST) ** random.random()
     pull, grip = random.uniform(3.0, 12.0), random.uniform(5.0, 20.0)
     slope = random.uniform(-5.0, 5.0) if random.random() < 0.7 else 0.0
     peak = wheel * (pull + abs(slope))
-    # bending of similar teeth goes with the third power of their size
+    # bending of similar teeth is proportional to the third power of their size
     fitting = max((peak / RATED) ** (1.0 / 3.0) * random.uniform(0.9, 1.3), SMALLEST)
     size = 1.0 if peak < KEPT and random.random() < 0.6 else fitting
     return Vehicle(wheel, wheel * 10.0 ** random.uniform(-2.7, -1.0), pull, grip, slope, peak, size, by_speed)
@@ -70,7 +70,7 @@ def differential(random, vehicle, contact, law, levels):
 
 
 def gears(random, size):
-    """Gears as delivered, or similar ones."""
+    """Default gears, or similar ones of another size."""
     planet, side, count = TEETH[int(random.integers(len(TEETH)))] if random.random() < 0.5 else TEETH[0]
     values = {"geometry.planet_teeth": planet, "geometry.side_teeth": side, "geometry.planet_count": count}
     if size != 1.0:
@@ -86,7 +86,7 @@ def damping(random, size):
 
 
 def brake(random, vehicle):
-    """The stiffness as delivered, or one that winds up by 2 to 10 mrad; in a share linings that hold more than they slide with."""
+    """Default stiffness, or a stiffness that yields by 2 to 10 mrad; some linings have higher static friction."""
     values = {} if random.random() < 0.6 else {"wheel_brake.stiffness": vehicle.wheel * vehicle.grip / random.uniform(2e-3, 1e-2)}
     return values | (sticky(random, "wheel_brake") if random.random() < 0.2 else {})
 
@@ -97,7 +97,7 @@ def sticky(random, effect):
 
 
 def half_shaft(random, vehicle, _contact, _law):
-    """Half-shafts as delivered, or such as twist by 3 to 9 degrees under the peak torque and damp shuffle by 2 to 10 %."""
+    """Default half-shafts, or shafts that twist by 3 to 9 degrees under the peak torque and damp shuffle by 2 to 10 %."""
     values = {"effects.half_shaft": True}
     if 0.1 * RATED < vehicle.peak < KEPT and random.random() < 0.4:
         return values
@@ -108,7 +108,7 @@ def half_shaft(random, vehicle, _contact, _law):
 
 
 def bearing_drag(random, vehicle, _contact, _law):
-    """Drag in proportion to the torques, as given or by size and oil."""
+    """Drag in proportion to the torques, given directly or by size and oil."""
     share = vehicle.peak / RATED
     values = {"effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5 * share, "bearing_drag.side_torque": 0.2 * share,
               "bearing_drag.carrier_viscous": 5e-3 * share, "bearing_drag.side_viscous": 1e-3 * share}
@@ -128,7 +128,7 @@ def thrust_friction(random, vehicle, _contact, _law):
 
 
 def limited_slip(random, vehicle, contact, _law):
-    """Plates with preload, and with torque of the meshes if the level of contact has such torques."""
+    """Plates with preload, and with torque from the meshes if the level of contact has such torques."""
     coefficient = float(random.choice([0.0, 0.1, 0.3])) if contact in ("lumped", "tooth") else 0.0
     values = {"effects.limited_slip": True, "limited_slip.preload": vehicle.peak * random.uniform(0.03, 0.3),
               "limited_slip.torque_coefficient": coefficient}
@@ -146,13 +146,13 @@ def pin_compliance(_random, vehicle, _contact, _law):
 
 
 def body_compliance(_random, vehicle, _contact, law):
-    """Elastic gear bodies, which need a law that follows from the teeth."""
+    """Elastic gear bodies, which need a contact law from the tooth shape."""
     bores = {"geometry.planet_bore": 0.009 * vehicle.size, "geometry.side_bore": 0.017 * vehicle.size}
     return {"effects.body_compliance": True, **bores} if law != "impact" else {}
 
 
 def tooth_errors(random, vehicle, contact, law):
-    """Deviations of a grade with tip relief; solid teeth accept crowning only, and `impact` has no face to be crowned."""
+    """Deviations of a grade with tip relief; solid teeth accept only crowning, and `impact` has no face to be crowned."""
     values = {"effects.tooth_errors": True}
     if contact == "solid" or law != "impact":
         values["tooth_errors.crowning"] = random.uniform(5e-6, 20e-6) * vehicle.size
@@ -164,7 +164,7 @@ def tooth_errors(random, vehicle, contact, law):
 
 
 def final_drive(random, vehicle, _contact, _law):
-    """Excitation by the ring gear's teeth. Of an imposed speed 2 % would be hundreds of rad/s², so only torques have it."""
+    """Excitation by the ring gear's teeth, only of a torque: 2 % of an imposed speed would be hundreds of rad/s²."""
     if vehicle.by_speed:
         return {}
     return {"effects.final_drive": True, "final_drive.ring_teeth": int(random.integers(29, 46)),
@@ -184,7 +184,7 @@ def mesh_history(_random, _vehicle, _contact, _law):
     return {"effects.mesh_history": True}
 
 
-# share of drives in which an effect is on, if the level of gear contact accepts the effect, and the function that draws its values
+# share of drives with an effect, if the level of gear contact accepts it, and the function that draws its values
 EFFECTS = {drawn.__name__: (share, drawn) for share, drawn in [
     (0.6, half_shaft), (0.6, bearing_drag), (0.5, thrust_friction), (0.3, tooth_friction), (0.4, limited_slip), (0.2, pin_compliance),
     (0.3, body_compliance), (0.25, tooth_errors), (0.25, warm_up), (0.2, strength), (0.2, mesh_history), (0.15, final_drive)]}

@@ -1,9 +1,9 @@
-"""Moments of inertia of the gears as solids, by integrals over the outline, and nothing of the program.
+"""Moments of inertia of the gears as solids, by integrals over the outline, independent of the program.
 
 A gear is a frustum of the root cone between its ends at the cone distances R_i and R_e, with teeth that rays through the apex
-draw from one end to the other. At each azimuth the half-plane from the axis cuts the apex, a point P = (sin φ, cos φ) of the
-outline and the root circle Q in a triangle. A moment of degree n over it is |P × Q|/(n + 2) times its mean along PQ,
-and grows with R^(n+2)."""
+generate from one end to the other. At each azimuth, a half-plane from the axis intersects this shape in a triangle of the apex, a
+point P = (sin φ, cos φ) of the outline and the root circle Q. A moment of degree n over the triangle is |P × Q|/(n + 2) times its
+mean along PQ, and is proportional to R^(n+2)."""
 
 from dataclasses import dataclass
 
@@ -13,13 +13,13 @@ STEPS = 4000
 
 
 def mean(function, p, q):
-    """Along a line from p to q: Simpson's rule is exact for cubics."""
+    """Mean along a line from p to q by Simpson's rule, which is exact for cubics."""
     (a, b), (c, d) = p, q
     return (function(a, b) + 4.0 * function(0.5 * (a + c), 0.5 * (b + d)) + function(c, d)) / 6.0
 
 
 def triangle(p, q):
-    """Of the apex, p and q, each (ρ, z): ∫∫ ρ·ρ² and ∫∫ ρ(ρ²/2 + z²), about the axis and across it."""
+    """Integrals over the triangle of the apex, p and q, each (ρ, z): ∫∫ ρ·ρ² and ∫∫ ρ(ρ²/2 + z²), about the axis and across it."""
     double = np.abs(p[0] * q[1] - p[1] * q[0])
     return np.array([double / 5.0 * mean(lambda r, z: r**3, p, q),
                      double / 5.0 * mean(lambda r, z: r * (0.5 * r * r + z * z), p, q)])
@@ -27,7 +27,7 @@ def triangle(p, q):
 
 @dataclass(frozen=True)
 class Gear:
-    """A gear on the unit sphere."""
+    """Gear on the unit sphere."""
 
     teeth: int
     pitch: float
@@ -48,7 +48,7 @@ class Gear:
         return self.half_pitch + self.involute(self.pitch) - self.involute(polar)
 
     def foot(self):
-        """Polar angle and azimuth of the fillet from the root circle up: a small circle that touches the flank, or the
+        """Polar angle and azimuth of the fillet from the root circle to its end: a small circle that touches the flank, or the
         meridian below the base circle."""
         centre, low = self.root + self.fillet, self.half_angle(self.base)
         touching = self.arc(centre) - self.fillet
@@ -72,7 +72,7 @@ class Gear:
         return np.append(polar, above), np.append(azimuth, self.half_angle(above))
 
     def inertias(self, cones, bore, density):
-        """About the axis, and about the apex across it."""
+        """Inertias about the axis, and about the apex across the axis."""
         inner, outer = cones
         foot = (np.sin(self.root), np.cos(self.root))
         polar, azimuth = self.outline()

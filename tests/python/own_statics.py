@@ -1,8 +1,8 @@
-"""Static equilibria of a scene, found from its accelerations alone: no start of the FMU's own and no energy takes part.
+"""Static equilibria of a scene, found only from its accelerations, without the FMU's start and without energies.
 
-The FMU, as a model exchange whose gears stand still against each other, is asked for the accelerations at positions that are
-chosen here. Torques are inertias times accelerations. Positions creep along the torques (scipy's BDF) until these balance
-or a planet has rolled too far; Newton's method with differences polishes."""
+The FMU is opened for model exchange, with gears at rest against each other, and returns the accelerations at positions chosen
+here. Torques are inertias times accelerations. Positions creep along the torques (scipy's BDF) until these balance or a planet has
+rolled too far. Newton's method with differences then refines the result."""
 
 import ctypes
 
@@ -11,7 +11,7 @@ from fmpy.fmi2 import fmi2EventInfo
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-# positions among the states: sides, carrier, seats, planets, pins, ends
+# indices of positions in the states: sides, carrier, seats, planets, pins, ends
 BODIES, SIDES, SEATS, PLANETS, PINS = 15, [0, 1], [3, 4], [5, 6, 7, 8], [9, 10, 11, 12]
 # arm of the forces on seats [m]
 ARM = 0.04
@@ -20,7 +20,7 @@ BALANCED = 1e-6
 
 
 class Statics:
-    """The torques of a scene on its free bodies by their positions. Half-shafts pass the loads on, and are left out."""
+    """Torques of a scene on its free bodies as a function of their positions. Half-shafts transmit the loads, and are left out."""
 
     def __init__(self, fmu, values):
         values = {**values, "scene.start": "rolling", "effects.half_shaft": False}
@@ -33,10 +33,10 @@ class Statics:
         self.free = [*SIDES, *spins, *structure]
         inertia = np.full(BODIES, values["inertia.planet"])
         inertia[SIDES] = [values["inertia.side_gear"] + values.get(f"inertia.{side}_end", 0.0) for side in ("left", "right")]
-        # pins have the transverse inertia of a planet, about that about its axis; seats the mass of a gear, about half a kilogram
+        # pins have the inertia of a planet across its axis, nearly that about its axis; seats the mass of a gear, about half a kilogram
         inertia[SEATS] = 0.5 * ARM
         self.inertia = inertia[self.free]
-        # where torques drive positions to, in a unit of time: as softly as teeth give way
+        # displacement by a torque per unit of time, similar to the compliance of teeth
         self.mobility = np.array([ARM if i in SEATS else 1.0 for i in self.free]) * 1e-3 / self.load
         self.spins = [self.free.index(i) for i in spins]
         self.instance = fmu.open("ModelExchange").initialise(values)
@@ -54,7 +54,7 @@ class Statics:
         self.instance.close()
 
     def torques(self, x):
-        """Torques at the positions `x`, over the larger load."""
+        """Torques at the positions `x`, relative to the larger load."""
         for i, position in zip(self.free, x):
             self.states[i] = position
         self.raw.setContinuousStates(self.states, 2 * BODIES)
@@ -62,7 +62,7 @@ class Statics:
         return self.inertia * [self.rates[BODIES + i] for i in self.free] / self.load
 
     def carried(self, spins, farthest):
-        """The largest part of the loads that both sides carry with planets at one of the `spins`, and the side gears turned up to
+        """Largest fraction of the loads that both sides can carry, with planets at one of the `spins`, and with side gears turned by up to
         `farthest` [rad] against them."""
         def part(spin, angle):
             x = np.zeros(len(self.free))
@@ -73,7 +73,7 @@ class Statics:
         return max(part(spin, angle) for spin in spins for angle in np.linspace(0.0, farthest, 200))
 
     def pressed(self, spin):
-        """Positions with all planets at `spin` [rad] and each side where its teeth carry its load; None if they do not."""
+        """Positions with all planets at `spin` [rad] and each side at the angle where its teeth carry its load; None if they cannot."""
         x = np.zeros(len(self.free))
         x[self.spins] = spin
         for s, sign in zip(SIDES, (1.0, -1.0)):
@@ -93,7 +93,7 @@ class Statics:
         return x
 
     def equilibrium(self, spin, most):
-        """The equilibrium to which all creeps from planets at `spin`, none of them beyond `most` [rad]; None if there is none."""
+        """Equilibrium that creep reaches from planets at `spin`, with none of them beyond `most` [rad]; None if it reaches none."""
         x = self.pressed(spin)
         if x is None:
             return None
@@ -112,7 +112,7 @@ class Statics:
         return x if np.max(np.abs(self.torques(x))) < BALANCED else None
 
     def polished(self, x):
-        """Newton's method from `x`, while it halves the torques."""
+        """Refines `x` by Newton's method, as long as each step halves the torques."""
         torques = self.torques(x)
         for _ in range(20):
             steps = np.where(np.isin(self.free, SEATS), 1e-10, 1e-8)

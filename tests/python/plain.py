@@ -1,7 +1,7 @@
-"""The `tooth` model in plain Python: slow, in SI, written from the equations of docs/inside/theory.md, not from the program.
+"""Model `tooth` in plain Python: slow, in SI, and written from the equations of docs/inside/theory.md instead of the program.
 
-Spherical involute gears, the law of MSC Adams (IMPACT), every planet, both flanks, every pair of teeth, half-shafts.
-Friction and errors of teeth are left out. § names a section of docs/inside/theory.md."""
+It has spherical involute gears, the law of MSC Adams (IMPACT), every planet, both flanks, every pair of teeth, and half-shafts.
+Friction and tooth errors are left out. § names a section of docs/inside/theory.md."""
 
 from dataclasses import dataclass
 from math import acos, asin, atan, atan2, ceil, cos, pi, radians, sin, sqrt, tan
@@ -10,17 +10,17 @@ import theory
 from scipy.optimize import brentq
 
 MATE = {"planet": "side", "side": "planet"}
-SIGMA = (1.0, -1.0)  # of left and right (§3)
+SIGMA = (1.0, -1.0)  # signs of left and right (§3)
 RATIO = theory.PLANET_TEETH / theory.SIDE_TEETH
-# Arc past the end of the path where the gap is ten times the deflection of teeth: no corner touches from there on.
+# Arc past the end of the path at which the gap is ten times the deflection of teeth, so that no corner touches beyond it.
 REACH = 0.1
 
 
 class Gears:
-    """Geometry of the default pair with a backlash [m] (§1). Arcs are those on the unit sphere [rad]."""
+    """Geometry of the default pair with a backlash [m] (§1). Arcs are on the unit sphere [rad]."""
 
     def __init__(self, backlash=theory.BACKLASH):
-        side_addendum = (0.54 + 0.46 * RATIO**2) * theory.MODULE  # Gleason: long and short, together 2 m
+        side_addendum = (0.54 + 0.46 * RATIO**2) * theory.MODULE  # Gleason: long and short, with the sum 2 m
         addendum = {"planet": 2.0 * theory.MODULE - side_addendum, "side": side_addendum}
         self.pitch = {"planet": theory.PLANET_PITCH, "side": theory.SIDE_PITCH}
         self.lever = {gear: sin(angle) * cos(theory.PRESSURE_ANGLE) for gear, angle in self.pitch.items()}  # sin δ_b
@@ -28,7 +28,7 @@ class Gears:
         self.tip = {gear: self.pitch[gear] + atan(addendum[gear] / theory.OUTER_CONE) for gear in MATE}
         self.pitch_arc = {gear: self.arc(gear, self.pitch[gear]) for gear in MATE}
         self.tip_arc = {gear: self.arc(gear, self.tip[gear]) for gear in MATE}
-        # the path of contact is [-end of the side gear, end of the planet], 0 the pitch point
+        # the path of contact is [-end of the side gear, end of the planet], with the pitch point at 0
         self.end = {gear: self.tip_arc[gear] - self.pitch_arc[gear] for gear in MATE}
         self.base_pitch = 2.0 * pi * self.lever["planet"] / theory.PLANET_TEETH
         shift = (addendum["planet"] - addendum["side"]) / 2.0 / theory.MODULE
@@ -38,25 +38,25 @@ class Gears:
         self.play = backlash * cos(theory.PRESSURE_ANGLE) / theory.OUTER_CONE  # b_n
 
     def arc(self, gear, polar):
-        """From the tangent point of the line of action to the flank's point at a polar angle."""
+        """Arc from the tangent point of the line of action to the flank's point at a polar angle."""
         return acos(cos(polar) / cos(self.base[gear]))
 
     def involute(self, gear, polar):
-        """inv(φ): angle about the axis by which the flank has left its foot on the base circle."""
+        """inv(φ): angle of the flank about the axis, relative to its foot on the base circle."""
         arc = self.arc(gear, polar)
         return arc / self.lever[gear] - atan2(tan(arc), self.lever[gear])
 
     def gap(self, gear, past):
-        """Arc by which the mate's flank is clear of the tip corner of `gear`, `past` beyond the end of the path, and
-        its slope (§2). Axes at a right angle: the mate's is x, the gear's z."""
+        """Arc between the mate's flank and the tip corner of `gear` at the distance `past` beyond the end of the path, and its
+        slope (§2). The axes are at a right angle: x is the mate's axis, z the gear's axis."""
         mate, tip = MATE[gear], self.tip[gear]
         azimuths = [atan2(tan(arc), self.lever[gear]) for arc in (self.pitch_arc[gear], self.tip_arc[gear])]
         turned = azimuths[1] - azimuths[0] + past / self.lever[gear]
         x, y, z = sin(tip) * cos(turned), sin(tip) * sin(turned), cos(tip)
         polar = acos(x)
         touch = atan2(y, z) - self.involute(mate, polar) + self.involute(mate, self.pitch[mate])
-        # Corner and flank keep touching, n·(ω₁ × c) = n·(ω₂ × c), with the flank's normal n. About the mate's axis its
-        # moment is sin δ_b anywhere on an involute. Resolved along e_η and e_φ at the corner:
+        # Corner and flank stay in contact, n·(ω₁ × c) = n·(ω₂ × c), with the flank's normal n. Its moment about the mate's
+        # axis is sin δ_b at any point of an involute. Resolved along e_η and e_φ at the corner:
         along, across = self.lever[mate] / sin(polar), sqrt(1.0 - (self.lever[mate] / sin(polar)) ** 2)
         moment = (along * cos(polar) * cos(tip) - across * y) / sin(polar)
         return self.end[gear] + past - self.lever[mate] * touch, 1.0 - moment / self.lever[gear]
@@ -64,31 +64,31 @@ class Gears:
 
 @dataclass
 class Scene:
-    """What is simulated; defaults are the study's straight case."""
+    """Simulated scene; the defaults are the study's straight case."""
 
     carrier_speed: float = radians(2861.0)
-    carrier_torque: float | None = None  # None: the speed is imposed
+    carrier_torque: float | None = None  # None if the speed is imposed
     spin: float = 0.0
     spin_imposed: bool = False
     loads: tuple = (theory.LOAD, theory.LOAD)
     planets: int = theory.PLANETS
     stiffness: float = theory.STIFFNESS
     damping: float = 5e4
-    full_damping: float = 1e-4  # penetration at which it is reached
+    full_damping: float = 1e-4  # penetration at which damping reaches its full value
     backlash: float = theory.BACKLASH
-    carrier_inertia: float = 0.02  # with the planets as they go round with it
+    carrier_inertia: float = 0.02  # including the planets, which move with the carrier
     side_inertia: float = 9e-5
     planet_inertia: float = 2e-5
-    end_inertias: tuple = (0.0, 0.0)  # on the side gears, unless shafts are given
+    end_inertias: tuple = (0.0, 0.0)  # at the side gears, unless shafts are given
     shafts: tuple | None = None  # stiffness of the half-shafts [N·m/rad]
 
 
 @dataclass
 class Mesh:
-    """What one planet and one side gear do to each other."""
+    """Forces between one planet and one side gear."""
 
     approach: float  # of the drive flanks
-    normal: float  # sum of all pairs [N]
+    normal: float  # sum over all pairs [N]
     on_side: float  # torque on the side gear [N·m]
     on_planet: float
 
@@ -101,7 +101,7 @@ class Differential:
     def __init__(self, scene):
         self.scene, self.gears = scene, Gears(scene.backlash)
         gears, azimuth = self.gears, 2.0 * pi / scene.planets
-        # by how far a mesh is ahead of one that stands with a planet's tooth in mid-gap (§3)
+        # distance by which a mesh is ahead of one with a planet's tooth in mid-gap (§3)
         left = [theory.SIDE_TEETH * azimuth * i / (2.0 * pi) % 1.0 * gears.base_pitch for i in range(scene.planets)]
         self.phases = (left, [h + theory.PLANET_TEETH % 2 * gears.base_pitch / 2.0 for h in left])
         shafts = scene.shafts is not None
@@ -111,9 +111,9 @@ class Differential:
         self.angles = [0, 1, *range(5, 5 + scene.planets), *([self.end_at, self.end_at + 1] if shafts else [])]
 
     def pairs(self, approach, rate, travel, travel_rate):
-        """Pairs of one flank that touch, each with its force and what a unit of it does by approach and by travel.
+        """Yields touching pairs of one flank, each with its force and the derivatives of its depth by approach and by travel.
 
-        Yields (number, place: 0 on the path, ±1 a corner, depth, F, ∂d/∂a / R, ∂d/∂x / R); §3."""
+        A pair is (number, place: 0 on the path, ±1 a corner, depth, F, ∂d/∂a / R, ∂d/∂x / R); §3."""
         gears, radius = self.gears, theory.MEAN_CONE
         first = gears.half_tooth * gears.lever["planet"] + travel
         k = ceil((-gears.end["side"] - REACH - first) / gears.base_pitch)
@@ -123,7 +123,7 @@ class Differential:
                 clear, slope = gears.gap("planet", s - gears.end["planet"])
                 place, by_travel = 1, -slope
             elif s - approach < -gears.end["side"]:
-                # the side gear's corner rides on the side gear
+                # the side gear's corner moves with the side gear
                 clear, slope = gears.gap("side", min(approach - s - gears.end["side"], REACH))
                 place, by_approach, by_travel = -1, 1.0 - slope, slope
             depth = radius * (approach - clear)
@@ -139,7 +139,7 @@ class Differential:
         return max(scene.stiffness * depth**theory.EXPONENT + damping * speed, 0.0)
 
     def mesh(self, state, side, planet):
-        """Forces of one mesh: the gradient of its potential, and damping through the same derivatives (§3)."""
+        """Forces of one mesh: the gradient of its potential, and damping with the same derivatives (§3)."""
         gears, radius, sigma = self.gears, theory.MEAN_CONE, SIGMA[side]
         n = self.scene.planets
         travel = sigma * gears.lever["planet"] * state[5 + planet]
@@ -148,7 +148,7 @@ class Differential:
         relative_rate = gears.lever["side"] * (state[2 + side] - state[4]) - travel_rate
         travel += self.phases[side][planet]
         normal = by_relative = by_travel = 0.0
-        for flank in (1.0, -1.0):  # drive, and coast: its mirror image
+        for flank in (1.0, -1.0):  # drive flank, and coast flank as its mirror image
             approach = -flank * relative - gears.play / 2.0
             if approach > 0.0:
                 for _, _, _, force, on_approach, on_travel in self.pairs(
@@ -160,7 +160,7 @@ class Differential:
                     -sigma * gears.lever["planet"] * (by_travel - by_relative))
 
     def meshes(self, state):
-        """Of both sides, each with all planets."""
+        """Meshes of both sides, each with all planets."""
         return [[self.mesh(state, side, planet) for planet in range(self.scene.planets)] for side in (0, 1)]
 
     def rate(self, _time, state):
@@ -187,7 +187,7 @@ class Differential:
         return rate
 
     def rolling(self):
-        """Teeth in mid-gap, speeds by Willis (§12)."""
+        """State with teeth in mid-gap and speeds by Willis (§12)."""
         scene = self.scene
         state = [0.0] * self.size
         state[2:5] = [*theory.side_speeds(scene.carrier_speed, scene.spin), scene.carrier_speed]
@@ -197,8 +197,8 @@ class Differential:
         return state
 
     def equilibrium(self):
-        """Planets as assembled, side gears where their teeth carry the loads; α̇ follows an imposed spin as in statics
-        (§12). Refused where planets would not stay so."""
+        """State with planets as assembled, and side gears at the angle where their teeth carry the loads; α̇ follows an imposed
+        spin as in statics (§12). Fails if planets would not stay in this position."""
         scene = self.scene
 
         def torque(side, angle, spin):
@@ -217,7 +217,7 @@ class Differential:
         for side in (0, 1):
             state[side] = balance(side, 0.0)
             if scene.spin:
-                step = 1e-4  # of the planets' angle; central, and where both pairs are on the path exact
+                step = 1e-4  # angle of the planets; central differences, exact if both pairs are on the path
                 slope = (balance(side, step) - balance(side, -step)) / (2.0 * step)
                 state[2 + side] = scene.carrier_speed + slope * scene.spin
             if scene.shafts is not None:
@@ -230,7 +230,7 @@ class Differential:
         return state
 
     def outputs(self, state):
-        """By the names of the FMU."""
+        """Outputs by the names of the FMU."""
         scene = self.scene
         state = [float(value) for value in state]
         sides = self.meshes(state)

@@ -1,7 +1,7 @@
 """Values of parameters and inputs of a differential that can be built, loaded and turned.
 
-Where the interface allows many decades, because gears of watches and of ships do, a band is given here around the start
-value. Sizes follow the module. Values that are documented to exclude each other are drawn so that they agree."""
+The interface allows many decades, for gears from watches to ships; here, values are within a band around the start value. Sizes are
+proportional to the module. Values that exclude each other by the documentation are drawn consistently."""
 
 import os
 from math import atan2, exp, log, pi, sin
@@ -13,15 +13,15 @@ from sampling import spread
 EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
 ADAPTIVE, FIXED_STEP, RADAU = 1, 2, 3
 MODULE = 4.5e-3
-# starts
+# kinds of start
 EQUILIBRIUM, STEADY_HEAT = 1, 4
 
-# in place of start values of zero
+# typical values of parameters whose start value is zero
 TYPICAL = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1, "bearing_drag.carrier_torque": 0.5,
            "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2,
            "bearing_drag.side_viscous": 1e-3}
 
-# factor below and above the start value, drawn by logarithm
+# factors above and below the start value, within which values are drawn by logarithm
 FACTORS = {
     "material.young_modulus": 3.0, "material.density": 2.0, "inertia.carrier": 10.0, "inertia.side_gear": 30.0,
     "inertia.planet": 30.0, "contact.penetration_depth": 30.0, "contact.impact_speed": 30.0,
@@ -35,7 +35,7 @@ FACTORS = {
     "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
     "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
     "warm_up.gear_specific_heat": 2.0, "warm_up.clutch_capacity": 30.0, "warm_up.washer_capacity": 30.0, "warm_up.case_capacity": 30.0}
-# from zero (a tenth of the draws) up to this many times the start value
+# values from zero (a tenth of the draws) up to this multiple of the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
     "limited_slip.preload": 10.0, "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
@@ -43,7 +43,7 @@ MULTIPLES = {
     "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0,
     **{f"warm_up.{name}": 10.0 for name in ("gears_to_oil", "gears_to_oil_per_speed", "clutch_to_oil", "washers_to_oil", "oil_to_case",
                                            "case_to_ambient", "case_to_ambient_per_speed")}}
-# drawn evenly
+# bands within which values are drawn uniformly
 BANDS = {
     "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5),
     "contact.exponent": (1.0, 2.0), "limited_slip.torque_coefficient": (0.0, 0.5),
@@ -62,15 +62,15 @@ BANDS = {
     "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2), "warm_up.ambient_change": (-20.0, 20.0),
     "warm_up.sump_change": (-20.0, 20.0),
     **{f"warm_up.{node}_above_oil": (-20.0, 20.0) for node in ("gears", "clutch", "washers", "case")},
-    # friction over speed and temperature, points of temperature in order
+    # friction over speed and temperature, with ordered temperature points
     **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
         "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
         "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2),
         "pv_limit": (0.0, 1e6), "beyond_limit": (0.5, 2.0)}.items()},
     "limited_slip.plate_coefficient": (0.05, 0.2), "wheel_brake.lining_coefficient": (0.2, 0.6),
-    # from the start for half; half of the side gears have the mass of their solids
+    # half of the values are "from the start", and half of the side gears have the mass of their solids
     "strength.rate_from": (-0.02, 0.02), "inertia.side_gear_mass": (-1.0, 1.0)}
-# lengths that follow the module, in modules
+# lengths that are proportional to the module, in modules
 IN_MODULES = {
     "geometry.backlash": (0.0, 0.05), "geometry.planet_bore": (0.0, 2.0), "geometry.side_bore": (0.0, 4.0),
     "tooth_errors.planet_runout": (0.0, 0.01), "tooth_errors.side_runout": (0.0, 0.01),
@@ -80,18 +80,18 @@ IN_MODULES = {
     "bearing_drag.carrier_diameter": (30.0, 50.0), "bearing_drag.carrier_width": (5.0, 20.0), "bearing_drag.seal_diameter": (0.0, 12.0),
     "bearing_drag.bearing_diameter": (10.0, 20.0), "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
     "thrust_friction.planet_washer_radius": (1.0, 4.0), "thrust_friction.side_washer_radius": (2.0, 6.0)}
-# torques, relative to those that teeth of this size carry
+# torques relative to the load capacity of teeth of this size
 IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_command": 2.0,
             "left.brake_torque": 1.0, "right.brake_torque": 1.0}
 
 
 def limits(variable):
-    """Least and largest value of a number; of a time, which may be any, those that are drawn."""
+    """Smallest and largest value of a number. For a time, which may have any value, the drawn range."""
     return BANDS[variable.name] if variable.minimum is None else (variable.minimum, variable.maximum)
 
 
 def value(variable, u, scene):
-    """Of one variable, given the values of those it follows."""
+    """Value of one variable, given the values on which it depends."""
     name = variable.name
     start = TYPICAL.get(name, variable.start)
     if variable.kind == "Boolean":
@@ -111,7 +111,7 @@ def value(variable, u, scene):
     elif name in IN_MODULES:
         x = size * (IN_MODULES[name][0] + u * (IN_MODULES[name][1] - IN_MODULES[name][0]))
     elif name in IN_LOADS:
-        # bending of similar teeth goes with the third power of their size; a fifth of the loads is against rotation
+        # bending of similar teeth is proportional to the third power of their size; a fifth of the loads acts against rotation
         x = IN_LOADS[name] * 1200.0 * (size / MODULE) ** 3 * (u - 0.2)
     else:
         x = spread(u, low, high, start)
@@ -119,7 +119,7 @@ def value(variable, u, scene):
 
 
 def values(variables, shares):
-    """A scene: values of all variables by name."""
+    """Scene with values of all variables by name."""
     scene = {"geometry.module": MODULE * 4.0 ** (2.0 * shares["geometry.module"] - 1.0)}
     for variable in variables:
         if variable.name not in scene:
@@ -132,7 +132,7 @@ def values(variables, shares):
 
 
 def gears(scene, u):
-    """Teeth that mesh, planets that fit in between, faces that leave a cone."""
+    """Sets teeth that mesh, planets that fit in between, and faces within the cone."""
     planet = 9 + int(u["geometry.planet_teeth"] * 12)
     side = planet + int(u["geometry.side_teeth"] * 14)
     fitting = [n for n in (2, 3, 4) if 2 * side % n == 0]
@@ -147,29 +147,29 @@ def gears(scene, u):
         addendum = 0.7 + 0.3 * u[f"geometry.{gear}_addendum"]
         scene[f"geometry.{gear}_addendum"] = addendum
         scene[f"geometry.{mate}_dedendum"] = addendum + 0.15 + 0.2 * u[f"geometry.{mate}_dedendum"]
-    # inertia of similar bodies follows the fifth power of size
+    # inertia of similar bodies is proportional to the fifth power of their size
     growth = (scene["geometry.module"] / MODULE) ** 5
     for name in ("inertia.carrier", "inertia.side_gear", "inertia.planet"):
         scene[name] *= growth
-    # ends of half-shafts: none for a tenth, else those of wheels, so that unequal loads do not spin light gears up
+    # a tenth of the half-shafts has no end inertia; the others have that of wheels, so that unequal loads do not accelerate light gears
     for name in ("inertia.left_end", "inertia.right_end"):
         scene[name] = 0.0 if u[name] < 0.1 else growth * 10.0 ** (-1.5 + 2.0 * u[name])
 
 
 def contact(scene, u):
-    """A stiffness that lets a tooth of this size bend by 0.01 to 1 % of the module under its design load."""
+    """Sets a stiffness at which a tooth of this size bends by 0.01 to 1 % of the module under its design load."""
     force = 16e3 * (scene["geometry.module"] / MODULE) ** 2
     exponent = 1.5 if scene["contact.stiffness_from_hertz"] else scene["contact.exponent"]
     deflection = scene["geometry.module"] * 10.0 ** (-4.0 + 2.0 * u["contact.stiffness"])
     scene["contact.exponent"] = exponent
     scene["contact.stiffness"] = force / deflection**exponent
-    # mostly the default method; the last one keeps the scenes that the seeds were chosen for
+    # mostly the default method; the last entry keeps the scenes for which the seeds were chosen
     scene["solver.method"] = ([ADAPTIVE] * 8 + [FIXED_STEP, RADAU, ADAPTIVE])[int(11 * u["solver.method"])]
     scene["solver.relative_tolerance"] = 10.0 ** (-7.0 + 3.0 * u["solver.relative_tolerance"])
 
 
 def drives(scene, u):
-    """At most two imposed speeds, and consistent speeds at the start."""
+    """Sets at most two imposed speeds, and consistent speeds at the start."""
     choices = [{"carrier"}, {"carrier", "spin"}, set(), {"left"}, {"right", "carrier"}, {"left", "right"}, {"spin"}]
     imposed = choices[int(u["scene.carrier_drive"] * len(choices))]
     scene["scene.carrier_drive"] = 1 if "carrier" in imposed else TORQUE_CARRIER
@@ -179,18 +179,18 @@ def drives(scene, u):
 
 
 def effects(scene, u):
-    """Effects only with levels of contact that they work with."""
+    """Sets effects, only with levels of contact that accept them."""
     gear_contact = [IDEAL, LUMPED, TOOTH, TOOTH, TOOTH][int(u["scene.gear_contact"] * 5)]
     scene["scene.gear_contact"] = gear_contact
     for name in u:
-        # one or two effects at a time, so that a failure shows its cause
+        # one or two effects at a time, so that the cause of a failure is visible
         if name.startswith("effects.") and name not in ("effects.backlash", "effects.corner_contact"):
             scene[name] = u[name] < 0.15
     scene["effects.corner_contact"] = u["effects.corner_contact"] < 0.95
     level = {IDEAL: "ideal", LUMPED: "lumped", TOOTH: "tooth"}[gear_contact]
     known = effects_list.effects(os.environ["FMU"])
     scene.update({effect.switch: False for effect in known if effect.switch and level not in effect.contact})
-    # steady heat is that of scenes that warm up
+    # steady heat needs the effect warm_up
     if scene["scene.start"] == STEADY_HEAT and not scene["effects.warm_up"]:
         scene["scene.start"] = EQUILIBRIUM
     if gear_contact == IDEAL:

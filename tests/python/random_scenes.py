@@ -1,8 +1,8 @@
 """Random scenes: Latin hypercubes over all parameters and inputs of the FMU.
 
-`wild` takes every value from its whole range, so that few values agree. `plausible` stays near scenes that
-can be built and obeys the documented rules of combination, so that most of them run. `bold` is plausible but for a few
-values from their whole ranges: it passes the first checks and reaches the others."""
+`wild` takes every value from its whole range, so that few values are consistent. `plausible` stays near scenes that can be
+built and follows the documented rules of combination, so that most of them run. `bold` is plausible except for a few values
+from their whole ranges: it passes the first checks and reaches the others."""
 
 from zlib import crc32
 
@@ -11,18 +11,18 @@ import plausible_scenes
 from sampling import latin, spread
 
 KINDS = ("wild", "bold", "plausible")
-# of a run [s]: some blows, some teeth passing; less where values from the ends of their ranges make steps expensive
+# duration of a run [s], with some impacts and some teeth passing; shorter if values at the ends of their ranges need many steps
 DURATION = {"wild": (0.001, 0.003), "bold": (0.001, 0.003), "plausible": (0.01, 0.03)}
 # share of values that a bold scene takes from their whole ranges
 BOLD = 0.03
 
 
-# tests of random scenes expect that inputs are held through each step; ramps have tests of their own
+# tests of random scenes expect that inputs are held through each step; other tests cover ramps
 HELD = "solver.input_ramp"
 
 
 def free_variables(fmu):
-    """All parameters and inputs with which inputs are held."""
+    """All parameters and inputs, except the one that would turn held inputs into ramps."""
     return [v for v in fmu.variables.values() if v.causality in ("parameter", "input") and v.name != HELD]
 
 
@@ -45,8 +45,8 @@ def schedule(random, duration, inputs, draw):
 
 
 def scenes(fmu, kind, count, seed, first=0, last=None):
-    """Scenes `first` to `last` of the `count` of a kind: {"start": values by name, "steps": [(size, inputs)]}. Each variable has a
-    generator of its own, so that another variable changes no draw of this one."""
+    """Yields scenes `first` to `last` of the `count` of a kind: {"start": values by name, "steps": [(size, inputs)]}. Each variable has
+    a separate generator, so that an added variable does not change the draws of the others."""
     variables, place = free_variables(fmu), [seed, KINDS.index(kind)]
     inputs = [v for v in variables if v.causality == "input"]
     columns = {v.name: latin(count, np.random.default_rng([*place, crc32(v.name.encode())])).tolist() for v in variables}

@@ -1,4 +1,4 @@
-"""Reads a report as a browser does: which figures it has, what they show, and what it would load."""
+"""Reads a report like a browser: its figures, their contents, and the resources that it would load."""
 
 import re
 from html.parser import HTMLParser
@@ -6,13 +6,13 @@ from html.parser import HTMLParser
 from bevel_differential.report.svg_style import MARK
 
 VOID = {"meta", "link", "br", "hr", "img", "input"}
-# letters of a path in SVG that draw something
+# commands of a path in SVG that draw something
 DRAWN = re.compile(r"[LCQ]")
 
 
 class ReportPage(HTMLParser):
-    """Attributes: `figures`: by name the marks of data in it, each with its drawn pieces; `captions`, by name; `sections`: by name
-    their text; `references`: all that is referred to."""
+    """Contents of a report. Attributes: `figures`: marks of data by name of the figure, each with the number of drawn pieces; `captions`
+    by name; `sections`: texts by name; `references`: all references."""
 
     def __init__(self, text):
         super().__init__()

@@ -4,19 +4,19 @@ from math import copysign, exp, log
 
 # ranges that span more than this are drawn by their logarithm
 DECADES = 100.0
-# where a range begins at zero, its logarithm begins this much below the start value, or below the end without one
+# if a range begins at zero, its logarithm begins this much below the start value, or below the end if there is no start value
 BELOW_START, BELOW_END = 1e-3, 1e-9
-# share of draws that are the zero at which a logarithm cannot begin
+# share of draws that are zero, where a logarithm cannot begin
 AT_ZERO = 0.1
 
 
 def latin(count, random):
-    """A dimension of a Latin hypercube: one value in each of `count` equal parts of [0, 1), in any order."""
+    """Dimension of a Latin hypercube: one value in each of `count` equal parts of [0, 1), in random order."""
     return (random.permutation(count) + random.random(count)) / count
 
 
 def spread(u, low, high, start):
-    """The value at the share u of a range: by logarithm where it spans decades, to both sides where it has both."""
+    """Value at the fraction u of a range, by logarithm if the range spans decades, and with both signs if it has both."""
     start = abs(start)
     if low < 0.0 and high > DECADES * (start or high / DECADES):
         side = 2.0 * u - 1.0

@@ -1,5 +1,5 @@
-"""Buckingham's theorem: where lengths, masses and times of a scene are multiplied by three factors, each output is multiplied by what
-its unit says.
+"""Buckingham's theorem: if lengths, masses and times of a scene are multiplied by three factors, each output is multiplied by a factor
+that follows from its unit.
 
 Dimensions are read from the units. A scene is {"start": values by name, "steps": [(size, inputs)]} as in random_scenes.py."""
 
@@ -12,18 +12,18 @@ from bevel_differential import DifferentialError
 SYMBOLS = {"1": (0, 0, 0), "rad": (0, 0, 0), "m": (1, 0, 0), "kg": (0, 1, 0), "s": (0, 0, 1), "Hz": (0, 0, -1), "N": (1, 1, -2),
            "Pa": (-1, 1, -2), "J": (2, 1, -2), "W": (2, 1, -3), "K": (0, 0, 0)}
 FACTOR = re.compile(r"([A-Za-z]+|1)(?:\^?(\d+(?:\.\d+)?))?")
-# its unit is N/m^e with the exponent of the law
+# its unit is N/m^e with the exponent e of the law
 STIFFNESS, EXPONENT = "contact.stiffness", "contact.exponent"
 PAIR = re.compile(r"(mesh\.pair)\[\d\]\.(.*)")
-# what is the small difference of large things is judged by these: accelerations by the forces, slow turning by the speeds, energy by
-# the power between two points
+# small differences of large quantities are compared with these scales: accelerations with the forces, slow rotation with the speeds,
+# energy with the power between two points
 NATURAL = {"rad/s2": lambda of, _: of["N"] * of["m"] / of["kg.m2"], "m/s2": lambda of, _: of["N"] / of["kg"],
            "Hz": lambda of, _: of["rad/s"], "J": lambda of, span: of["W"] * span}
 INERTIAS = ("inertia.side_gear", "inertia.planet")
 RESIDUAL = "solver.energy_residual"
-# torque below which a ratio of torques is one of roundings, of the largest torque of the scene
+# fraction of the scene's largest torque below which a ratio of torques only shows rounding errors
 ROUNDING = 1e-9
-# sum of both torques below which the FMU gives no ratio of them, N·m
+# sum of both torques below which the FMU gives no ratio, N·m
 LEAST = 1e-3
 RATIOS, TORQUES = ("torque_bias_ratio", "locking_value"), ("left.shaft_torque", "right.shaft_torque")
 
@@ -63,7 +63,7 @@ class Scale:
 
 
 def record(fmu, scene, names):
-    """Values by point and name as far as the scene runs, and why it ends."""
+    """Values by point and name for as long as the scene runs, and the reason why it ends early."""
     with fmu.open() as opened:
         rows = []
         try:
@@ -80,13 +80,14 @@ def record(fmu, scene, names):
 
 
 def calculated(fmu):
-    """Names of all that the FMU calculates."""
+    """Names of all variables that the FMU calculates."""
     return [name for name, v in fmu.variables.items() if v.causality in ("output", "local", "calculatedParameter")]
 
 
 def differences(fmu, scene, factors):
-    """(largest difference by name, points): of all that is calculated in a scene and in its image, which is scaled back, over the
-    largest value of the same unit in the scene, or of its own where it has no unit. That one alone is refused or ends is an error."""
+    """(largest difference by name, points) between a scene and its image, which is scaled back, for all calculated variables. A difference
+    is relative to the largest value of the same unit in the scene, or of the variable itself without a unit. Fails if only one of
+    both scenes is refused or ends early."""
     names = calculated(fmu)
     scale = Scale(fmu, factors, scene["start"])
     one, end = record(fmu, scene, names)
@@ -117,10 +118,10 @@ def differences(fmu, scene, factors):
         whole = largest[unit] if unit not in (None, "1") else size[i]
         off = np.abs(one[:, i] - back[:, i])
         if unit == "J" and name != RESIDUAL:
-            # the balance says how well heat is known
+            # the energy residual limits the accuracy of heat
             off = np.maximum(off - residual, 0.0)
         if name in RATIOS:
-            # of torques that are alike the difference is one of roundings
+            # the difference of equal torques is a rounding error
             whole = max(whole, 1.0)
             off = np.where(has_ratio & (torque > ROUNDING * largest["N.m"]), off, 0.0)
         found[name] = float(np.max(off)) / whole if whole > 0.0 else float(np.max(off))
@@ -128,7 +129,7 @@ def differences(fmu, scene, factors):
 
 
 def ordered(names, rows):
-    """The same with the pairs of a mesh in the order of their teeth: pairs on opposite flanks at one height have no other."""
+    """Rows with the pairs of a mesh in the order of their teeth, because pairs on opposite flanks at one height have no other order."""
     groups = {}
     for i, name in enumerate(names):
         if found := PAIR.fullmatch(name):

@@ -1,9 +1,9 @@
-"""Attempts at scenes: each is refused with a clear error, or runs, and what must hold of either is checked here.
+"""Attempts at scenes: each is refused with a clear error, or runs. Both outcomes are checked here.
 
-`Attempts` runs them in a separate process, so that a crash or a hang is reported with the scene that caused it. Replay one:
+`Attempts` runs them in a separate process, so that a crash or a hang is reported with its scene. To replay one:
 
     export FMU=target/fmu/BevelDifferential.fmu PYTHONPATH=python/src:fmu-build/python
-    target/python/bin/python tests/python/scene_runs.py replay 'the scene as it was printed'
+        target/python/bin/python tests/python/scene_runs.py replay 'the printed scene'
 """
 
 import ast
@@ -24,27 +24,27 @@ from momentum import Momentum
 from two_places import Scene, compared, unbalanced
 
 OK, DISCARD, ERROR = 0, 2, 3
-# attempts at steps that the FMU grants a communication step of up to a second before it discards it
+# attempts at steps after which the FMU discards a communication step of up to a second
 ATTEMPTS = 2_000_000
-# Energy residual over the energy turned over, in tolerances: the error of a speed is one at most in each step, that of
-# its energy two, and fifty blows may err to the same side. The method of fixed steps has no error control. Without tip
-# corners a bent pair leaves its path with its energy, which no output accounts for.
+# Energy residual over the energy turned over, in tolerances: in each step, the error of a speed is at most one, that of its
+# energy two, and the errors of fifty impacts may have the same sign. The method of fixed steps has no error control. Without
+# tip corners, a bent pair leaves its path with its energy, which no output contains.
 IMBALANCE = 100.0
-# heat below zero, over the energy turned over
+# largest negative heat over the energy turned over
 COLD = 1e-3
 FIXED_STEP = 2
-# energy below which a scene is at rest [J]
+# energy below which a scene counts as at rest [J]
 LEAST = 1e-9
-# a scene longer than this is a hang [s]: longer than all attempts take, unless several effects are seen slice by slice
+# duration that counts as a hang [s]: longer than any attempt, unless several effects are calculated slice by slice
 PATIENCE = 300.0
 
 
 class StatusInstance(Instance):
-    """An instance whose calls return their status and do not raise."""
+    """Instance whose calls return their status instead of raising errors."""
 
     def __init__(self, fmu):
         super().__init__(fmu)
-        # errors alone
+        # only errors are logged
         self.raw.setDebugLogging(False, [])
         self.readable = [name for name, variable in fmu.variables.items() if variable.causality == "output"]
 
@@ -53,7 +53,7 @@ class StatusInstance(Instance):
             function(*arguments)
         except (DifferentialError, FMICallException) as failure:
             if failure.status is None:
-                # refused by the package, and not by the FMU
+                # refused by the package instead of the FMU
                 raise
             return failure.status
         return OK
@@ -74,14 +74,14 @@ class StatusInstance(Instance):
         return dict(zip(self.readable, self.read(self.readable)))
 
     def names_a_variable(self, since=0):
-        """Whether what was logged names a variable that there is."""
+        """True if the log names an existing variable."""
         words = " ".join(self.messages[since:]).replace(",", " ").replace(":", " ").replace("\"", " ").replace("`", " ")
         return any(word.strip(".;()") in self.fmu.variables for word in words.split())
 
 
 class Attempt:
-    """One scene: `verdict` is refused, ran, discarded or failed; `problems` says what did not hold. `is_plausible`: outputs that show
-    the same thing at two places are compared."""
+    """One scene. `verdict`: refused, ran, discarded or failed; `problems`: violated requirements. `is_plausible`: true if outputs that
+    show the same quantity in two ways are compared."""
 
     def __init__(self, fmu, scene, is_plausible=False):
         self.scene, self.problems, self.verdict = scene, [], "ran"
@@ -110,7 +110,7 @@ class Attempt:
             self.problems.append(what)
 
     def start(self):
-        """Whether the scene was accepted. If not: by an error in time, and with a message that names a variable."""
+        """Returns true if the scene was accepted. A refusal must be an error with a message that names a variable."""
         one = self.instance
         for name, value in self.scene["start"].items():
             status = one.set(name, value)
@@ -168,12 +168,12 @@ class Attempt:
         if start["solver.method"] != FIXED_STEP and start["effects.corner_contact"]:
             limit = IMBALANCE * start["solver.relative_tolerance"]
             self.demand(self.imbalance <= limit, f"energy residual of {self.imbalance:.2e} of what was turned over")
-            # what stuck springs took back may for a moment be more than what friction gave
+            # springs in stiction may briefly return more energy than friction has received
             made = [name for name, value in heat.items() if value < -COLD * self.turned_over]
             self.demand(not made, f"energy made out of heat: {made}")
 
     def momentum(self):
-        """The balance of the angular momentum, where gears have solids that the tests can weigh."""
+        """Balance of the angular momentum, or None if the gears have no solids that the tests can weigh."""
         try:
             return Momentum(self.instance)
         except DifferentialError:
@@ -200,7 +200,7 @@ class Attempt:
         self.demand(not wrong, f"not finite {when}: {wrong}")
 
     def fresh_again(self):
-        """After fmi2Reset the instance is as new: the study's straight case."""
+        """Checks that the instance is as new after fmi2Reset, by the study's straight case."""
         one = self.instance
         done = one.reset() == OK and one.initialise() == OK and one.step(1e-3) == OK
         straight = done and one.outputs()["left.speed"] == one.outputs()["right.speed"]
@@ -212,7 +212,7 @@ def turned(outputs):
 
 
 def kinetic(scene, outputs):
-    """Kinetic energy of the bodies whose inertia is given."""
+    """Kinetic energy of the bodies with given inertia."""
     start = scene["start"]
     bodies = [("inertia.carrier", "carrier.speed"), ("inertia.left_end", "left.speed"),
               ("inertia.right_end", "right.speed"), ("inertia.side_gear", "left.speed"),
@@ -221,7 +221,7 @@ def kinetic(scene, outputs):
 
 
 def work(file, kind, count, seed, first):
-    """The worker: attempts scenes from `first` on and reports begin and end of each."""
+    """Runs in the worker process: attempts scenes from `first` on, and reports start and end of each."""
     fmu = Fmu.of(file)
     for index, scene in random_scenes.scenes(fmu, kind, count, seed, first):
         print(json.dumps({"index": index}), flush=True)
@@ -235,7 +235,7 @@ def listen(stream, lines):
 
 
 def attempts(file, kind, count, seed):
-    """Records of all scenes of a kind, from processes that may crash or hang."""
+    """Yields records of all scenes of a kind, from processes that may crash or hang."""
     first = 0
     while first < count:
         arguments = [str(file), kind, str(count), str(seed), str(first)]

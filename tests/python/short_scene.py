@@ -1,6 +1,6 @@
-"""A scene file whose start and run take a few milliseconds, for commands that run many designs."""
+"""Scene file whose start and run take a few milliseconds, for commands that run many designs."""
 
-# a given stiffness saves nine tenths of a start, and changes neither mass nor stress
+# a given stiffness saves nine tenths of the start-up time, and does not change mass and stress
 SCENE = """description = "one spring per mesh, loaded"
 stop_time = 0.001
 step = 0.001

@@ -1,4 +1,4 @@
-"""Solids of STEP files as Open CASCADE reads them: parts, masses, faces. What is imported here comes with the extra `cad` alone."""
+"""Solids of STEP files, read by Open CASCADE: parts, masses, faces. The imports of this module need the extra `cad`."""
 
 import io
 
@@ -6,7 +6,7 @@ import numpy as np
 
 
 def read_step(data):
-    """The shape in a file."""
+    """Shape in a file."""
     from OCP.IFSelect import IFSelect_RetDone
     from OCP.STEPControl import STEPControl_Reader
 
@@ -17,7 +17,7 @@ def read_step(data):
 
 
 def parts_of(shape, kind):
-    """Its solids, shells or faces, whatever `kind` is."""
+    """Yields the solids, shells or faces of a shape, according to `kind`."""
     from OCP.TopAbs import TopAbs_ShapeEnum
     from OCP.TopExp import TopExp_Explorer
 
@@ -40,7 +40,7 @@ def weighed(solid):
 
 
 def ruled_faces(solid, each):
-    """For every spline surface whose lines pass through the apex, a grid of `each` by `each` points on it."""
+    """Yields a grid of `each` by `each` points for every spline surface whose lines pass through the apex."""
     from OCP.BRep import BRep_Tool
     from OCP.BRepAdaptor import BRepAdaptor_Surface
     from OCP.GeomAbs import GeomAbs_SurfaceType
@@ -63,7 +63,7 @@ def ruled_faces(solid, each):
 
 
 def centre_of(solid):
-    """Its centre of mass [mm]."""
+    """Centre of mass of a solid [mm]."""
     from OCP.BRepGProp import BRepGProp
     from OCP.GProp import GProp_GProps
 
@@ -73,7 +73,7 @@ def centre_of(solid):
 
 
 def near_faces(one, other, within):
-    """The faces of two solids that may be closer than `within` to the other solid, as two shapes: those whose boxes are."""
+    """Faces of two solids that may be closer than `within` to the other solid, by their bounding boxes, as two shapes."""
     from OCP.Bnd import Bnd_Box
     from OCP.BRep import BRep_Builder
     from OCP.BRepBndLib import BRepBndLib

@@ -1,7 +1,7 @@
 """Angles are the integrals of speeds, over every communication step of random scenes, with every method.
 
-Scenes with teeth are run again with communication points at round times, as hosts have them, and a tooth that breaks at one of
-them."""
+Scenes with teeth are run again with communication points at round times, as used by hosts, and with a tooth that breaks at
+one of them."""
 
 import numpy as np
 import plausible_scenes
@@ -13,16 +13,16 @@ from integrals import Walk, motions
 SEED, SCENES = 11, 8
 METHODS = ["adaptive", "fixed_step", "radau"]
 TOLERANCE = 1e-8
-# factor by which scenes are shorter with fixed steps, which do not grow
+# factor by which scenes with fixed steps are shorter, because these steps do not grow
 SHORT = {"fixed_step": 0.1}
 FIXED = 1e-6
-# points of a scene at round times, and their distances [s], of which each scene has two
+# number of points of a scene at round times, and their distances [s]; each scene has two of these distances
 POINTS, ROUND = 12, [1e-4, 2e-4, 5e-4, 1e-3]
 TOOTH, EQUILIBRIUM = 3, 1
 
 
 def scenes(fmu, method):
-    """(index, start, steps) with a method: scenes that are plausible, and those with teeth again, at round times, with one that breaks."""
+    """Yields (index, start, steps) for a method: plausible scenes, then those with teeth at round times, with a tooth that breaks."""
     number = 1 + METHODS.index(method)
     short = SHORT.get(method, 1.0)
     for index, scene in random_scenes.scenes(fmu, "plausible", SCENES * len(METHODS), SEED):
@@ -30,7 +30,7 @@ def scenes(fmu, method):
             continue
         start = scene["start"] | {"solver.method": number, "solver.relative_tolerance": TOLERANCE, "solver.fixed_step": FIXED}
         if start["scene.start"] == plausible_scenes.STEADY_HEAT:
-            # at this tolerance the heat's cycles take more steps than are granted, and the start is refused after seconds
+            # at this tolerance the heat cycles exceed the maximum number of steps, so the start would be refused after seconds
             start["scene.start"] = EQUILIBRIUM
         yield index, start, [(short * size, inputs) for size, inputs in scene["steps"]]
         random = np.random.default_rng([SEED, index])
@@ -57,7 +57,7 @@ def test_angles_are_the_integrals_of_speeds_over_every_communication_step(fmu, m
                 try:
                     wrong = walk.step(size)
                 except DifferentialError:
-                    # the step was not completed, and is tried in test_random_scenes.py
+                    # the step failed; test_random_scenes.py covers failures
                     break
                 steps += 1
                 assert not wrong, f"scene {index}, step {k} from {begin} s by {size} s: {wrong}"

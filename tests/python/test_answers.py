@@ -1,4 +1,4 @@
-"""Questions to the library of answers: objects, problems as values, work that is stopped, threads."""
+"""Questions to the library of answers: objects, problems as values, interrupted work, threads."""
 
 import signal
 import subprocess
@@ -16,7 +16,7 @@ from bevel_differential.answers import about, ask
 from bevel_differential.command import main
 from bevel_differential.want import Statistic, figures
 
-# long enough to be stopped in the middle: seconds of the richest model
+# long enough for an interrupt: the richest model needs seconds
 LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
@@ -26,7 +26,7 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
     assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
     assert found.cheaper.run.price < found.use.run.price < found.reference.price
     assert "half_shaft" in found.needed and found.needed["half_shaft"] > 0.01
-    # the setting, run through the FMU, has the figure that was promised
+    # the setting, run through the FMU, has the promised figure
     (tmp_path / "chosen.toml").write_text(found.answer["file"], encoding="utf-8")
     with Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
         peak = chosen.run(["left.shaft_torque"])["left.shaft_torque"][1:].max()
@@ -38,9 +38,9 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
 
 
 @pytest.mark.parametrize("within", ["1%", "10%"])
-def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_path, monkeypatch, capsys):
+def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    # the torque does not need what warms up, so the table feeds nothing
+    # the torque does not need the effect warm_up, so the table has no effect
     idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
     (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
     files = ["--ssv=chosen.ssv", "--python=chosen.py"]
@@ -50,7 +50,7 @@ def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_pa
     assert main(["plan", "chosen.toml"]) == 0
     assert "changes nothing" not in capsys.readouterr().err
     written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
-    # a tenth needs no friction of washers
+    # an accuracy of 10 % needs no washer friction
     assert all(("thrust_friction.radii_from_geometry" in text) == (within == "1%") for text in written.values())
     assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["py"]
 
@@ -58,12 +58,12 @@ def test_a_scene_that_is_written_has_nothing_that_changes_nothing(within, tmp_pa
 def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):
     with Scene.load("limited_slip", fmu=fmu_file) as scene:
         told = [ask({"ask": "plan", "of": about(what)})["text"] for what in (scene, "limited_slip")]
-    # file and measured time differ
+    # paths and measured times differ
     lines = [[line for line in text.splitlines() if not line.startswith(("  file", "  cost  "))] for text in told]
     assert lines[0] == lines[1] and len(lines[0]) > 10
 
 
-def test_what_is_wrong_comes_as_values():
+def test_problems_are_returned_as_values():
     with pytest.raises(DifferentialError) as caught:
         accuracy("limited_slip", within="1%", set={"geometry.module": "4.5 kg", "geometry.face_widht": 0.02})
     assert caught.value.kind == "use"
@@ -94,7 +94,7 @@ def test_ctrl_c_stops_the_command():
     assert command.returncode == 130 and "stopped" in said and "Traceback" not in said and time.monotonic() - begin < 10.0
 
 
-def test_threads_get_answers_of_their_own():
+def test_threads_get_separate_answers():
     def module(size):
         text = ask({"ask": "geometry", "set": [f"geometry.module={size} mm"], "facets": 4})["files"]["dimensions.txt"]
         return f"geometry.module = {size} mm" in text
@@ -104,7 +104,7 @@ def test_threads_get_answers_of_their_own():
 
 
 def test_figures_are_those_of_closed_forms():
-    # unequal steps over whole periods of a sine on a mean
+    # unequal steps over whole periods of a sine with a mean
     phase = np.sort(np.concatenate([np.linspace(0.0, 6.0 * np.pi, 6001), np.linspace(0.0, 2.0 * np.pi, 777)[1:-1]]))
     times, values = phase / 10.0, 2.0 + 0.5 * np.sin(phase)
     found = figures(["mean", "rms", "min", "max", "peak_to_peak", "final", "mesh_order_1", "mesh_order_2"], times, values, phase)
@@ -124,7 +124,7 @@ def test_fixed_steps_of_a_scene_are_kept_and_written(fmu_file, tmp_path, monkeyp
     found = accuracy("turn.toml", **question)
     step = found.use.set["solver.fixed_step"]
     assert found.use.set["solver.method"] == "fixed_step" and f"fixed steps of {step:.0e}".replace("e-0", "e-") in found.use.run.setting
-    # neither the next longer steps nor the model are as good by chance
+    # neither the next longer steps nor the model reach this accuracy by chance
     tried = {run.setting: run.error for run in found.runs if "fixed steps" in run.setting}
     assert found.use.run.error <= 0.01 and len(tried) > 2
     files = ["--write=chosen.toml", "--ssv=chosen.ssv", "--python=chosen.py", "--plot=front.png"]
@@ -132,7 +132,7 @@ def test_fixed_steps_of_a_scene_are_kept_and_written(fmu_file, tmp_path, monkeyp
     assert "fixed steps" in capsys.readouterr().out
     written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     assert "solver.fixed_step" in written["ssv"] and "solver.fixed_step" in written["py"]
-    # the FMU gives the figure of the richest model in these steps, and takes them
+    # with these steps, the FMU gives the figure of the richest model, and uses the steps
     with Scene.load("chosen.toml") as chosen, Scene.load("turn.toml") as tight:
         assert (chosen.value("solver.fixed_step"), chosen.value("solver.relative_tolerance")) == (step, 1e-6)
         record = chosen.run(["left.shaft_torque", "solver.steps", "solver.rejected"])

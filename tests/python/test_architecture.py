@@ -1,5 +1,5 @@
-"""Names in docs/inside/architecture.md and docs/inside/theory.md exist: files, folders, types, constants, functions, variables, programs
-of tests."""
+"""Names in docs/inside/architecture.md and docs/inside/theory.md exist: files, folders, types, constants, functions, variables, test
+programs."""
 
 import re
 from pathlib import Path
@@ -13,14 +13,14 @@ FILES = {file.relative_to(ROOT).as_posix(): file for folder in FOLDERS for file 
          if file.suffix in SOURCES and file != Path(__file__) and not {"target", "node_modules"} & set(file.parts)}
 TEXT = "\n".join(file.read_text(encoding="utf-8") for path, file in FILES.items() if not path.endswith(".csv"))
 PATH = re.compile(r"[\w./*-]+")
-# the standard library's
+# names of the standard library
 STANDARD = {"Arc", "Copy"}
-# a word of a span by its form, and what defines it
+# form of a word in a span, and the pattern of its definition
 DEFINITIONS = [(r"[A-Z][A-Z0-9_]*", r"const {}\b|static {}\b"), (r"[A-Z]\w+", r"(?:struct|enum|trait|type|macro_rules!) {}\b")]
 
 
 def spans(page):
-    """Code spans outside blocks of code, once each."""
+    """Code spans outside code blocks, each once."""
     prose = re.sub(r"^```.*?^```|^    .*?$", "", (ROOT / "docs" / page).read_text(encoding="utf-8"), flags=re.M | re.S)
     return sorted({" ".join(span.split()) for span in re.findall(r"`([^`]+)`", prose)})
 
@@ -29,7 +29,7 @@ CASES = [(page, span) for page in ("inside/architecture.md", "inside/theory.md")
 
 
 def on_disk(path):
-    """A path from the top, or the end of one, with or without the ending of a file; `*` stands for anything."""
+    """True if a path from the root, or the end of a path, exists, with or without a file ending; `*` matches anything."""
     plain = path.rstrip("/")
     if (ROOT / plain).exists():
         return True
@@ -47,9 +47,9 @@ def is_defined(word):
 
 
 def is_there(span):
-    span = re.sub(r"^target/", "", span)  # folders that commands make have the names of the commands
+    span = re.sub(r"^target/", "", span)  # folders created by commands are named after the commands
     if span.startswith("cargo "):
-        # programs of tests, and modules in them
+        # test programs, and modules in them
         program, module = (re.search(pattern, span) for pattern in (r"--test (\w+)", r" (\w+)::"))
         return (not program or on_disk(f"tests/{program[1]}")) and (not module or on_disk(f"{program[1]}/{module[1]}"))
     if PATH.fullmatch(span) and ("/" in span or re.search(r"\.(rs|py|toml|h|csv)$", span)):
@@ -61,13 +61,13 @@ def is_there(span):
 
 
 @pytest.mark.parametrize(("page", "span"), CASES)
-def test_what_the_pages_name_is_in_the_repository(page, span):
+def test_files_named_on_the_pages_are_in_the_repository(page, span):
     assert is_there(span), f"docs/{page}: `{span}` is nowhere"
 
 
 @pytest.mark.parametrize("name", ["src/variables/parameters.rs", "assembly/bodies.rs", "NO_SUCH_CONSTANT", "NoSuchType", "no.such_variable",
                                   "cargo test --release --test tooth_finite_elements"])
-def test_a_name_of_nothing_is_found_out(name):
+def test_an_unknown_name_is_detected(name):
     assert not is_there(name)
 
 
@@ -77,10 +77,10 @@ def test_numbers_of_the_page_are_those_of_the_source():
     def constant(file, name):
         return re.search(rf"const {name}: usize = (\d+);", FILES[file].read_text(encoding="utf-8"))[1]
 
-    sizes = {name: constant("src/model/dynamics/shape.rs", name) for name in ("LEAST", "DIFFERENT", "WITH_ENDS", "LARGEST")}
-    assert f"There are {constant('src/model/assembly/cache.rs', 'PLACES')} places for each kind" in page
-    assert f"| plain teeth | {sizes['LEAST']}, {sizes['DIFFERENT']} |" in page
-    assert f"two planets that differ | {sizes['DIFFERENT']} |" in page
-    assert f"half-shafts that twist | {sizes['WITH_ENDS']} |" in page
-    assert f"| teeth, `Largest` | up to {sizes['LARGEST']} |" in page
-    assert f"| gears without teeth | up to {sizes['WITH_ENDS']} |" in page
+    sizes = {name: constant("src/model/dynamics/shape.rs", name) for name in ("PLAIN_SIZE", "TWO_GROUPS_SIZE", "ENDS_SIZE", "MAX_SIZE")}
+    assert f"There are {constant('src/model/assembly/cache.rs', 'ENTRIES')} entries for each kind" in page
+    assert f"| plain teeth | {sizes['PLAIN_SIZE']}, {sizes['TWO_GROUPS_SIZE']} |" in page
+    assert f"two planets that differ | {sizes['TWO_GROUPS_SIZE']} |" in page
+    assert f"half-shafts that twist | {sizes['ENDS_SIZE']} |" in page
+    assert f"| teeth, `Largest` | up to {sizes['MAX_SIZE']} |" in page
+    assert f"| gears without teeth | up to {sizes['ENDS_SIZE']} |" in page

@@ -1,4 +1,4 @@
-"""The virtual bench: each test has a figure, numbers and a sentence, and reads what is known."""
+"""The virtual bench: each test has a figure, numbers and a sentence, and measures known values."""
 
 import re
 from math import log10
@@ -12,7 +12,7 @@ from bevel_differential.scene_file import read_toml
 from PIL import Image
 
 PRELOAD, RATIO, COLD = 60.0, 1.3, 1.5
-# gears without teeth and friction of the packs alone
+# gears without teeth, and only friction of the packs
 PLAIN = {"scene.gear_contact": "ideal", "effects.tooth_friction": False, "effects.thrust_friction": False, "limited_slip.preload": PRELOAD,
          "limited_slip.torque_coefficient": 0.0, "limited_slip.static_ratio": RATIO, "limited_slip.stribeck_speed": 0.0,
          "limited_slip.cold_factor": COLD, "limited_slip.hot_factor": 1.0}
@@ -27,7 +27,7 @@ def numbers(text):
 
 
 @pytest.mark.parametrize("name", sorted({of for _, of in TESTS.values()}))
-def test_scenes_set_nothing_that_changes_nothing(name, fmu_file):
+def test_scenes_set_only_values_that_have_an_effect(name, fmu_file):
     file = scene_file(next(test for test, (_, of) in TESTS.items() if of == name))
     assert read_toml(file)["description"]
     with Scene.load(file, fmu=fmu_file) as scene:
@@ -39,7 +39,7 @@ def test_bias_is_that_of_the_packs(fmu_file, tmp_path):
     rows = table(tmp_path / "bias.csv")
     assert len(rows) == 6 * 3 * 2
     for torque, difference, temperature, left, right, ratio, effect in rows.tolist():
-        # half way from -20 to 80 °C at 40 °C is three fifths of the way
+        # 40 °C is three fifths of the interval from -20 to 80 °C
         clutch = PRELOAD * (1.0 + (COLD - 1.0) * max(0.0, (353.15 - temperature) / 100.0))
         shift = np.sign(difference) * clutch
         assert [left, right] == pytest.approx([torque / 2.0 - shift, torque / 2.0 + shift], rel=1e-4)
@@ -49,7 +49,7 @@ def test_bias_is_that_of_the_packs(fmu_file, tmp_path):
                                                                rows["torque_bias_ratio_[1]"].max())]
 
 
-def test_breakaway_is_apart_from_bias(fmu_file, tmp_path):
+def test_breakaway_is_reported_separately_from_bias(fmu_file, tmp_path):
     says = bench("breakaway", tmp_path, values=PLAIN, fmu=fmu_file, workers=0)
     for torque, direction, temperature, left, _, _, effect in table(tmp_path / "breakaway.csv").tolist():
         clutch = RATIO * PRELOAD * (1.0 + (COLD - 1.0) * max(0.0, (353.15 - temperature) / 100.0))
@@ -57,8 +57,8 @@ def test_breakaway_is_apart_from_bias(fmu_file, tmp_path):
     assert "1.30 to 1.30 times" in says
 
 
-def test_judder_ends_where_linear_theory_says_that_it_cannot_begin(fmu_file, tmp_path):
-    # T (s - 1) r/v_S exp(-v/v_S) is less than the damping of a half-shaft: 3.3 rad/s between the wheels
+def test_judder_ends_where_linear_theory_excludes_it(fmu_file, tmp_path):
+    # T (s - 1) r/v_S exp(-v/v_S) is below the damping of a half-shaft if the wheels differ by more than 3.3 rad/s
     says = bench("judder", tmp_path, fmu=fmu_file)
     swing, slip, rising = numbers(says)[:3]
     limit = 2.0 * 0.1 / 0.055 * np.log(150.0 * 0.15 * 0.055 / (0.1 * 5.0))
@@ -84,7 +84,7 @@ def test_a_winter_start_begins_with_the_drag_of_its_oil(fmu_file, tmp_path):
 
     for at in (1, -1):
         viscous = (1e-3 + 2.0 * 2e-4) * viscosity(record["temperature.oil"][at]) / viscosity(353.15)
-        # viscosity follows temperature in steps
+        # viscosity is updated in steps of temperature
         assert record["power.loss"][at] == pytest.approx((0.5 + 2.0 * 0.2) * 50.0 + viscous * 50.0**2 + 1e-4 * 50.0**3, rel=0.02)
     assert loss == round(record["power.loss"][1]) > 5.0 * later
 

@@ -1,4 +1,4 @@
-"""Building the package from its source: what is missing is said, and a package that has its FMU is left alone."""
+"""Building the package from its source: messages name what is missing, and a package with its FMU is not changed."""
 
 import importlib.util
 from pathlib import Path
@@ -11,7 +11,7 @@ FILE = Path(__file__).resolve().parents[2] / "python" / "hatch_build.py"
 
 @pytest.fixture
 def hook():
-    """hook(folder): the hook for a package in a folder."""
+    """hook(folder): hook for a package in a folder."""
     spec = importlib.util.spec_from_file_location("hatch_build", FILE)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
@@ -32,14 +32,14 @@ def test_a_folder_without_the_sources_is_refused(hook, tmp_path):
 
 @pytest.fixture
 def complete(tmp_path):
-    """A package that has its FMU."""
+    """Package that contains its FMU."""
     package = tmp_path / "src" / "bevel_differential"
     package.mkdir(parents=True)
     (package / "BevelDifferential.fmu").touch()
     return tmp_path
 
 
-def test_a_package_with_its_fmu_is_left_alone(hook, complete, monkeypatch):
+def test_a_package_with_its_fmu_is_left_unchanged(hook, complete, monkeypatch):
     monkeypatch.delenv("BEVEL_DIFFERENTIAL_WHEEL_PLATFORMS", raising=False)
     found = {}
     hook(complete).initialize("standard", found)

@@ -1,6 +1,6 @@
-"""Files of gears for other programs, read back by the libraries made for them: STEP by Open CASCADE, meshes by trimesh, DXF by ezdxf.
+"""Files of gears for other programs, read back by the usual libraries: STEP by Open CASCADE, meshes by trimesh, DXF by ezdxf.
 
-What they must hold is not taken from the program: flanks are compared with the involute of `outline_solids`, and masses with its
+Expected contents are independent of the program: flanks are compared with the involute of `outline_solids`, masses with its
 integrals."""
 
 import io
@@ -21,7 +21,7 @@ from bevel_differential.command import main
 MM = 1e3
 MICROMETRE = 1e-3
 POINTS = 10_000
-# what the start values are, and five pairs: with bores, of 9 teeth, mitre gears of steep flanks, sharp corners, three planets
+# the start values, and five other pairs: with bores, with 9 teeth, mitre gears with steep flanks, sharp corners, three planets
 START = {"module": 4.5e-3, "planet_teeth": 10, "side_teeth": 16, "planet_count": 2, "pressure_angle": math.radians(20.0),
          "face_width": 20e-3, "backlash": 1e-4, "root_fillet": 0.4, "planet_bore": 0.0, "side_bore": 0.0,
          "addendum_system": "gleason"}
@@ -38,7 +38,7 @@ BOTH = pytest.mark.parametrize("i", [0, 1], ids=cad.GEARS)
 
 
 class Pair:
-    """A pair of gears as the program answers with it, and as it should be."""
+    """Pair of gears in an answer of the program, and the same pair by independent formulas."""
 
     def __init__(self, changes):
         values = {**START, **changes}
@@ -49,17 +49,17 @@ class Pair:
         self.gears, cones = outline_solids.gears(values["addendum_system"], values.get)
         self.cones = np.array(cones)
         self.planets = values["planet_count"]
-        # made once, as when the package writes all files
+        # cached, as when the package writes all files
         self.solids = {}
 
     @cache
     def step(self, part):
-        """A STEP file."""
+        """Content of a STEP file."""
         return cad.step(self.shape, part, self.solids)
 
     @cache
     def read(self, part):
-        """The same, read back."""
+        """Shape of a STEP file, read back."""
         return read_step(self.step(part))
 
 
@@ -70,19 +70,19 @@ def pair_of(name):
 
 @pytest.fixture(scope="module", params=PAIRS)
 def pair(request):
-    """Each pair."""
+    """Each pair in turn."""
     return pair_of(request.param)
 
 
 @pytest.fixture(scope="module")
 def bored():
-    """The pair with bores and four planets."""
+    """Pair with bores and four planets."""
     return pair_of("bored")
 
 
 @pytest.fixture(scope="module", autouse=True)
 def libraries():
-    """The packages of the extra."""
+    """Skips the tests if packages of the extra are missing."""
     for module in ("OCP.gp", "trimesh", "ezdxf", "networkx"):
         pytest.importorskip(module, reason="the extra `cad` of the package is not installed")
 
@@ -113,7 +113,7 @@ def test_a_step_file_is_one_valid_closed_solid_with_the_mass_of_the_simulation(p
     assert transverse == pytest.approx([MM**5 * told["transverse_at_apex"] / told["density"]] * 2, rel=1e-4)
     own = pair.gears[i].inertias(pair.cones, pair.bores[i], 1.0)
     assert [axial, transverse[0]] == pytest.approx(MM**5 * own, rel=1e-4)
-    # flanks, fillets, ends and lands, but no facets
+    # flanks, fillets, ends and lands, without facets
     assert 10 * teeth <= len(list(parts_of(solid, "FACE"))) <= 18 * teeth + 3
 
 
@@ -126,11 +126,11 @@ def test_flanks_and_fillets_are_the_exact_ones_to_a_micrometre(pair, i):
     assert len(flanks) == 2 * gear.teeth and len(fillets) in (0, 2 * gear.teeth)
     points = np.concatenate([face.reshape(-1, 3) for face in flanks])
     assert len(points) >= POINTS
-    # along the great circle that rolls, lengths are sin δ_b of azimuths
+    # along the rolling great circle, lengths are sin δ_b times azimuths
     polar, cone = polar_of(points), np.linalg.norm(points, axis=1)
     off = cone * np.sin(gear.base) * (beside(points, gear.teeth) - gear.half_angle(polar))
     assert np.abs(off).max() < MICROMETRE
-    # from toe to heel, and from where the involute begins to the tip
+    # from toe to heel, and from the start of the involute to the tip
     assert [cone.min(), cone.max()] == pytest.approx(cones, abs=MICROMETRE)
     start = max(gear.base, gear.root) if not fillets else max(gear.base, gear.foot()[0][-1])
     assert [polar.min(), polar.max()] == pytest.approx([start, gear.tip], abs=MICROMETRE / cones[1])
@@ -142,15 +142,15 @@ def test_flanks_and_fillets_are_the_exact_ones_to_a_micrometre(pair, i):
         assert np.abs(np.linalg.norm(points, axis=1) * (away - gear.fillet)).max() < MICROMETRE
 
 
-# two, three and four planets, with and without pins: other shapes of teeth stand at the same places
+# two, three and four planets, with and without pins; other tooth shapes have the same positions
 @pytest.mark.parametrize("name", ["study", "nine", "three", "bored"])
-def test_the_assembly_has_all_gears_and_pins_where_they_stand(name):
+def test_the_assembly_has_all_gears_and_pins_in_their_places(name):
     from OCP.BRepCheck import BRepCheck_Analyzer
 
     pair = pair_of(name)
     data, whole = pair.step("assembly"), pair.read("assembly")
     assert BRepCheck_Analyzer(whole).IsValid()
-    # names of parts as they occur
+    # names of parts in the order of their occurrence
     occurrences = re.findall(r"NEXT_ASSEMBLY_USAGE_OCCURRENCE\(\s*'[^']*',\s*'([^']*)'", data.decode())
     named = ["side_gear_left", "side_gear_right"] + [f"planet_{k + 1}" for k in range(pair.planets)]
     assert occurrences == named + ["pins"] * bool(pair.bores[0])
@@ -160,7 +160,7 @@ def test_the_assembly_has_all_gears_and_pins_where_they_stand(name):
     wanted = [[side, 0.0, 0.0], [-side, 0.0, 0.0]] + [[0.0, planet * np.cos(a), planet * np.sin(a)] for a in around]
     assert centres[:len(wanted)] == pytest.approx(np.array(wanted), abs=planet * 1e-4)
     if pair.bores[0]:
-        # a pin has its place in the bores, and all of them their middle in the apex
+        # the pin is in the bores, and the middle of all pins is in the apex
         assert centres[-1] == pytest.approx([0.0, 0.0, 0.0], abs=1e-6)
     assert len(centres) == len(named) + bool(pair.bores[0])
 
@@ -169,7 +169,7 @@ def test_teeth_of_the_assembly_are_half_the_backlash_apart(bored):
     from OCP.BRepExtrema import BRepExtrema_DistShapeShape
 
     _, side, planet = list(parts_of(bored.read("assembly"), "SOLID"))[:3]
-    # at the toe, where all lengths are least
+    # at the toe, where all lengths are smallest
     half = MM * START["backlash"] * math.cos(START["pressure_angle"]) / 2.0 * bored.cones[0] / bored.cones[1]
     near = near_faces(side, planet, 2.0 * half)
     assert BRepExtrema_DistShapeShape(*near).Value() == pytest.approx(half, abs=MICROMETRE)

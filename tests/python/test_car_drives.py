@@ -1,7 +1,7 @@
-"""Ordinary drives of `Car`: launch, cruise, coast, stop and wait, then the same in reverse, from a pedal car to a truck.
+"""Ordinary drives of `Car`: launch, cruise, coast, stop and wait, then all of it in reverse, from a pedal car to a truck.
 
-The vehicles are the passenger car of `Car` with other masses and radii. Gears, brakes and effects are drawn as for the ordinary drives
-of the FMU, and the requirements are the same."""
+The vehicles are the passenger car of `Car` with other masses and radii. Gears, brakes and effects are drawn as for the ordinary
+drives of the FMU, and the requirements are the same."""
 
 import os
 
@@ -17,14 +17,14 @@ LEVELS = {effect.name: effect.contact for effect in effects(os.environ["FMU"])}
 # mass [kg] and radius of the tyres [m]
 VEHICLES = {"light": (40.0, 0.15), "heavy": (12000.0, 0.5)}
 CONTACTS = ["ideal impact", "lumped impact", "tooth impact", "tooth line"]
-# communication step: the light tyres accept up to 2.5 ms [s]
+# communication step [s]; the light tyres accept up to 2.5 ms
 STEP = 2e-3
 # Ends of the phases [s]: launch, cruise, coast, stop, and a wait of 30 s, in whose second half the motor pulls against the brakes. The
-# car has no slope, and such a pull is the load that it can hold.
+# car has no slope, so this pull is the load in the hold.
 LAUNCHED, CRUISED, COASTED, STOPPED, PULLED, WAITED = 1.5, 2.5, 3.0, 7.0, 22.0, 37.0
-# A car that has stopped rocks on its tyres. Its rocking ahead and back has faded within ROCKS s of the last change of torque.
+# Time in which a stopped car stops rocking on its tyres, after the last change of torque [s].
 ROCKS = 12.0
-# share of the grip by which brakes stop, and by which they hold; share of a motor's peak torque that resists in cruising and creeps
+# fractions of the grip with which brakes stop and hold; fraction of a motor's peak torque as resistance in cruising and for creep
 STOPPING, HOLDING, SMALL = 0.5, 1.2, 0.05
 READ = [*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque", "brake_torque")),
         *(f"{side}_tyre.force" for side in SIDES), "held.wheels", "power.in", "power.out", "body.speed", "carrier.torque_command",
@@ -44,7 +44,7 @@ def scaled(mass, radius):
 
 
 def vehicle(motor, tyre, body):
-    """The vehicle for which gears and effects are drawn."""
+    """Vehicle for which gears and effects are drawn."""
     wheel, drive = tyre.inertia + 0.5 * body.mass * tyre.radius**2, motor.ratio * motor.peak
     size = max((drive / (Motor().ratio * Motor().peak)) ** (1.0 / 3.0), 0.33)
     return Vehicle(wheel=wheel, carrier=motor.inertia * motor.ratio**2, pull=0.5 * drive / wheel,
@@ -70,20 +70,20 @@ def driver(motor, tyre, sign, weaker):
 
 
 def judged(car, record, start, heats):
-    """Requirements of the ordinary drives on a record, and attempts at steps in each second at rest beyond those of `PER_POINT`."""
+    """Verdict of the ordinary drives on a record, and attempts at steps per second at rest beyond those of `PER_POINT`."""
     values, tyre, verdict = {name: record[name] for name in record.dtype.names}, car.tyres[0], Verdict()
     loads = {side: tyre.radius * values[f"{side}_tyre.force"] for side in SIDES}
-    # what acts on the spring of a brake: the generator's loads are constant in a hold, those of tyres are not
+    # torque on the spring of a brake: in a hold, the loads of generated drives are constant, but those of tyres are not
     acting = {f"{side}.shaft_torque": values[f"{side}.shaft_torque"] - loads[side] for side in SIDES}
     played = Played(record["time"], values | acting, None, [], float(sum(record[name][-1] for name in heats)))
     carrier = car.motor.inertia * car.motor.ratio**2
     drive = {"step": STEP, "inputs": {f"{side}.load_torque": np.column_stack([record["time"], loads[side]]) for side in SIDES},
              "start": start | {"inertia.carrier": carrier} | {f"inertia.{side}_end": tyre.inertia for side in SIDES}}
     energy(drive, played, verdict)
-    # Only attempts at rest are limited: in the stop with unequal brakes, planets without load rattle, and each blow takes steps.
+    # Only attempts at rest are limited: in the stop with unequal brakes, unloaded planets rattle, and each impact needs steps.
     attempts, at_rest = values["solver.steps"] + values["solver.rejected"], []
     for begin in (0.0, WAITED):
-        # the stop itself takes less than half of its phase, so both wheels stand from its end
+        # the stop takes less than half of its phase, so both wheels are at rest at its end
         standing(drive, played, {"from": begin + STOPPED, "to": begin + WAITED, "wheels": SIDES}, verdict)
         for end in (begin + PULLED, begin + WAITED):
             calm = end - 0.5 * (WAITED - STOPPED) + ROCKS
@@ -96,7 +96,7 @@ def judged(car, record, start, heats):
     return verdict, max(at_rest)
 
 
-# tooth pairs rattle while the car coasts, the smallest gears most: those drives take long, and are played once
+# tooth pairs rattle while the car coasts, those of the smallest gears most: these drives are slow, and run only once
 CASES = [(kind, contact, sign) for kind in VEHICLES for contact in CONTACTS for sign in (1, -1)
          if (sign == 1 or "tooth" not in contact) and (kind, contact) != ("light", "tooth line")]
 
@@ -104,15 +104,15 @@ CASES = [(kind, contact, sign) for kind in VEHICLES for contact in CONTACTS for 
 @pytest.mark.parametrize("kind, contact, sign", CASES)
 def test_a_car_drives_stops_and_waits(fmu, record_property, kind, contact, sign):
     motor, tyre, body = scaled(*VEHICLES[kind])
-    # other effects for each case, the same ones for its mirror image
+    # other effects for each case, but the same ones for its mirror image
     random = np.random.default_rng([1, list(VEHICLES).index(kind), CONTACTS.index(contact)])
     whole = vehicle(motor, tyre, body)
-    # drag in each case: without any, a carrier moves to and fro in the backlash for a minute after the stop
+    # drag in each case, because without drag a carrier oscillates in the backlash for a minute after the stop
     drawn = bearing_drag(random, whole, None, None) | differential(random, whole, *contact.split(), LEVELS)
     start = {name: value for name, value in drawn.items() if not name.startswith("inertia.")}
     heats = [v.name for v in fmu.variables.values() if v.causality == "output" and v.name.startswith("heat.")]
     car = Car(start, motor=motor, left=tyre, right=tyre, body=body, fmu=fmu)
-    # an image swaps left and right
+    # the mirror image swaps left and right
     record = car.run([*READ, *heats], 2.0 * WAITED, STEP, controller=driver(motor, tyre, sign, SIDES[sign < 0]))
     assert all(np.all(np.isfinite(record[name])) for name in record.dtype.names)
     speed = sign * record["body.speed"]

@@ -1,4 +1,4 @@
-"""The command `bevel-differential`: what it prints, what it writes, and how it says what is wrong."""
+"""The command `bevel-differential`: its output, its files, and its messages about errors."""
 
 import os
 import subprocess
@@ -23,7 +23,7 @@ def with_fmu(fmu_file, monkeypatch):
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
 
 
-def test_run_writes_what_the_scene_gives(tmp_path, capsys):
+def test_run_writes_the_record_of_the_scene(tmp_path, capsys):
     csv, parquet, picture = (tmp_path / f"turn.{kind}" for kind in ("csv", "parquet", "png"))
     assert main(["run", "study_turning", "--set", "left.load_torque=700 N.m", "--stop", "50 ms", "--output", "left.speed",
                  "--output", "planet[1].left_pairs", "--csv", str(csv), "--parquet", str(parquet), "--plot", str(picture)]) == 0
@@ -57,7 +57,7 @@ def test_a_frame_is_the_record_by_time(fmu_file):
     assert all(np.array_equal(frame[name], record[name]) for name in record.dtype.names[1:])
 
 
-def test_a_missing_package_is_said_with_its_extra(fmu_file, monkeypatch):
+def test_a_missing_package_is_reported_with_its_extra(fmu_file, monkeypatch):
     def missing(name):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
@@ -69,7 +69,7 @@ def test_a_missing_package_is_said_with_its_extra(fmu_file, monkeypatch):
             straight.plot(straight.run(stop=0.01))
 
 
-def test_sweep_prints_what_it_found_and_does_what_the_package_does(tmp_path, capsys):
+def test_sweep_prints_its_results_which_are_those_of_the_package(tmp_path, capsys):
     out = tmp_path / "found.parquet"
     assert main([*SWEEP, "--plan", "sobol", "--runs", "5", "--seed", "1", "--set", "right.load_torque=800",
                  "--out", str(out)]) == 0
@@ -79,7 +79,7 @@ def test_sweep_prints_what_it_found_and_does_what_the_package_does(tmp_path, cap
         expected = sweep(scene, {"left.load_torque": "700 N.m..900 N.m", "contact.law": "line, line_weber"}, "sobol", 5, 1,
                          ["left.speed:mean"], ["efficiency >= 0.9"], "0.14 s", workers=0)
     assert SweepResult.load(out).digest() == expected.digest()
-    assert "8 (5 asked for" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
+    assert "8 (5 requested" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
 
 
 def test_a_plan_file_says_the_same_as_options_and_options_come_first(tmp_path):

@@ -12,11 +12,11 @@ from bevel_differential.instance import Instance
 from bevel_differential.output_file import ENDINGS, checked
 from bevel_differential.spectrum import spectrum
 
-# what argparse cannot do without, by command
+# required arguments by command
 NEEDED = {"accuracy": ["study_turning", "--within", "1%"], "loads": ["study_turning"], "losses": ["torque_bias"], "optimise": ["problem.toml"],
           "plan": ["study_turning"], "report": ["study_turning"], "run": ["study_turning"], "spectrum": ["cycle.csv"],
           "sweep": ["--scene", "study_turning"], "tolerance": ["tolerances.toml"]}
-# files that are read
+# options for files to read
 INPUTS = {"--fmu", "--scene", "--plan-file"}
 
 
@@ -26,7 +26,7 @@ def with_fmu(fmu_file, monkeypatch):
 
 
 def options():
-    """Pairs (command, option) of all options that take a file to write, hidden ones as well."""
+    """Pairs (command, option) of all options for a file to write, including hidden ones."""
     found = []
     for name, (place, *_) in COMMANDS.items():
         parser = argparse.ArgumentParser()
@@ -62,7 +62,7 @@ def test_an_ending_counts_in_capitals_as_well_and_the_message_names_a_file(kind,
             checked(tmp_path / name, kind)
 
 
-def test_the_package_refuses_them_too(fmu_file, tmp_path):
+def test_the_package_refuses_unknown_endings_too(fmu_file, tmp_path):
     with Scene.load("study_turning", fmu_file, "2 ms") as scene:
         record = scene.run()
         for write in (scene.to_csv, scene.to_parquet, scene.plot):
@@ -73,7 +73,7 @@ def test_the_package_refuses_them_too(fmu_file, tmp_path):
 
 @pytest.fixture
 def spreadsheet(tmp_path):
-    """A file as spreadsheet programs write it."""
+    """File in the form of spreadsheet programs."""
     file = tmp_path / "table.xlsx"
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         archive.writestr("xl/workbook.xml", "\u00e9".join(map(str, range(1000))))
@@ -90,7 +90,7 @@ def test_a_spreadsheet_is_named_as_such_where_a_table_is_read(spreadsheet, fmu_f
 
 
 @pytest.mark.parametrize("line", ["run", "plan", "report", "pattern", "loads --out a.csv", "tolerance", "optimise", "sweep --plan-file"])
-def test_a_file_that_is_no_toml_is_wrong_use_and_named(line, spreadsheet, capsys, monkeypatch, tmp_path):
+def test_a_file_that_is_not_toml_is_wrong_use_and_named(line, spreadsheet, capsys, monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
     assert main([*line.split(), str(spreadsheet)]) == WRONG
     said = capsys.readouterr().err

@@ -1,11 +1,11 @@
-"""Scenes side by side: their common time, figures and differences, what they set differently, pictures, files and names."""
+"""Comparison of scenes: common time, figures and differences, differing settings, pictures, files and names."""
 
 import numpy as np
 import pytest
 from bevel_differential import DifferentialError, DifferentialWarning, Scene, compare
 from bevel_differential.command import main
 
-# only the drive acts on ideal gears, so that speeds follow from momentum
+# only the drive acts on ideal gears, so speeds follow from momentum
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
         "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
 TORQUE = "carrier.torque_command"
@@ -22,7 +22,7 @@ def free(name, torque, stop=0.5, **more):
 
 
 def written(file, torque, stop=0.5, outputs='"carrier.speed", "left.speed"', more=""):
-    """A scene file of free bodies under a torque."""
+    """Writes a scene file of free bodies under a torque."""
     lines = [f"{name} = {str(value).lower() if isinstance(value, bool) else repr(value)}".replace("'", '"') for name, value in FREE.items()]
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_text(f'description = "{torque} N.m"\nstop_time = {stop}\nstep = 0.01\noutputs = [{outputs}]\n[set]\n{TORQUE} = {torque}\n'
@@ -38,7 +38,7 @@ def test_differences_are_those_of_momentum():
     single, double = free("single", 100.0), free("double", 200.0)
     found = compare(single, double, display_units=["rad/s"])
     record = single.run()
-    # from rest under a constant torque the speed is a straight line through 0: its mean is half of its end
+    # from rest under a constant torque, the speed is a straight line through 0, so its mean is half of its end
     for figure, part in (("end", 1.0), ("peak", 1.0), ("mean", 0.5)):
         values = row(found, "carrier.speed", figure)
         assert values["unit"] == "rad/s"
@@ -81,7 +81,7 @@ def test_the_common_time_counts_and_is_named(tmp_path, capsys):
     assert np.array_equal(by_scene["short"][:, 0], record["time"]) and np.array_equal(by_scene["short"][:, 1], record["carrier.speed"])
 
 
-def test_scenes_of_one_name_are_told_apart_and_warnings_name_theirs(tmp_path, capsys):
+def test_scenes_with_the_same_name_are_distinguished_and_warnings_name_them(tmp_path, capsys):
     before, after = written(tmp_path / "before" / "axle.toml", 100.0), written(tmp_path / "after" / "axle.toml", 150.0, 0.5,
                                                                                more="tooth_errors.side_runout = 1e-5\n")
     other = written(tmp_path / "other.toml", 120.0)
@@ -124,12 +124,12 @@ def test_values_that_look_alike_are_written_in_full():
 def test_shipped_scenes_are_compared_by_their_names(tmp_path, capsys):
     assert main(["run", "study_straight", "study_turning", "--stop", "20 ms", "--unit", "rpm", "--plot", "study.png", "--csv", "study.csv"]) == 0
     printed = capsys.readouterr().out
-    # 2861 and 954 deg/s of 360 deg
+    # 2861 and 954 deg/s, with 360 deg per turn
     line = next(line for line in printed.splitlines() if line.startswith("carrier.speed"))
     assert line.split()[:5] == ["carrier.speed", "rpm", "mean", f"{2861 / 6:.6g}", "159"]
     assert (tmp_path / "study.png").read_bytes().startswith(b"\x89PNG")
     assert (tmp_path / "study.csv").read_text(encoding="utf-8").splitlines()[2].startswith("scene,time [s],carrier.speed [rpm]")
-    # 200 deg/s that the planets spin
+    # the spin of the planets is 200 deg/s
     assert f"{200 / 6:.6g} rpm" in printed
 
 
@@ -153,7 +153,7 @@ def test_the_first_scene_with_a_preference_wins(preferred):
     assert row(found, "carrier.speed", "end")["unit"] == unit
 
 
-def test_what_cannot_be_compared_is_refused(tmp_path, capsys):
+def test_values_that_cannot_be_compared_are_refused(tmp_path, capsys):
     own = written(tmp_path / "own.toml", 100.0)
     apart = written(tmp_path / "apart.toml", 100.0, outputs='"efficiency"')
     for arguments, message in (([own, own], "own: it is named twice"), ([own, apart], "no output is recorded by all of own, apart"),

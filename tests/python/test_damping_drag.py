@@ -1,7 +1,7 @@
-"""What the damping of contacts takes from rolling planets, against a formula evaluated on the plain model of the teeth.
+"""Drag of rolling planets by contact damping, against a formula evaluated on the plain model of the teeth.
 
-Teeth that roll slowly stand in static equilibrium at every place x of their cycle. Their depths d_k(x) change as pairs come
-and go, and the damping of IMPACT makes heat of that: T = c ψ̇, c = C Σ_meshes ⟨Σ_k STEP(d_k/d_max) (∂d_k/∂ψ)²⟩."""
+Teeth that roll slowly are in static equilibrium at every position x of their cycle. Their depths d_k(x) change as pairs enter
+and leave contact, and IMPACT damping turns this into heat: T = c ψ̇, c = C Σ_meshes ⟨Σ_k STEP(d_k/d_max) (∂d_k/∂ψ)²⟩."""
 
 import numpy as np
 import plain
@@ -14,7 +14,7 @@ PLACES = 2000
 
 @pytest.fixture(scope="module")
 def coefficient():
-    """c of the study's gears under the study's load [N·m·s]."""
+    """Coefficient c of the study's gears under the study's load [N·m·s]."""
     model = plain.Differential(plain.Scene(spin_imposed=True))
     gears, scene = model.gears, model.scene
 
@@ -40,14 +40,14 @@ def coefficient():
 
 
 def lost(drive, spin):
-    """Mean power over whole cycles of the teeth at a spin."""
+    """Mean power over whole tooth cycles at a spin."""
     cycle = theory.TOOTH_PITCH / spin
     driven = drive({"scene.planet_spin": "imposed", "spin.command": spin}).to(4.0 * cycle, cycle)
     before = driven["heat.contact"]
     return (driven.to(8.0 * cycle, cycle)["heat.contact"] - before) / (4.0 * cycle)
 
 
-def test_slow_rolling_loses_what_damping_makes_of_pairs_that_come_and_go(drive, coefficient):
+def test_slow_rolling_loses_the_damping_work_of_pairs_that_enter_and_leave(drive, coefficient):
     assert lost(drive, 1.0) == pytest.approx(coefficient, rel=1e-3)
 
 

@@ -1,5 +1,5 @@
-"""Directional derivatives at the ends of ranges against one-sided differences of independent instances: all inputs and real parameters
-in initialisation mode, all inputs while a simulation runs."""
+"""Directional derivatives at the ends of ranges against one-sided differences of independent instances: all inputs and real
+parameters in initialisation mode, and all inputs during simulation."""
 
 import numpy as np
 import pytest
@@ -21,14 +21,14 @@ STARTS = {
 }
 OUTPUTS = ["left.shaft_torque", "carrier.torque", "power.loss", "planet[1].left_transmission_error", "planet[1].left_normal_force",
            "left.thrust_force", "temperature.oil", "temperature.clutch", "right.speed", "left.twist"]
-# relative differences of derivatives; noise of an equilibrium, relative to its values
+# allowed relative difference of derivatives; noise of an equilibrium, relative to its values
 CLOSE, NOISE = 1e-4, 1e-9
 # steps of differences, as a fraction of the value or, at 0, of the range up to 1 SI unit
 STEPS = (1e-4, 2.5e-5)
 
 
 class Starting(Instance):
-    """An instance in initialisation mode."""
+    """Instance in initialisation mode."""
 
     def begin(self, values):
         if not self._is_fresh:
@@ -46,7 +46,7 @@ class Starting(Instance):
 
 
 def one_sided(variable, at, value, middle):
-    """Differences of order 2 from the end `value` of a range into it, and their uncertainty; `at` evaluates."""
+    """Differences of order 2 from the end `value` of a range into the range, and their uncertainty; `at` evaluates."""
     inward = 1.0 if value == variable.minimum else -1.0
     width = min(1.0, variable.maximum - variable.minimum)
     found = []
@@ -74,7 +74,7 @@ def test_initial_values_have_one_sided_derivatives_at_the_ends_of_all_ranges(fmu
                 try:
                     middle = at(value)
                 except DifferentialError:
-                    # there is no such start
+                    # such a start does not exist
                     continue
                 try:
                     difference, uncertain = one_sided(variable, at, value, middle)

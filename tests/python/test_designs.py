@@ -1,4 +1,4 @@
-"""What varies, which designs are tried, and the figures that a run is judged by."""
+"""Variation, plans of designs, and the figures by which a run is judged."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_random_designs_do_not_depend_on_how_many_there_are(plan):
 
 
 @pytest.mark.parametrize("kind", ["grid", "lhs", "sobol", "random"])
-def test_seeds_of_a_run_follow_from_the_plan_s_seed_and_the_run_alone(plan, kind):
+def test_seeds_of_a_run_follow_only_from_the_plan_s_seed_and_the_run(plan, kind):
     alone = values(plan(SEEDS, "random", 64, 7), "tooth_errors.seed")
     others = {"geometry.planet_teeth": "8, 9", "geometry.side_teeth": "14, 16"}
     among = values(plan({**others, **SEEDS}, kind, None if kind == "grid" else 4, 7), "tooth_errors.seed")
@@ -70,7 +70,7 @@ def test_seeds_of_a_run_follow_from_the_plan_s_seed_and_the_run_alone(plan, kind
 ])
 def test_drawn_values_have_their_distribution(plan, given, distribution):
     drawn = values(plan({"geometry.module": given}, "random", 2000, 1), "geometry.module")
-    # 1e-4: one such test in ten thousand would fail by chance, and this draw is always the same
+    # 1e-4: one test in ten thousand would fail by chance, but this draw is always the same
     assert stats.kstest(drawn, distribution.cdf).pvalue > 1e-4
 
 
@@ -84,8 +84,8 @@ def test_a_share_of_zero_has_a_finite_value(fmu):
     ({"left.speed": "1..2"}, ("random", 5), ["left.speed", "cannot be varied"]),
     ({"left.load_torque": "900 N.m..700 N.m"}, ("random", 5), ["left.load_torque", "range"]),
     ({"left.load_torque": "7 ft..9 ft"}, ("random", 5), ["left.load_torque", "'ft'"]),
-    ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal takes 2 numbers"]),
-    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["no distribution"]),
+    ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal needs 2 numbers"]),
+    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["do not define a distribution"]),
     ({"left.load_torque": "lognormal(1, 1 N.m)"}, ("random", 5), ["1 N.m", "not a plain number"]),
     ({"left.load_torque": "1..2:one"}, ("grid",), ["2 values or more"]),
     ({"left.load_torque": "1..2"}, ("grid",), ["left.load_torque", "FROM..TO:11"]),
@@ -100,13 +100,13 @@ def test_a_share_of_zero_has_a_finite_value(fmu):
     ({"left.load_torque": "1..2"}, ("random", 4, -1), ["seed", "-1"]),
     ({}, ("random", 4), ["nothing varies"]),
 ])
-def test_a_plan_that_cannot_be_says_why(plan, vary, arguments, parts):
+def test_an_invalid_plan_gives_the_reason(plan, vary, arguments, parts):
     with pytest.raises(DifferentialError) as error:
         plan(vary, *arguments).designs()
     assert all(part in str(error.value) for part in parts), error.value
 
 
-# a wave with a mean, 3 whole periods of 0.25 s, in steps so fine that trapezoids are exact to 1e-5
+# a wave with a mean, 3 whole periods of 0.25 s, with steps so fine that the trapezoidal rule is exact to 1e-5
 TIMES = np.linspace(0.0, 0.75, 30001)
 WAVE = 2.0 + 3.0 * np.sin(2.0 * np.pi * TIMES / 0.25 + 0.4)
 
@@ -132,7 +132,7 @@ def test_orders_are_amplitudes_over_the_last_whole_periods(word, expected, sense
     (np.linspace(0.0, 6.0, 100), "less than one period"), (np.linspace(0.0, 63.0, 30), "times smaller"),
     (20.0 * np.sin(np.linspace(0.0, 1.8, 999)), "to and fro"),
 ])
-def test_an_order_that_cannot_be_counted_says_why(phase, message):
+def test_an_order_that_cannot_be_counted_gives_the_reason(phase, message):
     with pytest.raises(DifferentialError, match=message):
         Statistic.parse("mesh_order_1").of(phase, phase, phase)
 
@@ -141,13 +141,13 @@ def test_an_order_that_cannot_be_counted_says_why(phase, message):
     ("left.sped", ["left.sped", "did you mean left.speed"]), ("left.speed:meen", ["meen", "did you mean mean"]),
     ("left.load_torque:mean", ["left.load_torque", "input"]), ("left.speed:mesh_order_0", ["mesh_order_0"]),
 ])
-def test_a_want_that_cannot_be_says_why(fmu, text, parts):
+def test_an_invalid_want_gives_the_reason(fmu, text, parts):
     with pytest.raises(DifferentialError) as error:
         Want.parse(fmu, text)
     assert all(part in str(error.value) for part in parts), error.value
 
 
-def test_conditions_have_units_and_say_by_how_much_they_are_broken(fmu):
+def test_conditions_have_units_and_report_the_size_of_a_violation(fmu):
     condition = Condition.parse(fmu, "left.speed:max <= 180 deg/s")
     assert condition.holds(3.14) and not condition.holds(3.15)
     assert condition.excess(1.1 * np.pi) == pytest.approx(0.1) and condition.excess(0.9 * np.pi) == pytest.approx(-0.1)

@@ -1,4 +1,4 @@
-"""Units that a user prefers: in tables, pictures, files, reports and plans, from the command line and from the scene's file."""
+"""Preferred units in tables, pictures, files, reports and plans, from the command line and from scene files."""
 
 import math
 import pickle
@@ -11,10 +11,10 @@ from bevel_differential.answers import about, ask
 from bevel_differential.command import main
 from bevel_differential.plot import plot
 
-# rpm in a rad/s: 60 s in a minute, 2π rad in a turn
+# rpm per rad/s: 60 s per minute, 2π rad per turn
 RPM = 60.0 / (2.0 * math.pi)
 OUTPUTS = ["left.speed", "left.shaft_torque", "temperature.oil", "temperature.flash", "planet[1].left_pairs"]
-COMMANDED = 954.0 / 6.0  # 954 deg/s in rpm: 360 deg in a turn
+COMMANDED = 954.0 / 6.0  # 954 deg/s in rpm: 360 deg per turn
 
 
 @pytest.fixture(autouse=True)
@@ -24,7 +24,7 @@ def with_fmu(fmu_file, monkeypatch, tmp_path):
 
 
 def a_file(tmp_path, name="turn.toml", display=None, more=""):
-    """A scene file; `display`: its display units."""
+    """Scene file; `display`: its display units."""
     units = "" if display is None else f"display_units = {display}\n"
     file = tmp_path / name
     file.write_text(f'description = "a turn"\nstop_time = 0.02\nstep = 1e-3\n{units}'
@@ -61,7 +61,7 @@ def test_a_run_prints_draws_and_writes_the_chosen_units(fmu_file, tmp_path, caps
     assert unit == "kN.m" and end == pytest.approx(1e-3 * torques[-1], rel=1e-5)
     names, found = columns(file)
     assert names == ["time [s]", "left.speed [rpm]", "left.shaft_torque [kN.m]"]
-    # full precision: nothing but the rounding of the conversion
+    # full precision, except for the rounding of the conversion
     assert found["left.speed [rpm]"] == pytest.approx(RPM * speeds, rel=4e-16)
     assert found["left.shaft_torque [kN.m]"] == pytest.approx(1e-3 * torques, rel=4e-16)
     assert np.array_equal(found["time [s]"], record["time"])
@@ -101,7 +101,7 @@ def test_a_recorded_input_in_rpm_is_a_table_of_inputs(tmp_path):
     assert main(["run", plain, "--output", "carrier.speed_command", "--unit", "rpm", "--csv", "speeds.csv"]) == 0
     names, found = columns(tmp_path / "speeds.csv")
     assert names == ["time [s]", "carrier.speed_command [rpm]"]
-    # inputs are those just after a point, by 1e-9 of a step
+    # inputs are recorded just after a point, by 1e-9 of a step
     assert found[names[1]] == pytest.approx(60.0 + 3000.0 * found["time [s]"], abs=3000.0 * 1.001e-12)
     (tmp_path / "again.toml").write_text((tmp_path / "ramp.toml").read_text().partition("[[table]]")[0] + '[[inputs]]\nfile = "speeds.csv"\n')
     with Scene.load("ramp.toml") as first, Scene.load("again.toml") as again:
@@ -176,7 +176,7 @@ def test_tolerances_print_and_write_figures_in_the_units(tmp_path, capsys):
     assert unit == "rpm" and float(mean) == pytest.approx(159.0, abs=6.0)
     head, *rows = (tmp_path / "runs.csv").read_text(encoding="utf-8").splitlines()
     assert head.split(",") == ["run", "carrier.speed_command [rpm]", "left.speed:final [rpm]", "message"]
-    # left is imposed with the carrier but for lash
+    # the left speed equals that of the carrier except for backlash
     assert all(abs(float(speed) / float(command) - 1.0) < 0.02 for _, command, speed, _ in (row.split(",") for row in rows))
 
 
@@ -215,7 +215,7 @@ def test_python_takes_units_for_one_call_or_for_all(fmu_file, tmp_path):
                fmu=fmu_file) as preferring:
         own = preferring.run()
         assert cells(preferring.summary(own), "left.speed")[0] == "rpm"
-        # records stay SI
+        # records stay in SI
         assert np.array_equal(own, record)
         copied = pickle.loads(pickle.dumps(preferring))
         assert copied.fmu.variable("left.speed").shown(1.0)[0] == "rpm"

@@ -1,4 +1,4 @@
-"""Pages as a reader walks them: links lead somewhere, commands are known, and what is long is said by few words."""
+"""Pages for readers: links have targets, commands are known, and long texts are limited."""
 
 import importlib
 import re
@@ -26,14 +26,14 @@ def test_tables_fit_a_page(page):
     assert not wide, wide[0]
 
 
-def test_there_is_no_more_to_read_than_a_user_reads():
+def test_the_pages_for_users_are_short():
     assert len(FOR_USERS) <= MOST_PAGES
     texts = [MARKED.sub("", page.read_text(encoding="utf-8")) for page in FOR_USERS]
     assert sum(len(text.split()) for text in texts) <= WORDS
     assert len(PAGES[0].read_text(encoding="utf-8").splitlines()) <= LINES
 
 
-def test_the_readme_begins_with_the_commands_that_set_up_all_and_with_the_picture():
+def test_the_readme_begins_with_the_picture_and_the_commands_that_set_everything_up():
     begin, _, rest = PAGES[0].read_text(encoding="utf-8").partition("## Install")
     for command_line in ("cargo run --release", "cargo test --release"):
         assert re.search(rf"^{command_line} +# \d+ minutes$", begin, re.MULTILINE)

@@ -1,7 +1,7 @@
-"""Commands, snippets and files of the pages run as printed, and what a page shows of their output is what they print, to the digit.
+"""Commands, snippets and files of the pages run as printed, and the outputs on a page equal their output to the digit.
 
-Only times that depend on the machine may differ. Lines `...` of a page stand for any lines, and warnings may be left out of a page.
-`RENEW=1` in the environment writes what is printed now into the pages, but for these times."""
+Only times that depend on the machine may differ. Lines `...` of a page stand for any lines, and a page may omit warnings.
+With `RENEW=1` in the environment, the present outputs are written into the pages, except for these times."""
 
 import difflib
 import io
@@ -19,12 +19,12 @@ import pytest
 from bevel_differential import command
 from documents import ROOT, blocks, commands, printed, saved
 
-# what depends on the machine
+# values that depend on the machine
 TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.]+ of the [\d.]+(?= ms of a run)")
-# longest line of a page, and the length to which it wraps longer ones
+# longest line of a page, and the length at which longer lines are wrapped
 WIDEST, WIDTH = 160, 120
 GAP = re.compile(r"^ *\.\.\.\n", re.MULTILINE)
-# for commands whose output no page shows: what makes them quick
+# options that make a command quick, if no page shows its output
 QUICKER = {
     "optimise": ["--quick", "--population", "16", "--generations", "1"],
     "tolerance": ["--runs", "8", "--no-indices"],
@@ -33,9 +33,9 @@ QUICKER = {
     "bench": ["breakaway"],
     "report": ["--quick"],
 }
-# opens a browser, and takes a file that a build makes (test_page_command.py)
+# opens a browser, and needs a file that only a build creates (test_page_command.py)
 NOT_RUN = "page"
-# files of pages that name no file to save, each found by a word: their names, and the command that reads them
+# file contents on pages that do not name the file, by a word that they contain: the name, and the command that reads the file
 FILES = {
     "stop_time": ("scene.toml", ["run"]),
     "objectives": ("problem.toml", ["optimise"]),
@@ -49,14 +49,14 @@ for source, block in printed():
     SHOWN.setdefault(source, []).append(block)
 COMMANDS = [one for one in commands("bevel-differential") if one.words[1] != NOT_RUN and not one.words[1].isupper()]
 OF_FMPY = commands("target/python/bin/fmpy info")
-# a process of its own shows once for each command that it needs nothing from others
+# one run of each command in a separate process, which shows that the command does not depend on others
 ALONE = list({one.words[1]: one for one in reversed(COMMANDS)}.values())
 
 
 @pytest.fixture
 def reader(fmu_file, tmp_path, monkeypatch):
-    """reader(page): a folder, now the current one, with what a reader of the page has: an FMU, examples, the scenes of docs/your-car.md
-    and the files that the page shows."""
+    """reader(page): folder, now the current one, with all that a reader of the page has: an FMU, examples, the scenes of
+    docs/your-car.md and the files on the page."""
 
     def prepared(page):
         shutil.copytree(ROOT / "examples" / "design", tmp_path / "examples" / "design")
@@ -78,7 +78,7 @@ def file_of(block):
 
 
 def called(words, alone=False):
-    """Exit status of the command with these words, and what a terminal shows."""
+    """Exit status of the command with these words, and its output in a terminal."""
     if alone:
         done = subprocess.run([sys.executable, "-u", "-m", "bevel_differential", *words], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                               text=True, encoding="utf-8", timeout=300, check=False)
@@ -89,7 +89,7 @@ def called(words, alone=False):
 
 
 def plain(text, wrapped):
-    """The text without what may differ: times, and the places of line breaks where a page wraps."""
+    """Text without parts that may differ: times, and line breaks if a page wraps lines."""
     text = TIME.sub("(time)", text)
     return " ".join(text.split()) if wrapped else text.strip("\n")
 
@@ -102,7 +102,7 @@ def shows(block, said):
 
 
 def now(block, said):
-    """The block with what is said now: of an excerpt the lines that resemble its own most, in their order."""
+    """Block with the present output. For an excerpt, these are the lines most similar to its own lines, in their order."""
     lines = said.strip("\n").splitlines()
     chosen, place = lines, 0
     if GAP.search(block):
@@ -122,12 +122,12 @@ def now(block, said):
     fitting = (textwrap.wrap(line, WIDTH, break_on_hyphens=False) if len(line) > WIDEST else [line] for line in chosen)
     renewed = "".join(f"{part}\n" for parts in fitting for part in parts)
     times = TIME.findall(block)
-    # this machine may be another one, and busy
+    # this machine may be another one, or busy
     return TIME.sub(lambda _: times.pop(0), renewed) if len(times) == len(TIME.findall(renewed)) else renewed
 
 
 def check(source, said):
-    """All blocks that show the output of a command or snippet. With RENEW=1, they are renewed."""
+    """Checks all blocks that show the output of a command or snippet. With RENEW=1, it updates them."""
     for shown in SHOWN.get(source, []):
         heard = said if "warning: " in shown.text else re.sub(r"^warning: .*\n", "", said, flags=re.MULTILINE)
         if shows(shown.text, heard):
@@ -157,7 +157,7 @@ def test_fmpy_prints_what_the_page_shows(shown, reader):
     check(shown, done.stdout)
 
 
-# another test runs the one that reads a map
+# another test runs the snippet that reads a map
 @pytest.mark.parametrize("snippet", [snippet for snippet in blocks("python") if "LossMap" not in snippet.text], ids=str)
 def test_a_snippet_runs_and_prints_what_its_page_shows(snippet, reader):
     script = reader(snippet.page) / "snippet.py"
@@ -171,7 +171,7 @@ def test_a_snippet_runs_and_prints_what_its_page_shows(snippet, reader):
 def test_a_file_of_a_page_is_understood_as_it_is_printed(shown, reader):
     folder = reader(shown.page)
     if shown.text in saved(shown.page).values():
-        # a command of the page names it
+        # a command of the page names the file
         return
     name, words = file_of(shown)
     with chdir(folder / "examples" / "design"):
@@ -183,11 +183,11 @@ def test_a_file_of_a_page_is_understood_as_it_is_printed(shown, reader):
             assert status == 0, said
 
 
-def test_all_that_pages_show_is_compared():
+def test_every_output_on_a_page_is_compared():
     assert not [str(source) for source in SHOWN if source not in [*COMMANDS, *OF_FMPY, *blocks("python")]]
 
 
-def test_what_is_shown_is_found_by_its_digits_and_not_by_its_times():
+def test_outputs_are_compared_by_their_digits_but_not_by_their_times():
     said = "force 12.5 N\n\nerror 1.0 %; 50 x real time; more\nends\n"
     assert shows("force 12.5 N\n\nerror 1.0 %; 7.25 x real time; more\nends\n", said)
     assert shows("...\nerror 1.0 %; 7.25 x real\ntime; more\n...\n", said)

@@ -1,4 +1,4 @@
-"""The drive cycle: an hour at 10 Hz, and its first minute with lumped teeth against pairs of teeth."""
+"""The drive cycle: an hour at 10 Hz, and its first minute with lumped teeth against tooth pairs."""
 
 import importlib.util
 from pathlib import Path
@@ -9,7 +9,7 @@ from bevel_differential import Scene
 
 ROOT = Path(__file__).parents[2]
 HEATS = ["heat.clutch", "heat.thrust", "heat.drag"]
-# the resultant of lumped teeth and of the law `line` acts at the same radius, that of `impact` at another one
+# the resultant of lumped teeth and that of the law `line` act at the same radius, that of `impact` acts at another radius
 TEETH = {"scene.gear_contact": "tooth", "contact.law": "line"}
 # an attempt at a step takes some 8 us; 1 000 times real time leaves 100 us between two points at 10 Hz
 MOST_ATTEMPTS = 12
@@ -39,7 +39,7 @@ def test_an_hour_has_stops_and_turns_both_ways_and_warms_up(hour):
     # six rounds with a start at rest and five stops, the last one at the end
     assert np.count_nonzero(np.diff(stands.astype(int)) == 1) == 6 * 5
     assert difference.max() > 2.0 and difference.min() < -2.0
-    # but where teeth cross the lash
+    # except where teeth cross the backlash
     assert np.median(np.abs(carrier - (hour["left.speed"] + hour["right.speed"]) / 2.0)) < 1e-3
     for node in ["oil", "gears", "clutch", "washers", "case"]:
         temperature = hour[f"temperature.{node}"]

@@ -1,4 +1,4 @@
-"""The host for libraries of other processors, run here without an emulator on this machine's library."""
+"""Host for libraries of other processors, run here without an emulator on this machine's library."""
 
 import shutil
 import sys
@@ -18,7 +18,7 @@ TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.sp
 
 @pytest.fixture
 def far(fmu, tmp_path):
-    """An instance behind the host."""
+    """Instance behind the host."""
     compiler = shutil.which("cc")
     if compiler is None or not sys.platform.startswith("linux"):
         pytest.skip("the host is for Linux, and a C compiler builds it")
@@ -52,7 +52,7 @@ def test_the_host_gives_the_bits_of_this_process_and_takes_every_kind_of_value(f
     assert len(np.unique(wanted, axis=0)) == len(wanted)
 
 
-def test_what_the_library_refuses_is_an_error_with_its_status(far):
+def test_a_call_refused_by_the_library_is_an_error_with_its_status(far):
     with pytest.raises(DifferentialError) as refused:
         far.raw.setReal([10**6], [1.0])
     assert refused.value.status == 3

@@ -1,4 +1,4 @@
-"""The manifest of the evidence has the form of FMI-LS-REF, and the document says all that a test with fmpy needs."""
+"""The manifest of the evidence has the form of FMI-LS-REF, and the document contains all that a test with fmpy needs."""
 
 import re
 import subprocess
@@ -15,7 +15,7 @@ from bevel_differential.verify import FOLDER, MANIFEST
 KEPT = Path(__file__).resolve().parents[2] / "modelDescription" / "evidence"
 DOCUMENT = "fmi-ls-ref.txt"
 NAMESPACE = "http://fmi-standard.org/fmi-ls-manifest"
-# the form of the manifest, in words of RelaxNG
+# form of the manifest in RelaxNG
 GRAMMAR = f"""<grammar xmlns="http://relaxng.org/ns/structure/1.0" datatypeLibrary="http://www.w3.org/2001/XMLSchema-datatypes">
   <start>
     <element name="fmiReferences">
@@ -63,7 +63,7 @@ def test_other_forms_are_noticed(old, new):
 
 def test_attributes_of_the_manifest_are_those_of_the_standard_s_schema():
     schema = etree.XMLSchema(etree.parse(str(Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3LayeredStandardManifest.xsd")))
-    # the schema knows an element of its own with them
+    # the schema has another root element with the same attributes
     bare = etree.Element(f"{{{NAMESPACE}}}fmiLayeredStandardManifest", dict(manifest().attrib))
     schema.assertValid(bare)
     del bare.attrib[f"{{{NAMESPACE}}}fmi-ls-version"]
@@ -84,7 +84,7 @@ def test_every_file_is_listed_with_its_role(fmu_file):
 
 @pytest.mark.parametrize("version, changed", [("", None), ("3", None), ("", "study_turning")])
 def test_the_lines_for_plain_fmpy_test_a_unit(fmu_file, tmp_path, version, changed):
-    """As documented, and they notice a result that differs."""
+    """The documented lines test a unit, and detect a result that differs."""
     lines = re.search(r"```python\n(.*?)```", (KEPT / DOCUMENT).read_text(encoding="utf-8"), re.DOTALL)[1]
     with zipfile.ZipFile(fmu_file.replace(".fmu", f"{version}.fmu")) as archive, zipfile.ZipFile(tmp_path / "BevelDifferential.fmu", "w") as unit:
         for name in archive.namelist():

@@ -1,4 +1,4 @@
-"""Model exchange: fmpy's CVode integrates the state and agrees with the FMU's own solver."""
+"""Model exchange: fmpy's CVode integrates the state and agrees with the FMU's solver."""
 
 import ctypes
 
@@ -32,11 +32,11 @@ def simulate(through_fmpy):
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_cvode_agrees_with_the_own_solver(simulate, scene):
+def test_cvode_agrees_with_the_fmu_s_solver(simulate, scene):
     values, stop = SCENES[scene], 0.02
     own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-9}, stop, None)
     theirs = simulate("ModelExchange", values, stop, 1e-8, solver="CVode")
-    # CVode's records may have more rows: at events
+    # CVode's records may have additional rows, at events
     at = np.interp(own["time"], theirs["time"], np.arange(len(theirs)))
     rows = theirs[np.round(at).astype(int)]
     np.testing.assert_allclose(rows["time"], own["time"], atol=1e-12)
@@ -45,7 +45,7 @@ def test_cvode_agrees_with_the_own_solver(simulate, scene):
         assert np.max(np.abs(rows[name] - own[name])) < 1e-4 * size, name
 
 
-def test_cvode_converges_to_the_own_solver(simulate):
+def test_cvode_converges_to_the_fmu_s_solver(simulate):
     values = SCENES["lumped"]
     own = simulate("CoSimulation", {**values, "solver.relative_tolerance": 1e-11}, 0.01, None)
     errors = []

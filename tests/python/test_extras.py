@@ -1,4 +1,4 @@
-"""The smallest installation: help without optional packages, and hints that install them."""
+"""The smallest installation: help without optional packages, and hints on how to install them."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from bevel_differential import extras
 from bevel_differential.command import COMMANDS
 
 PYTHON = Path(__file__).resolve().parents[2] / "python"
-# modules of the packages in the extras; Jinja2 and lxml come with fmpy, numpy and tqdm always
+# modules of the packages in the extras; Jinja2 and lxml come with fmpy, numpy and tqdm are always installed
 MODULES = {"matplotlib": "matplotlib", "dask": "dask", "distributed": "distributed", "pandas": "pandas", "pyarrow": "pyarrow", "scipy": "scipy",
            "cadquery-ocp-novtk": "OCP", "ezdxf": "ezdxf", "networkx": "networkx", "trimesh": "trimesh", "pymoo": "pymoo", "rainflow": "rainflow",
            "SALib": "SALib"}
@@ -34,7 +34,7 @@ sys.exit(main(sys.argv[2:]))
 
 
 def without(*words, folder=None):
-    """The command in a Python that has no optional package."""
+    """Runs the command in a Python without optional packages."""
     environment = {**os.environ, "PYTHONPATH": str(PYTHON / "src")}
     return subprocess.run([sys.executable, "-c", WITHOUT, ",".join([*MODULES.values(), "PIL"]), *words], env=environment, cwd=folder,
                           capture_output=True, text=True, timeout=120)
@@ -75,7 +75,7 @@ def test_in_a_clone_the_hint_is_a_path_from_the_current_folder(folder, written, 
 
 
 def installed(monkeypatch, tmp_path, about):
-    """Lets the package be installed elsewhere, as `about` says of its source."""
+    """Pretends that the package is installed elsewhere, with the source `about`."""
     text = None if about is None else json.dumps(about)
     monkeypatch.setattr(extras, "__file__", str(tmp_path / "lib" / "site-packages" / "bevel_differential" / "extras.py"))
     monkeypatch.setattr(extras.importlib, "metadata", SimpleNamespace(

@@ -1,4 +1,4 @@
-"""The unit of FMI 3.0: valid, the same bits as by FMI 2.0, events in every combination, derivatives both ways, states."""
+"""The unit of FMI 3.0: valid, same bits as with FMI 2.0, events in every combination, both kinds of derivatives, states."""
 
 import ctypes
 import zipfile
@@ -15,7 +15,7 @@ from fmpy.validation import validate_fmu
 from lxml import etree
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3ModelDescription.xsd"
-# wheels brake to a standstill one after the other, and the brakes let go again
+# wheels brake to a standstill one after the other, and the brakes are released
 BRAKING = {"effects.wheel_brake": True, "scene.carrier_drive": 2, "carrier.torque_command": 0.0, "left.load_torque": 0.0,
            "right.load_torque": 0.0, "inertia.left_end": 0.6, "inertia.right_end": 0.9, "left.brake_torque": 900.0,
            "right.brake_torque": 700.0, "carrier.speed_command": 30.0, "scene.start": 2}
@@ -64,7 +64,7 @@ def test_a_scene_has_the_same_bits_by_both_versions(fmu3, fmu, plain_outputs, na
 
 
 def march(unit, values, outputs, end=END, step=STEP, handle=True):
-    """Steps from point to point, on after every early return. Returns the points and all [time, kind, early, needed]."""
+    """Steps from point to point, continuing after every early return. Returns the points and all [time, kind, early, needed]."""
     unit.initialise(values, end)
     if handle:
         unit.raw.updateDiscreteStates()
@@ -99,7 +99,7 @@ def test_events_end_steps_only_where_the_host_allows_it_and_change_no_bit(fmu3, 
         assert np.array_equal(points, calm), (events, early)
         assert any(each[3] for each in seen) == early
         assert any(each[4] for each in seen) == events
-        # discrete outputs change in event mode alone, where the host handles events
+        # discrete outputs change only in event mode if the host handles events
         assert all((before == after) != (needed and after != 0) or before == after for _, before, after, _, needed in seen)
     times = [time for time, *_ in found[True, True][1]]
     assert times == [time for time, *_ in found[False, True][1]] and len(times) >= 1
@@ -114,11 +114,11 @@ def test_times_of_events_are_within_the_tolerance_of_those_located_at_1e_10(fmu3
             found[tolerance] = [(time, kind) for time, kind, *_ in events]
     rough, fine = found[1e-6], found[1e-10]
     assert [kind for _, kind in rough] == [kind for _, kind in fine]
-    # speeds of some 30 rad/s are known to 1e-6 of themselves, and brakes change them by some 1000 rad/s²
+    # speeds of some 30 rad/s are accurate to 1e-6, and brakes change them by some 1000 rad/s²
     assert max(abs(a - b) for (a, _), (b, _) in zip(rough, fine)) < 1e-6
 
 
-def test_event_mode_publishes_what_happened(fmu3):
+def test_event_mode_publishes_the_events(fmu3):
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
         unit.initialise(BRAKING)
         unit.raw.updateDiscreteStates()
@@ -134,7 +134,7 @@ def test_event_mode_publishes_what_happened(fmu3):
         assert abs(unit.read([f"{('left', 'right')[place - 1]}.wheel_speed"])[0]) < 0.05
 
 
-def test_at_the_solver_s_steps_the_host_reads_sets_and_returns_and_changes_nothing_by_looking(fmu3, plain_outputs):
+def test_at_the_solver_s_steps_the_host_reads_sets_and_returns_without_changing_results(fmu3, plain_outputs):
     seen, wanted = [], {"at": None}
 
     def look(_environment, time, set_requested, get_allowed, finished, may_return, requested, _return_time):
@@ -237,7 +237,7 @@ def test_an_instance_of_one_version_is_refused_by_the_other(fmu3, fmu):
 
 
 def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps(fmu3):
-    """It releases the brake of a wheel that stops: by early return, and by looking every 10 us."""
+    """It releases the brake of a wheel that stops, either by early return or by polling every 10 us."""
     end, names = 0.1, ["left.wheel_speed", "right.wheel_speed", "carrier.angle"]
 
     def release(unit, held):
@@ -266,5 +266,5 @@ def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps
             release(unit, unit.reals(["held.wheels"])[0])
         by_looking = unit.reals(names)
     assert 20 * few <= many
-    # a look is late by 10 us at most, in which a brake changes speeds by some 1000 rad/s² and moves teeth through their lash
+    # polling is late by at most 10 us, in which a brake changes speeds by some 1000 rad/s² and moves teeth through the backlash
     assert by_events == pytest.approx(by_looking, abs=0.05)

@@ -1,5 +1,5 @@
-"""Directional derivatives of the unit of FMI 3.0 against differences of what it shows, and adjoint derivatives against them: all
-inputs and states, all outputs and derivatives, ten scenes, both kinds."""
+"""Directional derivatives of the unit of FMI 3.0 against differences of its outputs, and adjoint derivatives against directional
+ones: all inputs and states, all outputs and derivatives, ten scenes, co-simulation and model exchange."""
 
 import ctypes
 from pathlib import Path
@@ -10,7 +10,7 @@ from bevel_differential import Scene, shipped_scenes
 from fmi3 import Unit3
 from fmpy.fmi1 import FMICallException
 
-# |T_left - T_right| and which wheel is ahead: they have a kink where the wheels are alike
+# both depend on |T_left - T_right| and on which wheel is faster: they have a kink where the wheels are equal
 KINKED = {"locking_value", "torque_bias_ratio"}
 FIRST, STEPS = 1e-2, 9
 
@@ -22,7 +22,7 @@ def kind(request):
 
 @pytest.fixture(params=shipped_scenes())
 def unit(request, fmu, fmu_file, kind):
-    """A unit of FMI 3.0 in a scene: at its start in model exchange, after a step in co-simulation."""
+    """Unit of FMI 3.0 in a scene: at its start in model exchange, after a step in co-simulation."""
     scene = Scene.load(request.param, fmu=fmu)
     with Unit3(Path(fmu_file).with_name("BevelDifferential3.fmu"), kind) as unit:
         unit.initialise(scene.values)
@@ -31,7 +31,7 @@ def unit(request, fmu, fmu_file, kind):
             unit.raw.enterContinuousTimeMode()
         else:
             unit.step(0.0, 1e-3)
-        # brakes, locks and commands that stand at the end of their range are moved into it
+        # brakes, locks and commands at the end of their range are moved into the range
         for name in inputs(unit):
             [value], variable = unit.reals([name]), unit.variables[name]
             if value in (_number(variable.min), _number(variable.max)):
@@ -60,7 +60,7 @@ def unknowns(unit):
 
 
 def movers(unit, kind):
-    """For each known a function that moves it by a distance, and its natural magnitude."""
+    """Yields for each known its name, a function that moves it by a distance, and its natural magnitude."""
     for name in inputs(unit):
         [value] = unit.reals([name])
         yield name, lambda distance, name=name, value=value: unit.set({name: value + distance}), 1 + abs(value)
@@ -77,7 +77,7 @@ def movers(unit, kind):
 
 
 def differences(read, move, size):
-    """The central difference of order 4 that changes least with its step, and by how much."""
+    """Central difference of order 4 that changes least with its step, and the size of this change."""
     found = []
     for step in size * FIRST * 10.0 ** (-0.5 * np.arange(STEPS)):
         points = []
@@ -93,7 +93,7 @@ def differences(read, move, size):
 
 
 def have_kinks(unit):
-    """Whether wheels are so much alike that KINKED have no slope, or another one nearby."""
+    """True if wheels are so nearly equal that KINKED have no slope, or another one nearby."""
     torque, speed = unit.reals(["left.shaft_torque", "right.shaft_torque"]), unit.reals(["left.speed", "right.speed"])
     return np.ptp(torque) < 1e-2 * abs(torque.sum()) or np.abs(torque).min() < 1e-6 or np.ptp(speed) < 1e-2
 
@@ -104,7 +104,7 @@ def test_directional_derivatives_are_differences(unit, kind):
     for known, move, size in movers(unit, kind):
         slope = unit.sensitivity(names, [known], [1.0])
         difference, uncertain = differences(lambda: unit.reals(names), move, size)
-        # what changes by less than 1e-9 of the value over the natural magnitude of the known is rounding
+        # a change below 1e-9 of the value, relative to the natural magnitude of the known, is rounding
         allowed = 1e-6 * np.abs(difference) + 1e-9 * (1 + np.abs(unit.reals(names))) / min(size, 1)
         for i in np.flatnonzero(np.abs(slope - difference) > allowed + 3 * uncertain):
             raise AssertionError((names[i], known, slope[i], difference[i], uncertain[i]))
@@ -117,13 +117,13 @@ def test_the_adjoint_is_the_transpose(unit):
     columns = np.array([unit.sensitivity(names, [known], [1.0]) for known in knowns])
     seed = np.random.default_rng(7).standard_normal(len(names))
     adjoint = unit.sensitivity(names, knowns, seed, adjoint=True)
-    # sums of many terms: rounding counts by the largest of them
+    # the largest of many terms determines the rounding error of their sum
     size = np.abs(columns * seed).sum(axis=1).max(initial=1e-300)
     assert np.max(np.abs(columns @ seed - adjoint)) <= 1e-12 * size
     assert np.count_nonzero(adjoint) >= 5
 
 
-def test_an_adjoint_that_is_no_finite_number_is_refused(unit):
+def test_an_adjoint_that_is_not_a_finite_number_is_refused(unit):
     names, knowns = unknowns(unit), inputs(unit)
     slopes = unit.sensitivity(names, knowns, np.ones(len(names)), adjoint=True)
     assert np.abs(slopes).max() > 1e-3

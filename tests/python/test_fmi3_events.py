@@ -1,4 +1,4 @@
-"""Events of the unit of FMI 3.0 that commands cause, and event mode: after each event `held.*` and `event.*` agree with a run
+"""Events of the unit of FMI 3.0 that commands cause, and event mode: after each event, `held.*` and `event.*` agree with a run
 without event mode, and the motion keeps its bits."""
 
 
@@ -23,7 +23,7 @@ def brakes(torque):
     return {"left.brake_torque": torque, "right.brake_torque": torque}
 
 
-# scene, size of the steps, commands at the beginning of steps, and the events that they cause there
+# scene, step size, commands at the start of steps, and the events that they cause
 COMMANDS = {
     "brake": (REST, STEP, {2: brakes(100.0), 5: brakes(0.0)},
               {2: [(STOPS, LEFT), (STOPS, RIGHT)], 5: [(LOOSE, LEFT), (LOOSE, RIGHT)]}),
@@ -35,14 +35,14 @@ COMMANDS = {
                    {2: [(STICKS, LEFT), (STICKS, RIGHT)], 5: [(SLIPS, LEFT), (SLIPS, RIGHT)]}),
     "both": (REST, STEP, {2: brakes(100.0) | {"lock.command": 1.0}, 5: brakes(0.0)},
              {2: [(STICKS, LEFT), (STICKS, RIGHT), (STOPS, LEFT), (STOPS, RIGHT)], 5: [(LOOSE, LEFT), (LOOSE, RIGHT)]}),
-    # the drive loads each wheel by 50 N.m
+    # the drive loads each wheel with 50 N.m
     "lowered": (DRIVEN, 0.05, {6: {"left.brake_torque": 20.0}}, {6: [(LOOSE, LEFT)]}),
 }
 
 
 @pytest.fixture(scope="module")
 def level(fmu):
-    """level(contact): the number of a level of gear contact."""
+    """level(contact): number of a level of gear contact."""
     return lambda contact: {"scene.gear_contact": fmu.variable("scene.gear_contact").number(contact)}
 
 
@@ -58,8 +58,8 @@ def begin(unit, values, events):
 
 
 class Run:
-    """A run through `commands`, which are set at the beginning of steps, in event mode or in step mode. Records the outputs and
-    the last event at all communication points, and each event with the step and the time at which it was reported."""
+    """Run with `commands`, which are set at the start of steps, in event mode or in step mode. Records the outputs and the last event
+    at all communication points, and each event with the step and the time of its report."""
 
     def __init__(self, file, outputs, values, commands, events=False, early=False, in_event_mode=False, step=STEP):
         self.rows, self.last, self.reported, self.flags = [], [], [], []
@@ -102,7 +102,7 @@ def test_a_hold_by_command_is_an_event(fmu3, plain_outputs, level, contact, name
     for k, events in expected.items():
         assert run.kinds(k) == events
         if (contact, name) == ("lumped", "lowered"):
-            # lumped gears bounce for long: the wheel slides once it turns forward again
+            # lumped gears bounce for a long time: the wheel slides when it turns forward again
             continue
         reported = {time for step, time, *_ in run.reported if step == k}
         happened = {event[2] for step, _, *event in run.reported if step == k}
@@ -110,7 +110,7 @@ def test_a_hold_by_command_is_an_event(fmu3, plain_outputs, level, contact, name
         assert reported == {(k + 1) * size if way == "at the end of the step" else k * size}
         flags = [(time, early) for step, time, needed, early in run.flags if step == k and needed]
         assert flags == {"at the end of the step": [((k + 1) * size, False)], "by early return": [(k * size, True)]}.get(way, [])
-    # numbers count all events
+    # event numbers count all events
     numbers = [number for *_, number in run.reported]
     assert numbers == list(range(1, len(numbers) + 1))
 
@@ -133,13 +133,13 @@ def test_held_bodies_are_shown_after_the_update_in_which_a_command_was_set(fmu3,
             last = unit.event()
             assert unit.update() == [last]
             unit.raw.enterStepMode()
-        # the next step has no event left to report
+        # the next step has no unreported event
         assert unit.step(STEP, STEP)[0] is False
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(fmu3, plain_outputs, level, contact):
-    """Brakes on rolling wheels hold nothing, and loads are no commands to hold."""
+    """Brakes on rolling wheels hold nothing, and loads are not commands that hold."""
     commands = {2: brakes(40.0), 4: {"left.load_torque": -80.0}, 5: {"left.load_torque": 10.0, "right.brake_torque": 0.0}}
     runs = [Run(fmu3, plain_outputs, ROLLING | level(contact), commands, *how)
             for how in ((), (True, True), (True, True, True), (True, False, True))]
@@ -152,7 +152,7 @@ def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(f
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("early", [False, True])
 def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, plain_outputs, level, contact, early):
-    """A controller applies a brake, reads that it holds, and releases the other one: all at one time."""
+    """A controller applies a brake, reads that it holds, and releases the other brake, all at the same time."""
     values = DRIVEN | level(contact) | {"right.brake_torque": 0.0, "left.brake_torque": 0.0, "carrier.torque_command": 0.0}
     last = {"left.brake_torque": 0.0, "right.brake_torque": 80.0, "carrier.torque_command": 30.0}
     plain = Run(fmu3, plain_outputs, values, {3: last})
@@ -185,7 +185,7 @@ def test_a_broken_tooth_by_trigger_is_an_event_at_the_start_of_the_step(fmu3, pl
 
 
 def stops(file, values, early, end):
-    """All events of a step of `end` [s], with early returns or without, and the outputs at its end."""
+    """All events of a step of `end` [s], with or without early returns, and the outputs at its end."""
     with opened(file, True, early) as unit:
         begin(unit, values, True)
         time, reported, going = 0.0, [], True
@@ -200,7 +200,7 @@ def test_two_wheels_that_stop_in_one_step_are_reported_in_order(fmu3, level, con
     values = ROLLING | level(contact) | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}
     early, held = stops(fmu3, values, True, 0.3)
     late, held_late = stops(fmu3, values, False, 0.3)
-    # one event mode reports what several report with early return
+    # one event mode reports the same events as several with early return
     assert len(late) == 1 and len(late[0]) >= 2
     assert late[0] == [event for reported in early for event in reported]
     assert held == held_late == [0, 0, 2]
@@ -261,7 +261,7 @@ def test_a_mirrored_scene_has_the_same_events(fmu3, plain_outputs, level, contac
     (reported, held), (reported_back, held_back) = found
     assert held == held_back and len(reported) >= 1
     assert [(event[0], *event[2:4]) for event in reported] == [(event[0], *event[2:4]) for event in reported_back]
-    # teeth have another flank backwards, of the same shape
+    # in reverse, teeth use the other flank, which has the same shape
     assert [event[4] for event in reported] == pytest.approx([event[4] for event in reported_back], abs=1e-5)
 
 
@@ -269,11 +269,11 @@ def test_a_mirrored_scene_has_the_same_events(fmu3, plain_outputs, level, contac
 @pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("in_event_mode", [False, True])
 def test_a_restored_state_has_the_events_and_holds_of_its_time(fmu3, plain_outputs, level, contact, early, in_event_mode):
-    """Also in another instance, and from within event mode between two reports."""
+    """Also in another instance, and within event mode between two reports."""
     names = plain_outputs
 
     def go_on(unit):
-        """From 0.02 s on; brakes are applied there."""
+        """Continues from 0.02 s, where brakes are applied."""
         seen, time = [], 0.02
         if in_event_mode:
             seen += unit.handle_event(brakes(100.0))
@@ -323,7 +323,7 @@ def test_a_state_saved_between_two_reports_reports_the_rest(fmu3):
 
 
 @pytest.mark.parametrize("events", [False, True])
-def test_a_state_of_a_host_with_the_other_kind_of_events_is_shown_as_it_is(fmu3, events):
+def test_a_state_of_a_host_with_the_other_kind_of_events_keeps_its_outputs(fmu3, events):
     with opened(fmu3, events, False) as unit, opened(fmu3, not events, False) as other:
         for one in (unit, other):
             begin(one, REST, one is unit and events or one is other and not events)
@@ -353,7 +353,7 @@ def test_held_bodies_are_right_in_initialisation_mode(fmu3):
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("early", [False, True])
 def test_a_command_within_a_step_is_an_event_there(fmu3, level, contact, early):
-    """The host sets brakes at a step of the solver, from its intermediate update."""
+    """The host sets brakes at a step of the solver, in its intermediate update."""
     times = []
 
     def brake(_environment, time, set_requested, *_):
@@ -361,7 +361,7 @@ def test_a_command_within_a_step_is_an_event_there(fmu3, level, contact, early):
             times.append(time)
             unit.set(brakes(100.0))
 
-    # a small load on the left wheel, so that the solver takes steps; the right wheel stays at rest
+    # a small load on the left wheel makes the solver take steps; the right wheel stays at rest
     values = REST | level(contact) | {"effects.half_shaft": True, "left.load_torque": 0.01}
     with opened(fmu3, True, early, intermediateUpdate=brake) as unit:
         begin(unit, values, True)
@@ -412,7 +412,7 @@ def test_in_model_exchange_commands_are_events_too(exchange, level, contact):
         unit.set(command)
         assert [event[:2] for event in unit.update()] == [(kind, LEFT), (kind, RIGHT)]
         assert unit.reals(HELD).tolist() == held
-    # set between events, a command requests one
+    # a command that is set between events requests an event
     unit.raw.enterContinuousTimeMode()
     unit.set({"left.brake_torque": 50.0})
     assert unit.raw.completedIntegratorStep()[0]
@@ -422,7 +422,7 @@ def test_in_model_exchange_commands_are_events_too(exchange, level, contact):
     assert unit.reals(HELD).tolist() == [0, 0, 1]
 
 
-def test_a_solver_of_the_host_finds_the_events_of_the_own_one(fmu3, level):
+def test_a_solver_of_the_host_finds_the_events_of_the_fmu_s_solver(fmu3, level):
     values = ROLLING | level("ideal") | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}
     own, _ = stops(fmu3, values, True, 0.3)
     own = [event for reported in own for event in reported]

@@ -1,4 +1,4 @@
-"""States set as variables in FMI 3.0: between events all of them, at events the positions; and stop times of restored states."""
+"""States set as variables in FMI 3.0: all of them between events, and positions at events; also stop times of restored states."""
 
 import ctypes
 from pathlib import Path
@@ -37,7 +37,7 @@ def put(unit, values):
 
 
 def moved(unit):
-    """States around the present ones, which differ by less than a hundredth of their nominal values."""
+    """States near the present ones, which differ by less than a hundredth of their nominal values."""
     nominal = [float(unit.variables[name].nominal) for name in names(unit)]
     return [x + 0.01 * size * (-1) ** k / (1 + k % 5) for k, (x, size) in enumerate(zip(states(unit), nominal))]
 
@@ -84,7 +84,7 @@ def test_at_events_positions_may_be_set_and_velocities_may_not(exchange):
             with pytest.raises(Exception, match="fmi3SetFloat64"):
                 at_event.set({name: 1.0})
             assert name in at_event.messages[-1][1] and "continuous-time mode" in at_event.messages[-1][1]
-    # the host has changed the states: the event has not
+    # the host has changed the states, but the event has not
     needs_update, _, _, changed, *_ = at_event.raw.updateDiscreteStates()
     assert not needs_update and not changed
     at_event.raw.enterContinuousTimeMode()
@@ -96,7 +96,7 @@ def test_the_energy_of_a_position_set_at_an_event_is_work_of_the_host(exchange):
     angle, energy = 2e-5, "solver.energy_residual"
     [before, torque] = unit.reals([energy, "left.shaft_torque"])
     unit.set({"left.relative_angle": unit.reals(["left.relative_angle"])[0] + angle})
-    # the teeth press with the torque of the load when they are wound further
+    # the teeth press with the torque of the load when they are deflected further
     assert abs(unit.reals([energy])[0] - before) < 1e-9 * torque * angle
     unit.update()
     assert abs(unit.reals([energy])[0] - before) < 1e-9 * torque * angle
@@ -127,7 +127,7 @@ def test_in_co_simulation_no_state_is_set(fmu3, options):
 
 
 @pytest.mark.parametrize("options", [{}, {"eventModeUsed": True, "earlyReturnAllowed": True}])
-def test_the_own_stop_time_and_tolerance_outlast_a_restored_state(fmu3, plain_outputs, options):
+def test_an_instance_keeps_its_stop_time_and_tolerance_when_a_state_is_restored(fmu3, plain_outputs, options):
     def begun(stop, tolerance=None):
         unit = Unit3(fmu3, **options)
         unit.set(WHEELS)

@@ -1,4 +1,4 @@
-"""The packaged FMU, seen from a host: theory, spectra, messages. Names of tests are sentences."""
+"""The packaged FMU in a host: theory, spectra, messages. Names of tests are sentences."""
 
 import re
 
@@ -15,7 +15,7 @@ SIDES = ["left", "right"]
 
 
 def settled(record, begin=0.14):
-    """From `begin` to the end, without the last sample: in a turn of 0.5 s two whole mesh periods."""
+    """Record from `begin` to the end, without the last sample: two whole mesh periods in a turn of 0.5 s."""
     return record[(record["time"] > begin - 1e-9)][:-1]
 
 
@@ -47,7 +47,7 @@ def test_straight_ahead_both_sides_turn_with_the_carrier(straight):
     assert willis(part) < 1e-6
 
 
-def test_straight_ahead_the_teeth_carry_what_theory_says(straight):
+def test_straight_ahead_the_teeth_carry_the_load_of_theory(straight):
     part = settled(straight)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
@@ -60,17 +60,17 @@ def test_in_the_turn_the_speeds_follow_willis(turn):
     part = settled(turn)
     for side, expected in zip(SIDES, theory.side_speeds(CARRIER, SPIN)):
         assert np.degrees(np.mean(part[f"{side}.speed"])) == pytest.approx(expected, rel=1e-3)
-    # the stiffness of teeth returns its energy within a mesh period; the remainder is the sampling of the mean
+    # the stiffness of teeth returns its energy within a mesh period; the remainder is the sampling error of the mean
     assert willis(part) < 2e-6
 
 
 def willis(part):
-    """|ω_L + ω_R − 2 ω_c| of the means over 2 ω_c."""
+    """|ω_L + ω_R − 2 ω_c| of the means, over 2 ω_c."""
     carrier = 2.0 * np.mean(part["carrier.speed"])
     return abs(np.mean(part["left.speed"]) + np.mean(part["right.speed"]) - carrier) / carrier
 
 
-def test_in_the_turn_the_teeth_carry_what_theory_says(turn):
+def test_in_the_turn_the_teeth_carry_the_load_of_theory(turn):
     part = settled(turn)
     for side in SIDES:
         assert np.mean(part[f"{side}.tangential_force"]) == pytest.approx(theory.TANGENTIAL_FORCE, rel=5e-3)
@@ -81,7 +81,7 @@ def test_the_first_line_of_the_force_is_the_mesh_frequency(run):
     amplitude, frequency = spectrum(run(TURN, stop=2.0)["left.normal_force"])
     lines = frequency[1:][amplitude[1:] > 0.02 * np.max(amplitude[1:])]
     assert lines[0] == pytest.approx(theory.mesh_frequency(SPIN), rel=1e-6)
-    # and all others are multiples of it
+    # all other lines are multiples of it
     np.testing.assert_allclose(lines / lines[0], np.round(lines / lines[0]), atol=1e-6)
 
 
@@ -91,7 +91,7 @@ def test_straight_ahead_the_force_has_no_line(run):
 
 
 def spectrum(force, step=0.001, window=1.8):
-    """Amplitudes over the last ten mesh periods of the turn."""
+    """Amplitudes over the last ten mesh periods of the turn, and their frequencies."""
     count = round(window / step)
     amplitude = np.abs(np.fft.rfft(force[-count - 1:-1])) / count
     amplitude[1:] *= 2.0
@@ -104,10 +104,10 @@ def test_no_tooth_slips(turn):
     for side, sign in zip(SIDES, [1.0, -1.0]):
         spin = part["planet[1].spin_angle"]
         lag = part["carrier.angle"] + sign * ratio * spin - part[f"{side}.angle"]
-        # through half the play, and no farther than the deflection of one pair
+        # at least half the backlash, and at most the deflection of one pair more
         assert np.all(lag > theory.half_play())
         assert np.all(lag < theory.half_play() + 1.05 * theory.largest_wind_up())
-        # several teeth have passed, so a slip of one would show
+        # several teeth have passed, so a slip of one would be visible
     assert part["planet[1].spin_angle"][-1] > 4.0 * np.pi / theory.PLANET_TEETH
     assert theory.half_play() + theory.largest_wind_up() < 0.1 * 2.0 * np.pi / theory.SIDE_TEETH
 
@@ -126,7 +126,7 @@ def test_the_start_values_give_no_message(fmu):
 
 
 def acted_on(opened, inputs, outputs):
-    """Pairs (output, input) in which the input acts at once."""
+    """Pairs (output, input) in which the input acts immediately."""
     acts = set()
     for name in inputs:
         before, value = opened.read(outputs), opened.get(name)
@@ -137,7 +137,7 @@ def acted_on(opened, inputs, outputs):
 
 
 def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fmu, description, outputs):
-    """The dependencies of the model structure are the union over all scenes and both kinds: nothing missing, nothing
+    """The dependencies of the model structure are the union over all scenes and both kinds: none is missing, none is
     superfluous."""
     inputs = [v.name for v in fmu.variables.values() if v.causality == "input"]
     declared = {(unknown.variable.name, known.name)
@@ -150,7 +150,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     brakes = {"effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 50.0}
     swapped = {**brakes, "left.brake_torque": 50.0, "right.brake_torque": 100.0}
     scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]
-    # one wheel stands while planets spin at 1 rad/s
+    # one wheel is at rest while planets spin at 1 rad/s
     scenes += [{"effects.half_shaft": True, **brakes, "carrier.speed_command": speed} for speed in [-0.625, 0.625]]
     left, right = {"scene.left_drive": "speed"}, {"scene.right_drive": "speed"}
     ways = [(carrier, spin) for carrier in ["speed", "torque"] for spin in ["free", "imposed"]]
@@ -158,7 +158,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     # at most two speeds can be imposed
     drives += [({**shafts, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
     drives += [({**ends, **side}, *way) for side in [left, right] for way in ways[:1] + ways[2:]]
-    # brakes that slide on wheels of given speed
+    # brakes that slide on wheels with a given speed
     drives += [({**shafts, **values, **side, f"{name}.speed_command": 50.0}, "speed", "free")
                for name, values, side in (("left", brakes, left), ("right", swapped, right))]
     drives += [({**shafts, **left, **right, "effects.strength": True, "effects.tooth_friction": True}, "torque", "free"),
@@ -178,7 +178,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
                         opened.step(1e-3)
                     observed |= acted_on(opened, inputs, outputs)
     assert observed - declared == set()
-    # numbers of pairs and the place of a pair jump, where a load passes through zero; efficiency is 1 wherever nothing is lost;
-    # and these meshes have one pair
+    # numbers of pairs and the position of a pair jump when a load passes through zero; efficiency is 1 if nothing is lost; and these
+    # meshes have one pair
     quiet = re.compile(r"_pairs$|efficiency$|mesh\.pair\[1\]\.(tooth|height)$|mesh\.pair\[[23]\]")
     assert {(output, name) for output, name in declared - observed if not quiet.search(output)} == set()

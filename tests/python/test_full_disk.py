@@ -1,5 +1,5 @@
-"""Every command that writes, on a disk that is full or may not be written to: what was there stays, what is new is complete, and the message
-names the file and the cause."""
+"""Every command that writes, on a full or read-only disk: existing files stay, new files are complete, and the message names the file
+and the cause."""
 
 import os
 import re
@@ -56,7 +56,7 @@ geometry.backlash = "0.1 mm +- 0.04 mm"
 """
 INPUTS = {"scene.toml": SCENE, "bench.toml": BENCH, "optimise.toml": OPTIMISE, "tolerance.toml": TOLERANCE}
 CYCLE = ROOT / "examples/design/duty_cycle.csv"
-# arguments, the file that was there before, room on the disk in bytes, files that may be new; of files in {inputs} none is written
+# arguments, existing file, free space on the disk in bytes, files that may be new; no file in {inputs} is written
 CASES = {
     "run": (["{inputs}/scene.toml", "--csv", "a.csv", "--plot", "a.png"], "a.csv", 0, ()),
     "run a Parquet file": (["{inputs}/scene.toml", "--csv", "a.parquet"], "a.parquet", 0, ()),
@@ -109,7 +109,7 @@ def mount(*arguments):
 
 @pytest.fixture
 def disk(tmp_path):
-    """An empty disk of `DISK` bytes, or None where none may be mounted."""
+    """Empty disk of `DISK` bytes, or None if mounting is not allowed."""
     folder = tmp_path / "disk"
     folder.mkdir()
     if not mount("-t", "tmpfs", "-o", f"size={DISK}", "tmpfs", str(folder)):
@@ -120,12 +120,12 @@ def disk(tmp_path):
 
 
 def content(folder):
-    """Files of a folder, with what they contain."""
+    """Files of a folder, with their contents."""
     return {file.relative_to(folder).as_posix(): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
 
 
 def prepared(folder, case, monkeypatch):
-    """Arguments of the command, after the file that was there is made and the folder is the current one."""
+    """Arguments of the command, after creation of the existing file and the change to the folder."""
     _, old, *_ = CASES[case]
     if old:
         (folder / old).parent.mkdir(exist_ok=True)
@@ -134,7 +134,7 @@ def prepared(folder, case, monkeypatch):
 
 
 def refused(case, inputs, fmu_file, capsys):
-    """The last line on standard error of the command, which fails."""
+    """Last line on standard error of the command, which must fail."""
     words = [word.format(inputs=inputs) for word in CASES[case][0]]
     own = [] if case.split()[0] in ("plan", "accuracy", "loads", "geometry", "pattern", "verify", "examples") else ["--fmu", fmu_file]
     assert main([case.split()[0], *words, *own]) not in (0, None)
@@ -142,7 +142,7 @@ def refused(case, inputs, fmu_file, capsys):
 
 
 def judged(case, folder, before, line, cause):
-    """Old files stay, new files are complete and allowed, and the message names a file and the cause."""
+    """Checks that old files stay, that new files are complete and allowed, and that the message names a file and the cause."""
     after = content(folder)
     new = after.keys() - before.keys()
     assert new <= set(CASES[case][3]) and {name: after[name] for name in before} == before, (new, line)

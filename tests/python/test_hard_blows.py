@@ -1,4 +1,4 @@
-"""Teeth that strike: torque steps, clunk across the lash, rattle, small and large backlash."""
+"""Impacts of teeth: torque steps, clunk through the backlash, rattle, small and large backlash."""
 
 from math import sqrt
 
@@ -7,7 +7,7 @@ import pytest
 import theory
 from driving import BLOWS, GIVEN, SIDES, TURN, UNDAMPED, UNLOADED
 
-# almost no load: enough to show on which flank the teeth are
+# a minimal load, which determines the flank on which the teeth touch
 TOUCH = 1e-3
 
 
@@ -16,7 +16,7 @@ TOUCH = 1e-3
 @pytest.mark.parametrize("torque", [5000.0, theory.LOAD])
 def test_a_torque_step_from_the_touching_flank_peaks_at_its_law_s_multiple_of_the_static_force(
         drive, law, rise, torque, corner):
-    # a spring F ~ d^e that takes a torque at once comes to rest at (e + 1) of it
+    # a spring F ~ d^e under a suddenly applied torque first stops at (e + 1) times this torque
     scene = drive({"contact.law": law, "contact.damping": 0.0, "scene.planet_spin": "imposed",
                    "carrier.speed_command": 0.0, "left.load_torque": TOUCH, "right.load_torque": TOUCH,
                    "effects.corner_contact": corner})
@@ -25,11 +25,11 @@ def test_a_torque_step_from_the_touching_flank_peaks_at_its_law_s_multiple_of_th
     scene.to(2e-3, 2e-6, lambda s: (forces.append(s["left.tangential_force"]), pairs.append(s["planet[1].left_pairs"])))
     peak = max(forces) / (torque / (theory.MODULE * theory.SIDE_TEETH / 2.0))
     assert np.isfinite(forces).all()
-    # the largest sample is at most half a step off the crest of a swing of 15 kHz at least: 2e-3 of it
+    # the largest sample is at most half a step from the crest of an oscillation of at least 15 kHz, which is 2e-3 of it
     if max(pairs) == 1.0:
         assert peak == pytest.approx(rise, rel=2e-3)
     else:
-        # tip corners that a bent pair brings into mesh stiffen the spring on its way
+        # a bent pair brings tip corners into mesh, which stiffen the spring
         assert rise < peak < 1.1 * rise
     assert (max(pairs) == 1.0) or corner
     assert scene.imbalance() < UNDAMPED
@@ -49,7 +49,7 @@ def test_a_torque_step_of_5000_newton_metres_in_one_communication_step_finishes(
 def test_clunk_peaks_at_the_torque_of_two_inertias_across_the_lash(drive):
     stiffness, inertia_1, inertia_2, torque = 2e4, 0.05, 1.0, 100.0
     backlash = 0.1885e-3
-    # at rest on the coast flanks under almost no load
+    # at rest on the coast flanks under a minimal load
     scene = drive({
         "scene.carrier_drive": "torque", "carrier.torque_command": -2.0 * TOUCH, "carrier.speed_command": 0.0,
         "left.load_torque": -TOUCH, "right.load_torque": -TOUCH, "inertia.carrier": inertia_1,
@@ -82,7 +82,7 @@ def relative_motion(scene):
 @pytest.mark.parametrize("law", ["impact", "line"])
 @pytest.mark.parametrize("damping", [5e4, 0.0])
 def test_rattling_gears_gain_no_energy(drive, law, damping):
-    """The carrier swings and sets the unloaded gears rattling; once it stands still, nothing drives them."""
+    """The carrier oscillates and makes the unloaded gears rattle; once it is at rest, nothing drives them."""
     carrier = 0.02
     scene = drive({**GIVEN, **UNLOADED, "scene.start": "rolling", "carrier.speed_command": 0.0, "contact.law": law,
                    "contact.damping": damping, "inertia.carrier": carrier})
@@ -97,11 +97,11 @@ def test_rattling_gears_gain_no_energy(drive, law, damping):
     begin, heat, early, late = scene["solver.energy_residual"], scene.heat(), [], []
     scene.to(0.15, 1e-4, lambda s: early.append(relative_motion(s) + s.heat() - heat))
     scene.to(0.25, 1e-4, lambda s: late.append(relative_motion(s) + s.heat() - heat))
-    # between blows nothing is bent: the energy is in motion and heat, and both stay constant
+    # between impacts nothing is deflected: all energy is kinetic energy and heat, and both stay constant
     assert max(early) > 1e-6
     assert max(late) == pytest.approx(max(early), rel=1e-3)
     assert scene.heat() > heat if damping else scene.heat() == heat == 0.0
-    # the solver's error in the oscillation is tested above; the free rattle counts separately
+    # the solver's error in the oscillation is tested above; the free rattle is tested separately
     assert abs(scene["solver.energy_residual"] - begin) < 1e-3 * max(early)
 
 
@@ -111,7 +111,7 @@ def test_rattling_gears_gain_no_energy(drive, law, damping):
 @pytest.mark.parametrize("start", ["equilibrium", "rolling", "rest"])
 def test_gears_without_backlash_and_with_two_millimetres_run_and_reverse(drive, values, base, start):
     scene = drive({**base, "scene.start": start, **values}).to(0.1, 1e-3)
-    # ten tolerances, which hold between the ends of long steps too
+    # ten tolerances, which are also valid between the ends of long steps
     assert scene["left.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-5)
     scene.load(-theory.LOAD)
     scene.to(0.2, 1e-3)

@@ -1,4 +1,4 @@
-"""Values that are no numbers, absurd, or out of range: refused with variable, value, unit and range, without harm."""
+"""Values that are not numbers, absurd, or out of range: refused with variable, value, unit and range, without harm."""
 
 import math
 import re
@@ -16,7 +16,7 @@ def of(fmu, causality, kind):
 
 
 def refusal(opened, name, value):
-    """The line of the log that refuses a value, at the call that sets it or at the end of initialisation."""
+    """Line of the log that refuses a value, at the call that sets it or at the end of initialisation."""
     begin = len(opened.messages)
     with pytest.raises(DifferentialError) as failure:
         put(opened, name, value)
@@ -38,7 +38,7 @@ def assert_usable_after_reset(opened):
 
 
 def assert_message(message, variable, value):
-    """Variable, value, unit and range."""
+    """Asserts that a message contains variable, value, unit and range."""
     unit = "" if variable.unit in (None, "1") else variable.unit
     assert unit in message, message
     if math.isfinite(value):
@@ -86,13 +86,13 @@ def test_a_value_out_of_its_range_is_refused_by_name_value_unit_and_range(fmu, c
 def test_a_whole_number_out_of_its_range_is_refused_by_name_value_and_range(fmu):
     with fmu.open() as opened:
         for variable in of(fmu, "parameter", "Integer"):
-            # a seed may be any number there is
+            # a seed may be any number in its type
             for value in [v for v in (variable.minimum - 1, variable.maximum + 1) if -2**31 <= v < 2**31]:
                 assert_message(refusal(opened, variable.name, value), variable, value)
                 assert_usable_after_reset(opened)
 
 
-def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(fmu):
+def test_an_unknown_choice_is_refused_with_the_list_of_choices(fmu):
     with fmu.open() as opened:
         for variable in fmu.variables.values():
             if variable.kind == "Enumeration":
@@ -103,7 +103,7 @@ def test_a_choice_that_there_is_none_is_refused_with_all_that_there_are(fmu):
                     assert_usable_after_reset(opened)
 
 
-def test_all_that_is_wrong_is_told_at_once(fmu):
+def test_all_wrong_values_are_reported_together(fmu):
     wrong = {"geometry.face_width": -1.0, "inertia.carrier": 0.0, "contact.exponent": 7.0, "material.density": 1e9}
     with fmu.open() as opened:
         opened.set(wrong)

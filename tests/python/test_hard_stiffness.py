@@ -1,4 +1,4 @@
-"""Stiffness, damping and inertia far from the study's: runs finish, energy balances, and cost does not explode."""
+"""Stiffness, damping and inertia far from the study's: runs finish, energy balances, and the cost stays limited."""
 
 import numpy as np
 import pytest
@@ -25,7 +25,7 @@ def test_stiff_undamped_overdamped_and_light_gears_finish_and_keep_their_energy(
     assert driven.imbalance() < UNDAMPED
 
 
-# In the turn stiff teeth ring 32 times as fast after each hand-over, and at the study's damping no shorter.
+# In the turn, stiff teeth ring 32 times as fast after each load transfer, and for as long at the study's damping.
 COSTS = {("turn", "stiff"): 15.0}
 
 
@@ -37,8 +37,8 @@ def test_at_the_study_s_damping_stiff_and_light_gears_cost_about_ten_times_as_mu
     assert np.all(cost < COSTS.get((scene, change), 10.0) * base), cost / base
 
 
-# Teeth that bounce without loss enlarge roundings: of scenes that hardly differ each turns over its own energy, with
-# its own residual, so that the mean of several counts.
+# Teeth that bounce without loss amplify rounding errors: scenes with tiny differences turn over different energies with different
+# residuals, so the mean of several scenes counts.
 NEIGHBOURS = {"stiff and undamped": 8}
 
 

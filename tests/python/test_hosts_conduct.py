@@ -12,7 +12,7 @@ STEP, STEPS = 1.0 / 512.0, 40
 
 
 class Loaded(Instance):
-    """An instance of `fmu` named `name`; instances differ by the `load` on both sides."""
+    """Instance of `fmu` named `name`; instances differ by the `load` on both sides."""
 
     def __init__(self, fmu, name, load):
         super().__init__(fmu, name=name)
@@ -40,7 +40,7 @@ def test_two_instances_step_alternately_and_are_freed_in_any_order(fmu):
     for first_freed in [0, 1]:
         pair = [Loaded(fmu, "one", 835.0), Loaded(fmu, "other", 400.0)]
         records = [sum(steps, []) for steps in zip(*[[instance.record(1) for instance in pair] for _ in range(STEPS // 2)])]
-        # the other one continues as if it had been alone
+        # the other instance continues as in a run without the first one
         pair[first_freed].raw.terminate()
         pair[first_freed].close()
         left = 1 - first_freed
@@ -51,7 +51,7 @@ def test_two_instances_step_alternately_and_are_freed_in_any_order(fmu):
 
 
 @pytest.mark.parametrize("name", ["with two spaces", "Größe µ 差速器", "percent %41 # & 'quote'"])
-def test_the_folder_it_is_unpacked_to_may_have_any_name(fmu, tmp_path, name):
+def test_the_folder_of_the_unpacked_fmu_may_have_any_name(fmu, tmp_path, name):
     folder = tmp_path / name
     shutil.copytree(fmu.folder, folder)
     with Loaded(Fmu(folder), name, 400.0) as instance:

@@ -1,10 +1,10 @@
-"""Inputs that follow tables: one behaviour of `Differential` and `Scene`, between points, at jumps and in every period."""
+"""Inputs that follow tables: `Differential` and `Scene` behave equally, between points, at jumps and in every period."""
 
 import numpy as np
 import pytest
 from bevel_differential import Differential, DifferentialError, Scene
 
-# bodies that turn freely under the drive alone
+# bodies that turn freely under only the drive
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
         "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
 DRIVE, SPEED = "carrier.torque_command", "carrier.speed"
@@ -19,7 +19,7 @@ def free(fmu_file):
 
 @pytest.fixture(scope="module")
 def inertia(free):
-    """That of all bodies, kg·m², by a constant torque."""
+    """Inertia of all bodies, kg·m², from a constant torque."""
     return 100.0 / free.final([SPEED], {DRIVE: 100.0}, stop=1.0)[SPEED]
 
 
@@ -47,7 +47,7 @@ def test_a_ramp_gives_its_momentum_at_any_step(step, torque, free, inertia, fmu_
 def test_without_a_step_corners_and_jumps_count(stop, free, inertia):
     times, values = [0.1, 0.4, 0.4, 0.55, 2.0], [50.0, 200.0, -100.0, 300.0, 0.0]
     inputs = {DRIVE: (times, values)}
-    # the trapezoids, with the first value before and the last one after
+    # trapezoids, with the first value before them and the last one after them
     knots = [0.0, *(time for time in times if time < stop), stop]
     ends = [values[0], *(value for time, value in zip(times, values) if time < stop), np.interp(stop, times[3:], values[3:])]
     exact = np.trapezoid(ends, knots) / inertia
@@ -92,7 +92,7 @@ def test_a_jump_comes_in_every_period(step, input_slopes, inertia, fmu_file):
     apart = np.abs(record["time"] - 0.05 * np.arange(1, 20)[:, np.newaxis]).min(axis=1)
     assert apart.max() < 1e-12
     assert record[SPEED][-1] == pytest.approx(50.0 / inertia, rel=1e-8)
-    # written out, without a period
+    # the same jumps without a period
     times = [round(k * 0.1 + time, 12) for k in range(10) for time in PULSES[0]]
     once = in_scene([(DRIVE, times, PULSES[1] * 10, None)], 1.0, step, fmu_file, input_slopes=input_slopes)
     assert once["time"] == pytest.approx(record["time"], abs=1e-12)

@@ -1,4 +1,4 @@
-"""Instances of the Python package, driven call by call: values of all kinds, steps, states, refusals."""
+"""Instances of the Python package in single calls: values of all kinds, steps, states, refusals."""
 
 import pickle
 import shutil
@@ -56,7 +56,7 @@ def test_a_saved_state_goes_on_with_the_same_bits_in_another_instance(fmu):
         first = go_on(one)
         assert first[0] == pytest.approx(8e-3, rel=1e-12)
         assert go_on(one.restore(saved)) == first == go_on(other.restore(saved))
-        # a restored instance is not fresh: it is reset before it begins anew
+        # a restored instance is not fresh: it is reset before it is initialised again
         assert other.initialise(TURN).get("solver.steps") == 0.0
 
 
@@ -71,12 +71,12 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
             endless.initialise(TURN).restore(first.save()).step(1e-3)
 
 
-def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_reset(fmu):
+def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
     with fmu.open() as opened:
         opened.initialise()
         with pytest.raises(DifferentialError, match="left.load_torque.* N.m is outside") as refused:
             opened.set({"left.load_torque": 1e30})
-        # the log names the call as well, for hosts
+        # for hosts, the log also names the call
         assert refused.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {refused.value}"
         with pytest.raises(DifferentialError, match="assembly condition") as refused:
             opened.initialise({"geometry.planet_count": 3})
@@ -95,7 +95,7 @@ def test_what_the_fmu_refuses_has_its_message_and_status_and_is_forgotten_by_a_r
     (lambda opened: opened.set_slopes({"left.sped": 1.0}), ["left.sped"]),
     (lambda opened: opened.fmu.open("Exchange"), ["'Exchange'", "CoSimulation, ModelExchange"]),
 ])
-def test_what_cannot_be_is_said_before_the_fmu_is_asked(fmu, use, parts):
+def test_impossible_calls_are_refused_before_the_fmu_is_called(fmu, use, parts):
     with fmu.open() as opened, pytest.raises(DifferentialError) as error:
         use(opened)
     assert error.value.status is None and all(part in str(error.value) for part in parts)

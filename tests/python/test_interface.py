@@ -1,4 +1,4 @@
-"""The Python package: the same bits as through fmpy, kept instances, values as a user writes them, errors that help."""
+"""The Python package: the same bits as with fmpy, reused instances, values as users write them, helpful errors."""
 
 import doctest
 import os
@@ -62,7 +62,7 @@ def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
     there = through_fmpy(fmu_file, {}, ["left.speed", "left.shaft_torque"], 0.05, signals=signals)
     assert same(by_arrays, by_record)
     assert len(by_arrays) == len(there) and np.array_equal(by_arrays["time"], there["time"])
-    # fmpy holds values within a step, and rounds one between two points differently
+    # fmpy holds values within a step, and rounds a value between two points differently
     for name in ("left.speed", "left.shaft_torque"):
         assert np.allclose(by_arrays[name], there[name], rtol=1e-6, atol=1e-6)
 
@@ -78,7 +78,7 @@ def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(f
         with slipping.fmu.open() as instance:
             instance.initialise({**given, "limited_slip.preload": 50.0})
             for row in range(60):
-                # two points at one time are a jump: after it the second counts
+                # two points at the same time are a jump: after it, the second one is valid
                 after = np.interp(row * 1e-3, times[2:], preloads[2:]) if row >= 20 else 50.0
                 instance.set({"limited_slip.preload": float(after)})
                 instance.step(1e-3)
@@ -120,14 +120,14 @@ def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
     (lambda d: d.set({"effects.strength": 2}), ["effects.strength", "true or false"]),
     (lambda d: d.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
     (lambda d: d.run(outputs=["left.sped"]), ["left.sped", "did you mean left.speed"]),
-    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "no input"]),
+    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "not an input"]),
     (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), ["left.load_torque", "2 times for 1"]),
     (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), ["left.load_torque", "must not fall"]),
     (lambda d: d.run(stop=-0.1), ["stop"]),
     (lambda d: d.run(step="1 fortnight"), ["step", "fortnight"]),
     (lambda d: d.run(step=-1e-3), ["step"]),
 ])
-def test_what_cannot_be_is_said_at_once(turn, use, parts):
+def test_impossible_calls_are_refused_immediately(turn, use, parts):
     with pytest.raises(DifferentialError) as error:
         use(turn)
     assert all(part in str(error.value) for part in parts), error.value

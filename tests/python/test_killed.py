@@ -1,4 +1,4 @@
-"""Commands that are killed at ten random moments, and two at the same time (killed.py): each file is the old or the new one."""
+"""Commands that are killed at ten random times, and two at the same time (killed.py): each file is the old or the new one."""
 
 import os
 import re
@@ -16,6 +16,6 @@ def test_killed_commands_and_two_at_the_same_time_leave_whole_files(fmu_file, tm
                                                                               "TMPDIR": str(tmp_path)})
     assert program.returncode == 0, program.stderr
     killed, together, sweep = program.stdout.splitlines()
-    # some processes are killed: the test has found its result before
+    # some processes are killed; those that are not were too fast
     counts = [int(count) for count in re.search(r"\[(.*)\]", killed)[1].split(", ")]
     assert len(counts) == 10 and min(counts) < 19 and together.startswith("together: ") and sweep.startswith("sweep: ")

@@ -1,4 +1,4 @@
-"""What scripts of the laboratory calculate: errors of facets, deviations of hosts, counts of instructions, figures of the ladder."""
+"""Calculations in scripts of the laboratory: errors of facets, deviations of hosts, counts of instructions, figures of the ladder."""
 
 import os
 import math
@@ -26,7 +26,7 @@ import tools  # noqa: E402
 
 @pytest.fixture(autouse=True, scope="module")
 def usual_fmu(fmu_file):
-    """The FMU under test is the usual one."""
+    """Makes the FMU under test the default one."""
     before = os.environ.get("BEVEL_DIFFERENTIAL_FMU")
     os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(fmu_file)
     yield
@@ -38,18 +38,18 @@ def usual_fmu(fmu_file):
 
 
 def record(values):
-    """A record of pairs (speed, force), alike on both sides."""
+    """Record of pairs (speed, force), equal on both sides."""
     speed, force = (np.array([[value] * 2 for value in column], float) for column in zip(*values))
     ones = np.ones_like(speed)
     return {"time": 1.0 + np.arange(len(values)), "communicates": np.ones(len(values), bool), "speed": speed, "force": force,
             "tangential": 0.0 * ones, "error": 0.0 * ones, "pairs": ones}
 
 
-def test_errors_are_parted_by_where_exact_teeth_run_evenly():
+def test_errors_are_separated_at_the_times_when_exact_teeth_run_evenly():
     exact = record([(10.0, 100.0)] * 5 + [(12.0, 100.0)])
     found = record([(11.0, 90.0), (10.5, 101.0), (10.5, 102.0), (10.5, 103.0), (11.0, 90.0), (13.0, 140.0)])
     errors = solids_errors.errors(found, exact, 0.0, [10.0, 10.0])
-    # the middle half of the even stretch, and all else
+    # the middle half of the smooth interval, and all other points
     parts = [errors[name] for name in ("speed_max", "speed_path_rms", "speed_corner_rms", "force_path_ripple")]
     assert parts == [1.0, 0.5, 1.0, 1.0]
     assert solids_errors.look(found, 0.0)["ripple"] == 50.0
@@ -125,7 +125,7 @@ def test_cases_run_and_end_on_time():
         case = precision.Case(Fmu.of(), motion, fidelity)
         samples, counts = case.samples("adaptive", 1e-3)
         assert samples.shape == (len(case.times), 4) and np.all(np.isfinite(samples)), case.name
-        # steps do not depend on the times of samples, and one that leads beyond the last of them is not completed
+        # steps do not depend on the times of samples, and a step beyond the last sample is not completed
         assert counts[0] + counts[2] > 0, case.name
         assert case.times[-1] == pytest.approx(case.stretches[-1][0])
 
@@ -165,7 +165,7 @@ def test_ideal_gears_in_a_turn_are_their_closed_form():
 
 def test_a_scene_of_the_survey_is_known_by_its_number():
     assert survey_scenes.drawn(3, 7).contents() == survey_scenes.drawn(3, 7).contents() != survey_scenes.drawn(3, 8).contents()
-    # scene files have plain numbers
+    # scene files contain plain numbers
     assert all(type(value) in (bool, int, float, str) for k in range(20) for value in survey_scenes.drawn(1, k).values.values())
 
 

@@ -1,4 +1,4 @@
-"""What links for macOS, tried on a small library: it must name, sign and strip as the FMU's library needs it."""
+"""The linker for macOS on a small library: it names, signs and strips the library as the FMU's library requires."""
 
 import shutil
 import subprocess
@@ -19,7 +19,7 @@ double shown(double x) { return hidden(x) + hidden(2.0 * x); }
 
 @pytest.fixture(scope="module")
 def tools(fmu_file, tmp_path_factory):
-    """A folder with the tool chains that are beside the FMU, and the one for macOS made of them."""
+    """Folder with the tool chains next to the FMU, and the one for macOS built from them."""
     there, folder = Path(fmu_file).resolve().parents[1] / "toolchains", tmp_path_factory.mktemp("toolchains")
     for needed in ("linux/bin/python", "rust/bin/ld64.lld"):
         if not (there / needed).is_file():
@@ -31,7 +31,7 @@ def tools(fmu_file, tmp_path_factory):
 
 
 @pytest.mark.parametrize("processor, zig", [("x86_64", "x86_64-macos"), ("arm64", "aarch64-macos")])
-def test_a_small_library_is_named_by_its_file_signed_and_exports_what_it_is_told(tools, tmp_path, processor, zig):
+def test_a_small_library_is_named_by_its_file_signed_and_exports_the_given_functions(tools, tmp_path, processor, zig):
     (tmp_path / "small.c").write_text(SOURCE, encoding="utf-8")
     (tmp_path / "list").write_text("_shown\n", encoding="utf-8")
     compiler = [tools / "linux" / "bin" / "python", "-m", "ziglang", "cc", "-target", zig, "-O1", "-g"]

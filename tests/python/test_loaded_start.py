@@ -1,7 +1,7 @@
-"""The start `equilibrium` carries its loads whatever errors the teeth have, or the log says that it does not.
+"""The start `equilibrium` carries its loads with any tooth errors, or the log says that it does not.
 
-Torques that are left over are inertias times accelerations at t = 0. Where the log says that there is no equilibrium,
-own_statics looks for one. `cargo run -p lab --release -- test-python -k loaded_start --scenes 2000` tries more of the random ones."""
+Unbalanced torques are inertias times accelerations at t = 0. If the log reports a missing equilibrium, own_statics
+searches for one. `cargo run -p lab --release -- test-python -k loaded_start --scenes 2000` tries more random scenes."""
 
 import numpy as np
 import pytest
@@ -23,25 +23,25 @@ OPENED = {
                | {f"{side}.load_torque": 5.0 for side in SIDES},
     "impact": {**OUTWARD, "contact.law": "impact"} | {f"{side}.load_torque": 200.0 for side in SIDES},
 }
-# time over which the largest force is looked for, and its steps [s]
+# time over which the largest force is determined, and its steps [s]
 SHOWN, FINE = 0.05, 1e-4
-# the same of the ramp of the loads [s]
+# duration of the ramp of the loads, and its steps [s]
 RAMP, COARSE = 0.3, 1e-3
 MOST = 1.05
-# part of the loads with which the ramp begins: teeth that touch at once need not find each other by blows
+# fraction of the loads at the start of the ramp: teeth that touch from the start do not collide
 FIRST = 0.01
-# of the random scenes: every so many are shown over time; of those without equilibrium, in every so many one is looked for
+# of the random scenes, every SHOWN_EVERY-th runs over time; every LOOKED_EVERY-th without equilibrium is searched for one
 SHOWN_EVERY, LOOKED_EVERY = 20, 3
 
 
 def left_over(driven, values):
-    """The largest torque that is not balanced, over the larger load."""
+    """Largest unbalanced torque, relative to the larger load."""
     count = values.get("geometry.planet_count", 2)
     weights = {f"der({side}.speed)": values["inertia.side_gear"] for side in SIDES}
     if values.get("scene.planet_spin") != "imposed":
         weights |= {f"der(planet[{i + 1}].spin_speed)": values["inertia.planet"] for i in range(count)}
     if values.get("effects.pin_compliance"):
-        # their inertias are near those of the planets
+        # inertias of pins are close to those of the planets
         weights |= {f"der(planet[{i + 1}].pin_speed)": values["inertia.planet"] for i in range(count)}
     if values.get("effects.half_shaft"):
         weights |= {f"der({side}.end_speed)": values[f"inertia.{side}_end"] for side in SIDES}
@@ -62,7 +62,7 @@ def forces(values):
 
 
 def largest_force(opened, values, stop):
-    """The largest force of a mesh from now to `stop` [s]."""
+    """Largest force of a mesh from now to `stop` [s]."""
     names, largest = forces(values), 0.0
     while opened.time < stop - 0.5 * FINE:
         opened.step(FINE)
@@ -71,10 +71,10 @@ def largest_force(opened, values, stop):
 
 
 def without_blow(fmu, values, opened):
-    """Whether the first forces of a scene that has just been started are no more than those after a slow ramp of its loads.
+    """True if the first forces of a scene that has just been started do not exceed those after a slow ramp of its loads.
 
-    Teeth that differ are in balance at several places, and a ramp may end at another one. What begins at rest then still has its
-    first forces when a blow would long have died away."""
+    Teeth with errors are in balance at several positions, and a ramp may end at another one. A start at rest then still has its first
+    forces when an impact would long have died away."""
     first = largest_force(opened, values, SHOWN)
     if first <= MOST * largest_after_ramp(fmu, values):
         return True
@@ -83,7 +83,7 @@ def without_blow(fmu, values, opened):
 
 
 def largest_after_ramp(fmu, values):
-    """The largest force of a mesh after a slow ramp of the loads."""
+    """Largest force of a mesh after a slow ramp of the loads."""
     loads = {f"{side}.load_torque": values[f"{side}.load_torque"] for side in SIDES}
     with fmu.open() as opened:
         opened.initialise(values | {name: FIRST * load for name, load in loads.items()})
@@ -118,7 +118,7 @@ def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_l
         values = scene(number)
         pitch = 2.0 * np.pi / values["geometry.planet_teeth"]
         with Statics(fmu, values) as statics:
-            # not where a maximum may be
+            # positions away from a possible maximum of the potential
             for part in (-0.81, -0.33, 0.07, 0.55):
                 assert statics.equilibrium(part * pitch, pitch) is None, number
 
@@ -141,11 +141,11 @@ def test_a_load_for_which_no_equilibrium_is_found_is_carried_nowhere(fmu, planet
         opened.initialise(values)
         assert is_without_equilibrium(opened)
     with Statics(fmu, values) as statics:
-        # up to a deflection beyond that at which another tooth would take over
+        # up to a deflection beyond that at which another tooth would be loaded
         assert statics.carried(np.linspace(-0.5, 0.5, 9) * 2.0 * np.pi / planet_teeth, 1.2 * np.pi / side_teeth) < 1.0
 
 
-def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_told(fmu):
+def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_reported(fmu):
     unequal = {"contact.law": "line", "left.load_torque": 400.0, "right.load_torque": 100.0}
     with fmu.open() as opened:
         [message] = said(opened.initialise(unequal))

@@ -1,4 +1,4 @@
-"""Friction of teeth, washers and pins: how much it locks the differential, and the heat it makes, against closed forms."""
+"""Friction of teeth, washers and pins: its locking effect and its heat, against closed forms."""
 
 from math import radians
 
@@ -23,7 +23,7 @@ def over_whole_cycles(record, names, begin=0.3):
 
 
 def parts_of_bias(mean, mu):
-    """Locking values of side washers, pins, planet washers, by the formula with the run's own averages."""
+    """Locking values of side washers, pins and planet washers, by the formula with the averages of the run."""
     thrust = 0.5 * (mean["left.thrust_force"] + mean["right.thrust_force"])
     torque = mean["left.shaft_torque"] + mean["right.shaft_torque"]
     side = 2.0 * mu * thrust * RADII["side"] / torque
@@ -56,7 +56,7 @@ def test_each_surface_locks_by_its_formula(run, part, law):
         mean["left.shaft_torque"] + mean["right.shaft_torque"])
     expected = parts_of_bias(mean, mu)[part]
     assert measured == pytest.approx(expected, rel=0.03)
-    # the textbook's value is that of the pitch point
+    # the textbook's value is for the pitch point
     textbook = [0.01234, 0.02326, 0.00785][part]
     assert expected == pytest.approx(textbook, rel=0.25)
     assert record["locking_value"][-1] == pytest.approx(expected, rel=0.05)
@@ -87,7 +87,7 @@ def test_all_friction_together_is_near_the_textbook_s_bias_ratio(run, mu, ratio)
                   "tooth_friction.coefficient": mu}, stop=1.5, output=PATH)
     mean = over_whole_cycles(record, PATH)
     measured = mean["right.shaft_torque"] / mean["left.shaft_torque"]
-    # path averages differ from the pitch point's values by some per cent of the bias
+    # path averages differ from the values at the pitch point by some per cent of the bias
     assert measured - 1.0 == pytest.approx(ratio - 1.0, rel=0.1)
     assert record["torque_bias_ratio"][-1] == pytest.approx(measured, rel=0.01)
 
@@ -96,7 +96,7 @@ def test_all_friction_together_is_near_the_textbook_s_bias_ratio(run, mu, ratio)
 def test_published_friction_laws_lose_energy_by_their_coefficients(run, law):
     record = run({**STEADY_TURN, "effects.tooth_friction": True, "tooth_friction.law": law}, stop=0.36,
                  output=["heat.tooth_friction", "solver.energy_residual"])
-    # mu H_v T |dw| of both sides, H_v = 0.267 on the path; all three lie between 0.02 and 0.2 here
+    # mu H_v T |dw| of both sides, H_v = 0.267 on the path; all three values are between 0.02 and 0.2 here
     per_mu = 0.267 * 2.0 * theory.LOAD * radians(200.0) * theory.RATIO * 0.36
     assert 0.02 < record["heat.tooth_friction"][-1] / per_mu < 0.2
     assert abs(record["solver.energy_residual"][-1]) < 1e-3 * record["heat.tooth_friction"][-1]

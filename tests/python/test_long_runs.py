@@ -14,16 +14,16 @@ def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, s
     for side in SIDES:
         assert scene[f"{side}.speed"] == pytest.approx(CARRIER, rel=1e-6)
         assert scene[f"{side}.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
-    # 4.3 million radians: what both side gears lag behind in the mean, wherever the free planets came to rest, is still
-    # exact to less than a micrometre at the teeth
+    # after 4.3 million radians, the mean lag of both side gears, at any rest position of the free planets, is still exact to less than
+    # a micrometre at the teeth
     lag = scene["carrier.angle"] - 0.5 * (scene["left.angle"] + scene["right.angle"])
     assert lag == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
     assert scene["carrier.angle"] == pytest.approx(DAY * CARRIER, rel=1e-12)
     assert scene.imbalance() < UNDAMPED
 
 
-def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive):
-    # five mesh periods an hour and a half: 80 in a day
+def test_a_day_in_a_slow_turn_keeps_the_phase_of_the_teeth(drive):
+    # five mesh periods in an hour and a half: 80 in a day
     spin = 80.0 * 2.0 * np.pi / theory.PLANET_TEETH / DAY
     scene = drive(TURN | {"scene.start": "equilibrium", "spin.command": spin})
     begin = scene["left.tangential_force"]
@@ -39,7 +39,7 @@ def test_a_day_in_a_slow_turn_leaves_the_teeth_as_they_stood_at_the_start(drive)
     assert scene.imbalance() < UNDAMPED
 
 
-def test_ten_minutes_in_the_study_s_turn_leave_the_teeth_as_they_stood_at_the_start(drive):
+def test_ten_minutes_in_the_study_s_turn_keep_the_phase_of_the_teeth(drive):
     # more than three thousand whole mesh periods
     scene = drive(TURN).to(594.0, 0.18)
     assert scene["planet[1].spin_angle"] == pytest.approx(594.0 * np.radians(200.0), rel=1e-11)

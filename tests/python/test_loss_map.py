@@ -39,13 +39,13 @@ def loaded(file):
 
 @pytest.fixture(scope="module")
 def backward(measured):
-    """A coarse map of the same differential whose carrier turns the other way."""
+    """Coarse map of the same differential with a carrier that turns backward."""
     levels = {**LEVELS, VARIABLES[1]: [-40.0, -10.0]}
     return losses(measured.scene, levels, bound=Bound(10.0, 1000.0), unseen=0, workers=0)
 
 
 def test_a_file_has_the_whole_map(measured, loaded, file):
-    """Also as Parquet, and as a spreadsheet with decimal commas saves the CSV file."""
+    """Also as Parquet, and as a CSV file that a spreadsheet has saved with decimal commas."""
     commas = file.with_name("commas.csv")
     text = file.read_text(encoding="utf-8").splitlines()
     rows = [line if line.startswith("#") else line.replace(",", ";").replace(".", ",") for line in text]
@@ -69,7 +69,7 @@ def test_points_of_the_map_are_reproduced(loaded):
 
 
 def test_between_its_points_the_map_has_the_error_that_it_states(measured, loaded):
-    """Runs of the FMU at points that the map has never seen, and the closed form of clutches and drag."""
+    """Runs of the FMU at points that were not used for the map, and the closed form of clutches and drag."""
     task, draws = PointTask(measured.scene), np.random.default_rng(7)
     low, high = ([line[end] for line in loaded.lines] for end in (0, -1))
     for number in range(12):
@@ -108,7 +108,7 @@ def test_loss_is_power_in_less_power_out(measured, loaded):
 
 def test_mirrored_points_have_mirrored_torques(measured, loaded, backward):
     """If all signs are negated, or left and right exchanged, torques and loss only change their signs and sides."""
-    # points that both maps have
+    # points in both maps
     points = np.array([[900.0, 40.0, 15.0, 300.0], [-900.0, 10.0, -0.5, 350.0], [900.0, 10.0, 0.0, 300.0], [0.0, 40.0, 0.5, 350.0]])
     torque, speed, difference, temperature = points.T
     (left, right), loss = loaded.torques(*points.T), loaded.loss(*points.T)
@@ -126,7 +126,7 @@ def test_numbers_give_numbers_and_arrays_are_broadcast(loaded):
     table = loaded.loss([[500.0], [600.0]], 30.0, [5.0, -5.0, 0.0], TEMPERATURE)
     assert table.shape == (2, 3) and table[0, 0] == one == loaded.loss([500.0], 30.0, 5.0, TEMPERATURE)[0]
     assert loaded.loss([], 30.0, 5.0, TEMPERATURE).shape == (0,)
-    # rounding at an end is none outside
+    # a value that is outside only by rounding is accepted
     assert loaded.loss(900.0 * (1.0 + 1e-12), 30.0, 5.0, TEMPERATURE) == loaded.loss(900.0, 30.0, 5.0, TEMPERATURE)
     with pytest.raises(DifferentialError, match="arrays of one shape"):
         loaded.loss([1.0, 2.0], [1.0, 2.0, 3.0], 5.0, TEMPERATURE)
@@ -141,7 +141,7 @@ def test_numbers_give_numbers_and_arrays_are_broadcast(loaded):
     ((500.0, float("nan"), 5.0, TEMPERATURE), ["speed = nan rad/s"]),
     (([500.0, 1000.0, 2000.0], 30.0, 5.0, TEMPERATURE), ["torque = 1000 N.m", "(and 1 more)"]),
 ])
-def test_outside_the_map_the_axis_its_unit_and_range_are_told(loaded, point, parts):
+def test_outside_the_map_the_axis_its_unit_and_range_are_reported(loaded, point, parts):
     for call in (loaded.torques, loaded.loss, loaded.efficiency):
         with pytest.raises(DifferentialError) as error:
             call(*point)
@@ -156,7 +156,7 @@ def test_outside_the_map_the_axis_its_unit_and_range_are_told(loaded, point, par
     (lambda lines: [line.replace("power.loss", "loss") for line in lines], ["no column power.loss [W]", "`losses --csv`"]),
     (lambda lines: lines[:4], ["no rows of the kinds map and stuck"]),
 ])
-def test_a_file_that_is_no_map_is_refused(file, tmp_path, change, parts):
+def test_a_file_that_is_not_a_map_is_refused(file, tmp_path, change, parts):
     changed = tmp_path / "changed.csv"
     changed.write_text("\n".join(change(file.read_text(encoding="utf-8").splitlines())), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
@@ -164,7 +164,7 @@ def test_a_file_that_is_no_map_is_refused(file, tmp_path, change, parts):
     assert "changed.csv" in str(error.value) and all(part in str(error.value) for part in parts), error.value
 
 
-def test_a_missing_file_and_a_folder_are_said(tmp_path):
+def test_a_missing_file_and_a_folder_are_reported(tmp_path):
     for name in ("none.csv", "none.parquet", ""):
         with pytest.raises(DifferentialError, match=str(tmp_path)):
             LossMap.load(tmp_path / name)

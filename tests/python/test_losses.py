@@ -1,4 +1,4 @@
-"""Loss maps: points against closed forms, lines where a map bends, an error that is measured, and runs that nothing loses."""
+"""Loss maps: points against closed forms, lines where a map has curvature, measured errors, and runs that are never lost."""
 
 import os
 import re
@@ -42,7 +42,7 @@ def scene(fmu_file):
 
 @pytest.fixture
 def point(scene):
-    """point(values, torque, speed, difference): the figures of FIGURES."""
+    """point(values, torque, speed, difference): figures of FIGURES."""
     def run(values, *at):
         task = PointTask(benched(scene.set(values)))
         row = task.evaluate(0, inputs((*at, TEMPERATURE)))
@@ -57,7 +57,7 @@ def point(scene):
 
 @pytest.mark.parametrize("difference", [20.0, -20.0, 1.0, -0.05, 2.0 * SPEED])
 def test_preload_moves_its_torque_from_the_fast_wheel_to_the_slow_one(point, difference):
-    # at 2 w one wheel stands; means stand still to a thousandth, their remainder falls like exp(-t/10 ms)
+    # at 2 w one wheel is at rest; means settle to a thousandth, and their remainder decays like exp(-t/10 ms)
     left, right, loss, low, high = point({}, TORQUE, SPEED, difference)
     shift = np.sign(difference) * PRELOAD
     assert [left, right, loss] == pytest.approx([TORQUE / 2.0 - shift, TORQUE / 2.0 + shift, PRELOAD * abs(difference)], rel=1e-4)
@@ -101,7 +101,7 @@ def test_tooth_errors_are_averaged_until_all_teeth_have_met(scene):
     task.close()
 
 
-def test_what_the_fmu_refuses_is_said_with_its_point(scene):
+def test_a_point_refused_by_the_fmu_is_reported_with_its_values(scene):
     with pytest.raises(DifferentialError, match=r"(?s)at 300 N.m, 5 rad/s.*oil.viscosity_100"):
         losses(scene.set({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True}), LEVELS,
                workers=0)
@@ -109,12 +109,12 @@ def test_what_the_fmu_refuses_is_said_with_its_point(scene):
 
 # lines
 
-def test_leaving_lines_out_tells_the_error_of_a_parabola():
+def test_omitting_lines_gives_the_error_of_a_parabola():
     lines = [np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.5, 1.0])]
     at = places(lines)
     values = (at[..., 0] ** 2 + 5.0 * at[..., 1] + at[..., 0] * at[..., 1])[None, ..., None]
     along_x, along_y = estimates(lines, values, np.full(values.shape, 0.1))
-    # h²/4 in the middle of an interval of x²; what is straight, or twisted, has none
+    # h²/4 in the middle of an interval of x²; linear and bilinear terms have no error
     assert along_x == pytest.approx([2.5, 10.0]) and along_y == pytest.approx([0.0, 0.0], abs=1e-9)
     finer = refined(lines, [along_x, along_y], 100)
     assert finer[0].tolist() == [0.0, 1.0, 2.0, 3.0] and finer[1] is not None and len(finer[1]) == 3
@@ -126,7 +126,7 @@ def test_axes_begin_with_a_middle_and_with_zero_between_signs():
     assert starting([5.0]).tolist() == [5.0]
 
 
-def test_torques_and_figures_are_the_same_said_twice():
+def test_torques_and_figures_convert_into_each_other():
     points = np.random.default_rng(1).normal(size=(20, 4))
     figures = np.random.default_rng(2).normal(size=(20, 3))
     assert figures_of(torques_of(figures, points), points) == pytest.approx(figures)
@@ -153,7 +153,7 @@ def mapped(fmu_file):
 
 def test_a_map_keeps_its_bound_against_the_closed_form(mapped):
     torque, speed, difference, temperature = mapped.lines
-    # only the slip speed bends it
+    # only the slip speed causes curvature
     assert [len(torque), len(speed), len(temperature)] == [3, 3, 3] and len(difference) > 3
     assert np.diff(difference)[0] <= np.diff(difference)[-1]
     assert mapped.beyond == 0 and "60 unseen points, none beyond 0.2 % + 0.1 N.m: at most 4.9 % are, at 95 %" in mapped.error
@@ -197,7 +197,7 @@ def test_torques_that_oppose_each_other_or_vanish_have_no_ratio_and_no_locking_e
 
 
 def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file, tmp_path):
-    """A preload of 60 N·m at ±0.9 N·m moves 130 times the torque that passes: that is no locking effect."""
+    """A preload of 60 N·m at ±0.9 N·m moves 130 times the transmitted torque, so a locking effect is not defined."""
     from bevel_differential.losses.tables import save
     levels = dict(zip(VARIABLES, ([-0.92, 0.92, 300.0], [5.0, 40.0], [0.5, 20.0], [TEMPERATURE])))
     with Scene("plain", set=CLUTCH, fmu=fmu_file) as made:
@@ -212,7 +212,7 @@ def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file
 
 
 def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(fmu_file, tmp_path):
-    """Drag of the bearings by its formula; in overrun the wheels bring what the carrier delivers and what is lost."""
+    """Drag of the bearings by its formula; in overrun, the wheels supply the carrier's output and the loss."""
     from bevel_differential.losses.tables import save_for_simulink
     levels = dict(zip(VARIABLES, ([-300.0, -100.0, 0.0, 100.0, 300.0], [10.0, SPEED], [5.0], [TEMPERATURE])))
     with Scene("drag", set=DRAG, fmu=fmu_file) as made:
@@ -274,7 +274,7 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 
-def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
+def test_ctrl_c_on_the_command_keeps_the_finished_rows(fmu_file, tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
     given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
              "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
@@ -287,7 +287,7 @@ def test_ctrl_c_on_the_command_keeps_what_is_done(fmu_file, tmp_path, capsys):
     lines = [line for line in said[1].splitlines() if not line.startswith("warning: ")]
     assert running.returncode == 130 and len(lines) == 1 and "--resume" in lines[0], said
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
-    # so few points do not keep the bound, which is a finding
+    # so few points do not meet the bound, which is a finding
     assert main([*given, "--workers", "0", "--resume", "--fmu", fmu_file]) == 3
     told = capsys.readouterr()
     assert all(line.startswith("warning: ") for line in told.err.splitlines()), told.err
@@ -315,14 +315,14 @@ def test_accuracy_chooses_the_model(scene, monkeypatch):
 
 
 def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
-    """In its middle teeth may come into contact by jumps; cold and slow they would stall there."""
+    """In the middle of the map, teeth may come into contact by jumps; when cold and slow, they would stall."""
     said = []
     with Scene.load("torque_bias", fmu=fmu_file) as scene:
         levels = dict(zip(VARIABLES, ([167.0, 1670.0], [5.0, 50.0], [0.5, 20.0], [253.15, 393.15])))
         made = losses(scene, levels, within="1%", unseen=3, most=16, workers=0, tell=said.append)
         assert said[0].startswith("model: tooth") and said[0].endswith(", corner contact"), said[0]
         assert made.restless == 0
-        # what would stall says what to do
+        # a point that would stall has a message with the remedy
         stalled = PointTask(benched(scene).set({"effects.corner_contact": False, "solver.relative_tolerance": 1e-4}))
         row = stalled.evaluate(0, {"carrier.torque_command": 167.0, "carrier.speed_command": 5.0, "left.speed_command": 4.75,
                                    "right.speed_command": 5.25, "oil.temperature": 253.15})
@@ -331,7 +331,7 @@ def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
 
 
 def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
-    """The loss of a preload is M times the difference, at any temperature of the oil; a clutch with a cold factor depends on it."""
+    """The loss of a preload is M times the difference, at any oil temperature; a clutch with a cold factor depends on it."""
     levels = dict(zip(VARIABLES, ([300.0, 900.0], [5.0, 40.0], [0.5, 20.0], [253.15, 293.15, 353.15, 393.15])))
     runs = {}
     for cold in (1.0, 1.3):
@@ -341,7 +341,7 @@ def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
         runs[cold] = made.new
         assert set(levels["oil.temperature"]) <= set(made.lines[3])
         assert made.slipping.shape[4] == made.stuck.shape[3] == len(made.lines[3])
-        told = [text for text in said if text.startswith("oil.temperature changes nothing here")]
+        told = [text for text in said if text.startswith("oil.temperature has no effect here")]
         assert len(told) == (cold == 1.0) and all("4 temperatures share the runs at 80 degC" in text for text in told)
         loss = made.at(np.array([[500.0, 20.0, 10.0, temperature] for temperature in levels["oil.temperature"]]))[:, 2]
         factors = [cold, 1.0 + (cold - 1.0) * 0.6, 1.0, 1.0]

@@ -1,4 +1,4 @@
-"""The report of a loss map: figures with captions, the sentence of the bound, numbers of the table, and no half file."""
+"""The report of a loss map: figures with captions, the sentence of the bound, numbers of the table, and no incomplete file."""
 
 import re
 from html.parser import HTMLParser
@@ -30,7 +30,7 @@ ZERO_CELSIUS = 273.15
 
 @pytest.fixture
 def in_haste(monkeypatch):
-    """Panels stand where they are at first."""
+    """Skips the layout of panels, to save time."""
     monkeypatch.setattr(Figure, "get_layout_engine", lambda _: None)
 
 
@@ -76,7 +76,7 @@ def mapped(fmu_file):
 
 @pytest.fixture(scope="module")
 def single(fmu_file):
-    """A map of a single point, whose report is drawn soonest."""
+    """Map of a single point, whose report is drawn fastest."""
     return made_map(fmu_file, RICH, {name: values[:1] for name, values in LEVELS.items()}, unseen=0)
 
 
@@ -96,7 +96,7 @@ def number(cell):
     return float(re.match(r"[−\d.e]+", cell)[0].replace("−", "-"))
 
 
-def test_it_is_one_page_whose_figures_show_something(text):
+def test_the_report_is_one_page_with_no_empty_figure(text):
     page = ReportPage(text)
     assert set(page.figures) == FIGURES and set(page.sections) == SECTIONS
     for figure, marks in page.figures.items():
@@ -107,7 +107,7 @@ def test_it_is_one_page_whose_figures_show_something(text):
     assert "Loss map of &lt;rich&gt;" in text and "clutch &amp; drag" in text
 
 
-def test_it_has_the_sentence_of_the_bound_and_the_meaning_of_every_column(text, mapped):
+def test_the_page_has_the_sentence_of_the_bound_and_the_meaning_of_every_column(text, mapped):
     page = ReportPage(text)
     says = mapped.error.replace("N.m", "N·m")
     assert says in page.sections["head"] and says in page.sections["error"] and "40 unseen points" in says
@@ -115,7 +115,7 @@ def test_it_has_the_sentence_of_the_bound_and_the_meaning_of_every_column(text, 
     assert str(mapped.slipping[0, ..., 0].size) in page.sections["head"]
 
 
-def test_its_numbers_are_those_of_the_table(text, rows):
+def test_the_numbers_of_the_page_are_those_of_the_table(text, rows):
     far = {"carrier.torque": 900.0, "carrier.speed": 40.0}
 
     def row(kind, difference, temperature):
@@ -150,7 +150,7 @@ def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
 
 
 @pytest.mark.usefixtures("in_haste")
-def test_temperatures_that_change_nothing_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
+def test_temperatures_without_effect_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
     made = made_map(fmu_file, PLAIN, LEVELS, unseen=5)
     page = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8"))
     assert "Temperature changes nothing" in page.sections["loss"]
@@ -172,7 +172,7 @@ def test_a_single_point_without_unseen_ones_has_its_report(single, tmp_path):
     assert set(page.figures) == FIGURES - {"loss_map", "error"}
 
 
-def test_warnings_of_runs_and_of_the_map_stand_on_the_page(fmu_file, tmp_path):
+def test_warnings_of_runs_and_of_the_map_are_on_the_page(fmu_file, tmp_path):
     values = RICH | {"limited_slip.friction_area": 1e-4, "limited_slip.pv_limit": 1e5}
     made = made_map(fmu_file, values, LEVELS | {VARIABLES[0]: [900.0], VARIABLES[3]: [300.0]}, unseen=3, most=9)
     assert made.estimate > 1.0
@@ -182,7 +182,7 @@ def test_warnings_of_runs_and_of_the_map_stand_on_the_page(fmu_file, tmp_path):
     assert ("Allow more by --most" in head) == (made.estimate > 1.0)
 
 
-def test_the_command_writes_it_beside_the_table(fmu_file, tmp_path, capsys):
+def test_the_command_writes_the_page_in_addition_to_the_table(fmu_file, tmp_path, capsys):
     file = tmp_path / "map.html"
     given = [f"--set={name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in PLAIN.items()]
     assert main(["losses", "torque_bias", *given, "--set", "effects.tooth_friction=false", "--set", "effects.thrust_friction=false",
@@ -192,19 +192,19 @@ def test_the_command_writes_it_beside_the_table(fmu_file, tmp_path, capsys):
     assert "3 unseen points" in ReportPage(file.read_text(encoding="utf-8")).sections["head"]
 
 
-def test_what_accuracy_chose_is_the_model(single, tmp_path):
+def test_the_page_names_the_model_that_accuracy_chose(single, tmp_path):
     made = type(single)(**{**single.__dict__, "model": "lumped, 1e-3"})
     assert "lumped, 1e-3: chosen by accuracy" in ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
 
 
 @pytest.mark.parametrize("file, words", [("nowhere/map.html", "there is no folder"), (".", "it is a folder")])
-def test_a_file_that_cannot_be_written_is_said_before_the_work(file, words, capsys, fmu_file):
+def test_a_file_that_cannot_be_written_is_reported_before_the_work(file, words, capsys, fmu_file):
     assert main(["losses", "torque_bias", "--report", file, "--fmu", fmu_file]) == 2
     said = capsys.readouterr()
     assert said.err.count("\n") == 1 and words in said.err and not said.out
 
 
-def test_a_missing_package_is_said_before_the_work(monkeypatch, capsys, fmu_file, tmp_path):
+def test_a_missing_package_is_reported_before_the_work(monkeypatch, capsys, fmu_file, tmp_path):
     def missing(name):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
@@ -232,12 +232,12 @@ def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, fmu_
         draw(shown, tmp_path / "map.svg")
     assert not re.search(r"rad/s|(?<!k)N·m|°C", text.partition("Measured error")[0].partition("Axes of the map")[2].replace("N·m on top", ""))
     axes, = Tables(text).of("axis")
-    # 60 s in a minute and 2π rad in a turn, 1000 N·m in a kN·m
+    # 60 s per minute and 2π rad per turn, 1000 N·m per kN·m
     sizes = (1e-3, 30.0 / pi, 30.0 / pi, 1.0)
     assert [name.rsplit(" ", 1)[-1] for _, name, *_ in axes] == ["kN·m", "rpm", "rpm", "K"]
     for (_, first, last, *_), size, values in zip(axes, sizes, LEVELS.values()):
         assert [number(first), number(last)] == pytest.approx([size * values[0], size * values[-1]], rel=1e-4)
     picture = (tmp_path / "map.svg").read_text(encoding="utf-8")
     assert "carrier torque, kN·m" in picture and "difference of speeds (left − right), rpm" in picture and "rad/s" not in picture
-    # programs read the map: it stays SI
+    # programs read the map, so it stays in SI
     assert save(shown, tmp_path / "own.csv").read_text().splitlines()[3:] == save(mapped, tmp_path / "si.csv").read_text().splitlines()[3:]

@@ -1,4 +1,4 @@
-"""Where the package finds libraries for the machine that it runs on."""
+"""Paths of libraries for the machine of the package."""
 
 import platform
 import sys
@@ -10,7 +10,7 @@ from bevel_differential import machine
 
 @pytest.fixture
 def on(monkeypatch):
-    """Lets the package believe that it runs on such a machine."""
+    """Makes the package believe that it runs on a certain machine."""
     def pretend(system, processor):
         monkeypatch.setattr(sys, "platform", system)
         monkeypatch.setattr(platform, "machine", lambda: processor)
@@ -39,6 +39,6 @@ def test_each_machine_has_a_library_of_answers(on, tmp_path, system, processor, 
     assert machine.answers(tmp_path) == (file.split("/")[0], tmp_path / file)
 
 
-def test_what_an_arm_machine_has_built_for_itself_is_found(on, tmp_path):
+def test_a_library_built_on_an_arm_machine_is_found(on, tmp_path):
     on("linux", "aarch64")
     assert machine.answers(tmp_path) == ("linux64", tmp_path / "linux64" / "libanswers.so")

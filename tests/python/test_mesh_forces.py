@@ -1,5 +1,5 @@
-"""Forces of a mesh: normal force, thrusts, transmission error, and the levels without tooth pairs, against closed forms;
-and their period."""
+"""Forces of a mesh against closed forms: normal force, thrusts, transmission error, levels without tooth pairs; and their
+period."""
 
 from math import cos, pi, radians, sin, tan
 
@@ -21,15 +21,15 @@ def test_normal_force_of_a_mesh_under_each_law(run, law, force, planets):
 
 
 def thrusts(s):
-    """Of side gear and planet per normal force at place s."""
+    """Thrusts of side gear and planet per normal force at position s."""
     a, ds, dp = theory.PRESSURE_ANGLE, theory.SIDE_PITCH, theory.PLANET_PITCH
     return (sin(a) * sin(ds) * cos(s) - cos(ds) * sin(s), sin(a) * cos(ds) * cos(s) + sin(ds) * sin(s))
 
 
 def centred_place():
-    """Place on the path of a planet tooth in the middle between both flanks."""
+    """Position on the path of a planet tooth in the middle between both flanks."""
     ratio = theory.SIDE_TEETH * cos(theory.PLANET_PITCH) / (theory.PLANET_TEETH * cos(theory.SIDE_PITCH))
-    # addenda of both gears are two modules together
+    # the addenda of both gears add up to two modules
     x = 1.0 - (0.540 + 0.460 / ratio)
     half = (pi / 2.0 + 2.0 * x * tan(theory.PRESSURE_ANGLE)) / theory.PLANET_TEETH
     half -= theory.BACKLASH / (2.0 * theory.MODULE * theory.PLANET_TEETH)
@@ -49,7 +49,7 @@ def test_thrusts_follow_the_place_along_the_path(run, planets):
     assert alone.sum() > 50
     expected = np.array([thrusts(s)[0] for s in place[alone]])
     assert record["left.thrust_force"][alone] / record["left.normal_force"][alone] == pytest.approx(expected, rel=1e-6)
-    # the textbook's values are those of the pitch point
+    # the textbook's values are for the pitch point
     force = theory.normal_force(planets)
     assert thrusts(0.0)[0] * force == pytest.approx(4682.4 * 2 / planets, rel=1e-4)
     assert thrusts(0.0)[1] * force == pytest.approx(2926.5 * 2 / planets, rel=1e-4)
@@ -84,7 +84,7 @@ def test_the_ideal_differential_keeps_willis_and_shares_torque_equally(run):
     assert np.ptp(moving["left.speed"]) > 10.0
     assert moving["left.speed"] + moving["right.speed"] == pytest.approx(2.0 * moving["carrier.speed"], rel=1e-12)
     spin = (moving["left.acceleration"] - moving["carrier.acceleration"]) / theory.RATIO
-    # torques that the side gears give to the planets differ by what these take to spin up
+    # torques of the side gears on the planets differ by the torque that accelerates the planets
     difference = (moving["right.tangential_force"] - moving["left.tangential_force"]) * radius
     assert difference == pytest.approx(theory.PLANETS * 3e-5 / theory.RATIO * spin, rel=1e-9)
 
@@ -102,6 +102,6 @@ def test_a_steady_turn_repeats_itself_after_a_tooth_cycle(drive):
     for column, name in enumerate(names):
         limit = 1e-5 * np.max(np.abs(one[:, units == units[column]]))
         if units[column] == "rad/s2":
-            # ten tolerances of the speeds, times 7.8 kHz at which meshes ring
+            # ten tolerances of the speeds, times the 7.8 kHz at which meshes ring
             limit = 10.0 * tolerance * (1.0 + 2.0 * STEADY_TURN["carrier.speed_command"] + spin) * 2.0 * pi * 7800.0
         assert np.max(np.abs(other[:, column] - one[:, column])) <= limit, name

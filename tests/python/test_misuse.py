@@ -1,4 +1,4 @@
-"""Slips that would give wrong results without a word, or a traceback: each is one error that says what to do."""
+"""Mistakes that would give wrong results silently, or a traceback: each is one error with a remedy."""
 
 import subprocess
 import sys
@@ -30,14 +30,14 @@ def with_fmu(fmu_file, monkeypatch):
 
 @pytest.fixture
 def driven(fmu_file):
-    """A scene whose load at the left follows a table."""
+    """Scene whose left load follows a table."""
     table = (TORQUE, [0.0, 0.01], [0.0, 1.0], None)
     with Scene(stop=0.01, outputs=[TORQUE, "left.speed"], tables=[table], fmu=fmu_file) as scene:
         yield scene
 
 
 @pytest.mark.parametrize("text", ["1..200 deg/s", "1 deg/s..200", "1, 2 deg/s", "uniform(1, 2 deg/s)", "normal(4, 0.1 deg/s)"])
-def test_a_unit_of_some_numbers_alone_is_an_error(fmu, text):
+def test_a_unit_of_only_some_numbers_is_an_error(fmu, text):
     with pytest.raises(DifferentialError, match="write it at each number"):
         Space.parse(fmu, {SPIN: text})
 
@@ -89,7 +89,7 @@ def test_whole_numbers_beyond_those_of_fmi_are_an_error(fmu, value):
 
 
 @pytest.mark.parametrize("content", [b"", b"no archive"])
-def test_what_is_no_fmu_is_said(tmp_path, content):
+def test_a_file_that_is_not_an_fmu_is_reported(tmp_path, content):
     (tmp_path / "my.fmu").write_bytes(content)
     with pytest.raises(DifferentialError, match="not an FMU"):
         Fmu.of(tmp_path / "my.fmu")
@@ -105,7 +105,7 @@ def test_what_is_no_fmu_is_said(tmp_path, content):
     (["tolerance", "none.toml", "--csv", "{folder}"], "name a file"),
     (["tolerance", "{folder}/wide.toml", "--runs", "0"], "runs = 0"),
     (["spectrum", "none.csv", "--plot", "{folder}/none/a.png"], "there is no folder")])
-def test_the_command_says_it_before_any_run(tmp_path, capsys, command, said):
+def test_the_command_reports_the_error_before_any_run(tmp_path, capsys, command, said):
     (tmp_path / "wide.toml").write_text(WIDE)
     assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 2
     assert said in capsys.readouterr().err
@@ -123,14 +123,14 @@ outputs = ["left.speed"]
     ('"short"', "5", r"(?s)line 1.*integer `5`, expected a string"), ("step", "set = 3\nstep", r"(?s)line 3.*integer `3`, expected a map"),
     ('["left.speed"]', '["left.speed"]\n[at]\ntime = 0.005', r"(?s)line 5.*map, expected a sequence"),
     ('["left.speed"]', '["left.speed"]\n[[table]]\ninput = "left.load_torque"\ntime = 5', r"(?s)line 7.*integer `5`, expected a sequence")])
-def test_wrong_kinds_in_a_scene_file_are_said(tmp_path, fmu, old, new, said):
+def test_wrong_kinds_in_a_scene_file_are_reported(tmp_path, fmu, old, new, said):
     (tmp_path / "short.toml").write_text(SCENE.replace(old, new, 1))
     with pytest.raises(DifferentialError, match=said):
         Scene.load(tmp_path / "short.toml", fmu)
 
 
 @pytest.mark.parametrize("line", ["scene = 3", 'runs = "many"', "seed = 1.5", "want = [3]", "plan = 7", "condition = [1]"])
-def test_wrong_kinds_in_a_plan_file_are_said(tmp_path, capsys, line):
+def test_wrong_kinds_in_a_plan_file_are_reported(tmp_path, capsys, line):
     (tmp_path / "plan.toml").write_text(line)
     assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 2
     assert f"plan.toml: {line.split()[0]} is a" in capsys.readouterr().err
@@ -142,9 +142,9 @@ def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
         Tolerances.load(tmp_path / "wide.toml")
 
 
-def test_a_closed_instance_says_so_and_not_an_old_warning(fmu):
+def test_a_closed_instance_reports_that_and_not_an_old_warning(fmu):
     with fmu.open() as instance:
-        # a face that is wider than gears are made gives a warning
+        # a face wider than usual gives a warning
         instance.set({"geometry.face_width": "25 mm"})
         instance.initialise()
         assert instance.messages
@@ -164,7 +164,7 @@ def test_outputs_are_a_list_without_repetition(fmu_file):
 
 
 @pytest.mark.parametrize("name", ["geometry.module", "geometry.planet_teeth"])
-def test_true_is_no_number(fmu, name):
+def test_true_is_not_a_number(fmu, name):
     with pytest.raises(DifferentialError, match="it is a number"):
         fmu.variable(name).number(True)
 

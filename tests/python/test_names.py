@@ -1,4 +1,4 @@
-"""Names of variables: a tree, as tools that build buses or records need it; former names still find their variables."""
+"""Names of variables form a tree, which tools need for buses or records; former names still find their variables."""
 
 import math
 import re
@@ -15,7 +15,7 @@ from bevel_differential.designs.sweep import sweep
 from bevel_differential.want import Want
 from fmpy import read_model_description
 
-# former names and present ones
+# former and present names
 FORMER = {"planet.spin_command": "spin.command", "planet.spin_torque": "spin.torque",
           **{f"planet[1].left_pair[{k}].{part}": f"mesh.pair[{k}].{part}" for k in (1, 2, 3)
              for part in ("tooth", "force", "height", "toe_pressure", "middle_pressure", "heel_pressure")}}
@@ -23,13 +23,13 @@ SPIN = {"scene.planet_spin": "imposed", "scene.gear_contact": "ideal"}
 
 
 class Node:
-    """A node of the tree: what its uses say that it is, its members and its elements."""
+    """Node of the tree: kinds by its uses, members and elements."""
 
     def __init__(self):
         self.kinds, self.below = set(), {}
 
     def add(self, parts):
-        """The rest of a name: [("", "left"), ("[", "1"), ...]."""
+        """Adds the rest of a name: [("", "left"), ("[", "1"), ...]."""
         if not parts:
             self.kinds.add("leaf")
             return
@@ -42,7 +42,7 @@ class Node:
         return frozenset((word, node.shape()) for word, node in self.below.items())
 
     def faults(self, name):
-        """Faults that a tree of records and arrays cannot have."""
+        """Yields faults that a tree of records and arrays cannot have."""
         if len(self.kinds) > 1:
             yield f"{name} is {' and '.join(sorted(self.kinds))}"
         if "array" in self.kinds and len({node.shape() for node in self.below.values()}) > 1:
@@ -62,7 +62,7 @@ def faults(names):
     return [fault for name, tree in trees.items() for fault in tree.faults(name)]
 
 
-def test_the_tree_of_names_finds_what_cannot_be():
+def test_the_tree_of_names_finds_conflicts():
     for names, fault in [(["a.b", "a[1]"], ".a is array and record"), (["a", "a.b"], ".a is leaf and record"),
                          (["a", "a[1]"], ".a is array and leaf"), (["a[1].b", "a[2].c"], "elements of .a differ"),
                          (["a[1].b[1].c", "a[2].b[1].d"], "elements of .a differ")]:
@@ -148,7 +148,7 @@ file = "inputs.csv"
 
 @pytest.fixture
 def scene_file(tmp_path):
-    """scene_file(text): a scene file with former names and its CSV file, and a second pair with present names."""
+    """scene_file(text): scene file with former names and its CSV file, and a second pair of files with present names."""
     def made(text, folder="old"):
         place = tmp_path / folder
         place.mkdir(exist_ok=True)
@@ -222,7 +222,7 @@ SET = ("--set", "scene.planet_spin=imposed", "--set", "scene.gear_contact=ideal"
      "planet.spin_torque", "--condition", "planet.spin_torque < 1e9", "--workers", "0"),
     ("loads", "study_turning", "--set", "planet.spin_command=3 rad/s", "--set", "stop_time=2ms", "--out", "out.csv"),
 ], ids=lambda arguments: " ".join(arguments[:1]))
-def test_commands_say_once_to_standard_error_what_the_new_name_is(tmp_path, monkeypatch, fmu_file, arguments):
+def test_commands_print_the_new_name_once_to_standard_error(tmp_path, monkeypatch, fmu_file, arguments):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     done = command(*arguments)

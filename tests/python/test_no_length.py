@@ -1,4 +1,4 @@
-"""Runs whose stop time is their start time: hosts, the package and the commands read the state at the start by them."""
+"""Runs whose stop time equals their start time: hosts, the package and the commands use them to read the state at the start."""
 
 import numpy as np
 import pytest
@@ -9,7 +9,7 @@ from bevel_differential.vehicle import Car
 from fmi3 import Unit3
 from fmpy import simulate_fmu
 
-# the study at its start: a wheel's shaft torque is its load, and without a difference all turn with the carrier
+# the study at its start: a wheel's shaft torque equals its load, and without a difference everything turns with the carrier
 STARTED = {"left.shaft_torque": 835.0, "right.shaft_torque": 835.0}
 OUTPUTS = list(STARTED)
 SCENE = """description = "the start"
@@ -24,7 +24,7 @@ right.load_torque = 500.0
 
 @pytest.fixture
 def scene_file(tmp_path):
-    """scene_file(stop): a scene file with this stop time."""
+    """scene_file(stop): scene file with this stop time."""
     def write(stop):
         file = tmp_path / "start.toml"
         file.write_text(SCENE.format(stop=stop))

@@ -1,5 +1,5 @@
-"""No answer comes from a value that nobody gave: effects start neutral, acting start values are listed, and loads that nobody set
-do not run away in silence."""
+"""No answer depends silently on a value that nobody gave: effects start without influence, start values that take effect are
+listed, and the log names loads that nobody set and that accelerate the wheels backward."""
 
 import warnings
 from math import inf
@@ -13,7 +13,7 @@ from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from fmi3 import Unit3
 
 BY_TORQUE = {"scene.carrier_drive": "torque", "scene.gear_contact": "ideal"}
-# start values of effects that not every differential has
+# start values of parameters that many differentials do not need
 NEUTRAL = ["limited_slip.preload", "limited_slip.torque_coefficient", *(f"bearing_drag.{name}" for name in (
     "carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous", "seal_diameter", "bearing_load"))]
 
@@ -52,14 +52,14 @@ def too_fast(said):
 
 
 @pytest.mark.parametrize("name", NEUTRAL)
-def test_what_not_every_differential_has_starts_at_zero(fmu, name):
+def test_values_of_optional_parts_start_at_zero(fmu, name):
     assert fmu.variable(name).start == 0.0
 
 
 @pytest.mark.parametrize("contact", ["ideal", "lumped"])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_preload_is_all_that_a_clutch_with_a_preload_has(run, contact, sign):
-    # each clutch moves M from the carrier's half to the slower side: TBR = (T/2 + M)/(T/2 - M)
+def test_a_clutch_with_a_preload_has_only_the_preload(run, contact, sign):
+    # each clutch moves the torque M from the carrier's half to the slower side: TBR = (T/2 + M)/(T/2 - M)
     torque, preload = 525.6, 50.0
     values = {**BY_TORQUE, "scene.gear_contact": contact, "scene.left_drive": "speed", "scene.right_drive": "speed",
               "carrier.torque_command": sign * torque, "carrier.speed_command": sign * 50.0, "left.speed_command": sign * 52.0,
@@ -69,7 +69,7 @@ def test_a_preload_is_all_that_a_clutch_with_a_preload_has(run, contact, sign):
     assert last == pytest.approx((0.5 * torque + preload) / (0.5 * torque - preload), rel=2e-3)
 
 
-def test_seals_are_all_that_drags_where_only_seals_are_given(fmu):
+def test_only_seals_drag_if_only_seals_are_given(fmu):
     # both side gears turn with the carrier: 2 k d, with k = 3.737 N (ISO/TR 14179-1)
     with fmu.open() as opened:
         opened.initialise({"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.seal_diameter": 0.04,
@@ -80,7 +80,7 @@ def test_seals_are_all_that_drags_where_only_seals_are_given(fmu):
 
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("effect, why", [("limited_slip", "no torque"), ("bearing_drag", "nothing drags")])
-def test_an_effect_without_a_value_says_that_it_does_nothing(fmu, kind, effect, why):
+def test_an_effect_without_a_value_warns_that_it_does_nothing(fmu, kind, effect, why):
     for given in ({}, {"limited_slip.preload": 1.0, "bearing_drag.side_viscous": 1e-4}):
         said = messages(fmu, kind, {f"effects.{effect}": True, **given})
         assert sum(text.startswith(f"effects.{effect}: ") and why in text for text in said) == (not given)
@@ -107,7 +107,7 @@ def test_a_wheel_beside_an_imposed_speed_has_half_of_the_torque(fmu):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_speeds_beyond_all_measure_are_said_once(fmu, sign):
+def test_excessive_speeds_are_reported_once(fmu, sign):
     loads = {"left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.torque_command": 0.0}
     for kind in ["CoSimulation", "ModelExchange"]:
         for speed, warns in [(2999.0, False), (3001.0, True)]:
@@ -119,7 +119,7 @@ def test_speeds_beyond_all_measure_are_said_once(fmu, sign):
     assert len(said) == 1 and said[0].startswith("planet[")
 
 
-def test_the_run_of_a_drive_without_loads_of_its_own_is_warned_of_at_both_ends(fmu):
+def test_a_drive_without_loads_gives_warnings_at_both_ends(fmu):
     values = {**BY_TORQUE, "carrier.torque_command": 300.0}
     with fmu.open() as opened:
         opened.initialise(values, 5.0)
@@ -134,7 +134,7 @@ OWN = {"geometry.module": "5 mm", **BY_TORQUE, "carrier.torque_command": 2000.0}
 
 
 def listed(line):
-    """{name: text of its value} of a line of values that nobody set."""
+    """{name: text of its value} from a line of values that nobody set."""
     found = {}
     for group in line.removeprefix(NOBODY_SET).split("; "):
         name, _, values = group.partition(": ")
@@ -147,7 +147,7 @@ def listed(line):
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
 @pytest.mark.parametrize("more", [{}, {"scene.gear_contact": "tooth", "effects.strength": True, "effects.thrust_friction": True},
                                   {"effects.half_shaft": True, "lock.command": 1.0}], ids=["ideal", "teeth", "lock"])
-def test_own_gears_get_one_line_of_all_values_that_nobody_set_and_none_once_they_are_set(fmu, kind, more):
+def test_other_gears_get_one_line_of_the_values_that_nobody_set_until_they_are_set(fmu, kind, more):
     lines = [text for text in messages(fmu, kind, OWN | more) if text.startswith(NOBODY_SET)]
     assert len(lines) == 1
     found = listed(lines[0])
@@ -155,18 +155,18 @@ def test_own_gears_get_one_line_of_all_values_that_nobody_set_and_none_once_they
     assert ("material.young_modulus" in found) == ("contact.law" in found) == (more.get("scene.gear_contact") == "tooth")
     assert ("lock.torque" in found) == ("lock.command" in more)
     assert not set(found) & set(OWN | more)
-    # set to what they are, they are somebody's
+    # set to their start values, they count as set
     start = {name: fmu.variable(name).start for name in found}
     assert not [text for text in messages(fmu, kind, {**OWN, **more, **start}) if text.startswith(NOBODY_SET)]
 
 
-def test_fmi_3_lists_them_too(fmu_file):
+def test_fmi_3_lists_the_values_that_nobody_set_too(fmu_file):
     for kind in ["CoSimulation", "ModelExchange"]:
         said = messages3(fmu_file, kind, {"geometry.module": 5e-3})
         assert sum(text.startswith(NOBODY_SET) for text in said) == 1
 
 
-def test_the_study_is_not_warned_of_and_its_list_is_part_of_what_is_simulated(fmu_file, fmu):
+def test_the_study_gives_no_warning_but_its_scene_lists_the_values_that_nobody_set(fmu_file, fmu):
     for values in ({}, {"left.load_torque": 400.0}, {"scene.gear_contact": "ideal"}):
         assert not [text for text in messages(fmu, "CoSimulation", values) if text.startswith(NOBODY_SET)]
     with Scene("plain", set={"left.load_torque": 400.0}, fmu=fmu_file) as scene:
@@ -175,7 +175,7 @@ def test_the_study_is_not_warned_of_and_its_list_is_part_of_what_is_simulated(fm
 
 
 def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):
-    """For gears and a drive: what acts is in the list, so any other parameter may have any value."""
+    """For gears and a drive, the list contains all values that take effect, so any other parameter may have any value."""
     names = ["left.speed", "right.speed", "carrier.angle", "left.shaft_torque", "carrier.torque"]
     with fmu.open() as opened:
         opened.initialise(OWN)
@@ -197,7 +197,7 @@ def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):
     assert tried > 80
 
 
-def test_the_plan_and_the_report_list_them_by_effect(fmu_file, tmp_path):
+def test_the_plan_and_the_report_list_unset_values_by_effect(fmu_file, tmp_path):
     of = about("limited_slip")
     planned = [line.split("not set", 1)[1].strip() for line in ask({"ask": "plan", "of": of})["text"].splitlines() if " not set " in line]
     groups = {line.partition(": ")[0]: line for line in planned}
@@ -227,7 +227,7 @@ def test_python_warns_of_them(fmu_file):
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])
-def test_an_oil_temperature_on_which_nothing_depends_is_said(fmu, oil):
+def test_an_oil_temperature_without_effect_is_reported(fmu, oil):
     with fmu.open() as opened:
         opened.initialise({"oil.temperature": oil})
         assert list(opened.unfelt) == ["oil.temperature"]
@@ -235,7 +235,7 @@ def test_an_oil_temperature_on_which_nothing_depends_is_said(fmu, oil):
         assert not opened.unfelt
 
 
-def test_an_oil_temperature_set_while_the_oil_warms_up_is_said_to_change_nothing(fmu):
+def test_an_oil_temperature_set_while_the_oil_warms_up_is_reported_to_change_nothing(fmu):
     warm = {"scene.gear_contact": "ideal", "effects.warm_up": True}
     for given in (False, True):
         with fmu.open() as opened:
@@ -249,7 +249,7 @@ def test_an_oil_temperature_set_while_the_oil_warms_up_is_said_to_change_nothing
             assert (opened.get("temperature.oil") == 341.0) == given
 
 
-def test_a_car_tells_which_values_nobody_gave(fmu_file):
+def test_a_car_lists_the_values_that_nobody_gave(fmu_file):
     motor = Motor(9.5, peak=300.0)
     assert set(motor.unset) == {"inertia", "knee", "lag"}
     assert Motor(*[1.0] * 5).unset == {} and set(Tyre().unset) == set(Tyre.described())

@@ -1,4 +1,4 @@
-"""A value that changes nothing in a scene is a warning by name, with what would let it act; wherever a scene is set up."""
+"""A value without effect in a scene causes a warning with its name and with the setting that it needs, wherever a scene is set up."""
 
 import warnings
 from pathlib import Path
@@ -12,7 +12,7 @@ from bevel_differential.instance import UNFELT
 from bevel_differential.spectrum import Event, spectrum
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
-# what is set, and what would let it act
+# values that are set, and the setting that they need
 CASES = [
     ({"left.brake_torque": 200.0}, "effects.wheel_brake = true"),
     ({"limited_slip.preload": 80.0}, "effects.limited_slip = true"),
@@ -57,7 +57,7 @@ def unfelt(messages):
 
 
 @pytest.mark.parametrize("values, acts_with", CASES, ids=[" ".join(case) for case, _ in CASES])
-def test_a_value_that_changes_nothing_is_named_with_what_would_let_it_act(fmu, values, acts_with):
+def test_a_value_that_changes_nothing_is_named_with_the_setting_that_it_needs(fmu, values, acts_with):
     name = next(iter(values))
     with fmu.open() as opened:
         opened.initialise(values)
@@ -65,7 +65,7 @@ def test_a_value_that_changes_nothing_is_named_with_what_would_let_it_act(fmu, v
         assert acts_with in opened.unfelt[name]
 
 
-def test_values_set_to_what_they_are_warn_of_nothing(fmu):
+def test_values_set_to_their_start_values_give_no_warning(fmu):
     starts = {v.name: v.start for v in fmu.variables.values() if v.causality in ("parameter", "input") and v.start is not None}
     literals = {name: next((word for word, number in fmu.variable(name).literals.items() if number == value), value)
                 for name, value in starts.items()}
@@ -78,7 +78,7 @@ def test_values_set_to_what_they_are_warn_of_nothing(fmu):
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
-def test_the_shipped_scenes_set_nothing_that_changes_nothing(name, fmu_file):
+def test_the_shipped_scenes_set_only_values_that_have_an_effect(name, fmu_file):
     with Scene.load(SCENES / f"{name}.toml", fmu=fmu_file) as scene:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DifferentialWarning)
@@ -86,19 +86,19 @@ def test_the_shipped_scenes_set_nothing_that_changes_nothing(name, fmu_file):
         assert not unfelt(scene.warnings)
 
 
-def test_each_is_said_once_in_a_run_and_again_in_the_next(fmu):
+def test_each_value_is_reported_once_in_a_run_and_again_in_the_next(fmu):
     with fmu.open() as opened:
         for _ in range(2):
             opened.initialise({"left.brake_torque": 200.0})
             for k in range(4):
-                # the one again, another one that is set later, and one that acts
+                # the first value again, another one that is set later, and one that takes effect
                 opened.set({"left.brake_torque": 150.0 + k, "left.load_torque": 800.0 + k, "limited_slip.preload": 70.0 + k})
                 opened.step(1e-3)
             assert sorted(opened.unfelt) == ["left.brake_torque", "limited_slip.preload"]
             assert len(unfelt(opened.messages)) == 2
 
 
-def test_an_initial_speed_acts_at_the_start_alone(fmu):
+def test_an_initial_speed_acts_only_at_the_start(fmu):
     with fmu.open() as opened:
         opened.initialise({"scene.carrier_drive": "torque", "carrier.speed_command": 30.0})
         assert not opened.unfelt
@@ -106,7 +106,7 @@ def test_an_initial_speed_acts_at_the_start_alone(fmu):
         assert "scene.carrier_drive = speed" in opened.unfelt["carrier.speed_command"]
 
 
-def test_a_host_that_integrates_is_told_that_the_method_is_its_own(fmu):
+def test_a_host_that_integrates_is_warned_that_the_method_has_no_effect(fmu):
     with fmu.open("ModelExchange") as opened:
         opened.initialise({"solver.method": "radau", "effects.mesh_history": True})
         assert sorted(opened.unfelt) == ["effects.mesh_history", "solver.method"]
@@ -133,7 +133,7 @@ def test_python_warns_and_keeps_what_was_said(fmu_file):
             differential.run(stop=0.002, values={"left.brake_torque": 0.0, "geometry.face_width": 0.014, "contact.law": "line"})
 
 
-def test_the_plan_of_a_scene_says_it_of_the_start_and_of_what_is_set_later(tmp_path):
+def test_the_plan_of_a_scene_names_unused_values_of_the_start_and_of_later_settings(tmp_path):
     file = tmp_path / "later.toml"
     file.write_text((SCENES / "study_turning.toml").read_text() + "limited_slip.preload = 80.0\n"
                     "[[at]]\ntime = 0.1\nleft.brake_torque = 90.0\n[[at]]\ntime = 0.2\nleft.brake_torque = 95.0\n"
@@ -145,7 +145,7 @@ def test_the_plan_of_a_scene_says_it_of_the_start_and_of_what_is_set_later(tmp_p
     assert said == ["limited_slip.preload", "left.brake_torque", "right.brake_torque"]
 
 
-def test_the_commands_and_the_report_say_it_once(fmu_file, tmp_path, capsys):
+def test_the_commands_and_the_report_warn_once(fmu_file, tmp_path, capsys):
     said = "left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"
     scene = ["study_turning", "--set", "left.brake_torque=200 N.m", "--fmu", fmu_file]
     with warnings.catch_warnings():
@@ -182,7 +182,7 @@ def test_a_duty_cycle_gives_its_torque_to_a_carrier_that_is_driven_by_torque(cyc
     assert found == pytest.approx(cycle(lines).damage, rel=2e-3) and found["damage.planet"] > 0.0
 
 
-def test_a_duty_cycle_refuses_by_name_what_nothing_takes(cycle, fmu_file):
+def test_a_duty_cycle_refuses_unused_values_by_name(cycle, fmu_file):
     with pytest.raises(DifferentialError, match="event 'braked': left.brake_torque: 90 N.m.*effects.wheel_brake = true"):
         cycle([f"{HEAD},left.brake_torque [N.m]", "braked,4,20,18,2,450,90"])
     with pytest.raises(DifferentialError, match="event 'one': left.load_torque: .*scene.left_drive = torque"):

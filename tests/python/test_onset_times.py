@@ -1,4 +1,4 @@
-"""A tooth breaks at any time that a host may use: zero, negative, and seconds since 1970, with the bits of a run shifted in time."""
+"""A tooth breaks at any time that a host may use: zero, negative, or seconds since 1970, with the bits of a run shifted in time."""
 
 from ctypes import POINTER, c_double
 from fractions import Fraction
@@ -14,14 +14,14 @@ TOLERANCE = 1e-9
 FAULT = STEADY_TURN | {"scene.planet_spin": 2, "effects.tooth_fault": True, "solver.relative_tolerance": TOLERANCE}
 OUTPUTS = ["planet[1].left_normal_force", "planet[1].left_transmission_error", "heat.contact", "left.speed", "carrier.angle"]
 EPOCH = 1.7e9
-# start and onset of a run [s]. In [2^30, 2^31) s a time is a multiple of 2^-22 s, so that differences of these times are exact
+# start and onset of a run [s]. In [2^30, 2^31) s a time is a multiple of 2^-22 s, so differences of these times are exact
 CASES = {"zero": (-0.01, 0.0), "negative": (-7.25, -7.25 + 0.01), "epoch": (EPOCH + 0.09, EPOCH + 0.1), "far below zero": (-1e5, -1e5 + 0.01)}
-# steps of 2^-10 s are exact as well, and no communication point is the onset
+# steps of 2^-10 s are also exact, and no communication point is the onset
 SIZE, COUNT = 2.0**-10, 30
-# explicit steps that resolve the motion of teeth, and how many. Times that differ by 8 roundings are the same to the FMU,
-# 3.0e-6 s in an epoch (8 * 2^-52 * 1.7e9): the last step before the onset ends 3.6e-6 s before it
+# explicit steps that resolve the motion of teeth, and their number. The FMU treats times that differ by 8 roundings as equal. This is
+# 3.0e-6 s in an epoch (8 * 2^-52 * 1.7e9); the last step before the onset ends 3.6e-6 s before it
 SHORT, SHORT_STEPS, BEFORE = 2.0**-18, 100, (60.0 + 15.0 / 16.0) * 2.0**-18
-# of a result, relative to its largest value: each step may be off by the tolerance
+# allowed error of a result, relative to its largest value: each step may err by the tolerance
 ERROR = COUNT * TOLERANCE
 
 
@@ -30,7 +30,7 @@ def at(onset):
 
 
 def begin(instance, values, start):
-    """Initialises at another time than 0 s."""
+    """Initialises at a time other than 0 s."""
     instance.set(values)
     instance.raw.setupExperiment(startTime=start)
     instance.raw.enterInitializationMode()
@@ -65,7 +65,7 @@ def three(fmu3, values, start):
 
 
 def exchanged(fmu, values, start, onset):
-    """Announced time, derivatives of all states in model exchange by Euler's steps to some beyond the onset, and events."""
+    """Announced time, derivatives of all states in model exchange by Euler steps until after the onset, and events."""
     with fmu.open("ModelExchange") as instance:
         begin(instance, values, start)
         raw, rows = instance.raw, []
@@ -100,21 +100,21 @@ def test_a_tooth_breaks_at_any_time_with_the_bits_of_a_run_that_begins_at_zero(f
     assert Fraction(shifted) == Fraction(onset) - Fraction(start), "no rounding in the shift"
     found, wanted, sound = two(fmu, at(onset), start), two(fmu, at(shifted), 0.0), two(fmu, FAULT, 0.0)
     np.testing.assert_array_equal(found, wanted)
-    # until then the teeth are sound, and from then on force, approach and heat are others
+    # until then the teeth are sound; from then on force, approach and heat differ
     ends, off = np.arange(COUNT + 1) * SIZE, np.abs(wanted - sound) / np.max(np.abs(sound), axis=0)
     assert np.all(off[ends < shifted] <= ERROR)
     assert np.all(off[ends > shifted, :3] > 1e3 * ERROR)
 
 
 def test_an_epoch_time_is_rounded_by_half_a_unit_in_its_last_place():
-    """Bound of the change that rounding causes: an onset of 0.1 s in an epoch is off by 2^-23 s, and so is the start of the run."""
+    """Bound of the change by rounding: an onset of 0.1 s in an epoch is off by 2^-23 s, and so is the start of the run."""
     start, onset = CASES["epoch"]
     for time, meant in ((start, Fraction(9, 100)), (onset, Fraction(1, 10))):
         assert abs(Fraction(time) - (17 * 10**8 + meant)) <= Fraction(1, 2**23)
 
 
 def test_the_rounding_of_an_epoch_moves_results_by_no_more_than_their_rates_times_the_rounding(fmu):
-    """Both roundings together shift the onset in the run by 2^-22 s at most: by what such onsets change."""
+    """Together, both roundings shift the onset in the run by at most 2^-22 s, so the results of such onsets bound the change."""
     (start, onset), off = CASES["epoch"], 2.0**-22
     early, wanted, late = (two(fmu, at(0.01 + by), 0.0) for by in (-off, 0.0, off))
     bound = np.maximum(np.abs(early - wanted), np.abs(late - wanted)) + ERROR * np.max(np.abs(wanted), axis=0)
@@ -122,7 +122,7 @@ def test_the_rounding_of_an_epoch_moves_results_by_no_more_than_their_rates_time
 
 
 @pytest.mark.parametrize("start, onset", CASES.values(), ids=CASES)
-def test_fmi_3_tells_the_event_at_its_time(fmu3, start, onset):
+def test_fmi_3_reports_the_event_at_its_time(fmu3, start, onset):
     found, events = three(fmu3, at(onset), start)
     wanted, others = three(fmu3, at(onset - start), 0.0)
     np.testing.assert_array_equal(found, wanted)

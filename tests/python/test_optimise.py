@@ -60,21 +60,21 @@ def two(folder, fmu_file):
 
 
 def changed(folder, fmu_file, old, new):
-    """The problem with a piece of its file replaced."""
+    """Problem with a replaced piece of its file."""
     assert old in TWO
     (folder / "changed.toml").write_text(TWO.replace(old, new), encoding="utf-8")
     return Problem.load(folder / "changed.toml", fmu_file)
 
 
 def found(problem, out, workers=0):
-    """The front and all rows of a search."""
+    """Front and all rows of a search."""
     with Farm(workers) as farm:
         store = Store(out, problem)
         return search(problem, farm, store), list(store.rows.values())
 
 
 def study():
-    """The study's pair with a pin and a shaft, by its numbers."""
+    """Values of the study's pair with a pin and a shaft, by name."""
     return {"geometry.module": 4.5e-3, "geometry.planet_teeth": 10, "geometry.side_teeth": 16, "geometry.planet_count": 2,
             "geometry.pressure_angle": math.radians(20.0), "geometry.face_width": 20e-3, "geometry.backlash": 1e-4,
             "geometry.addendum_system": 2, "geometry.planet_bore": 16e-3, "geometry.side_bore": 24e-3}
@@ -91,7 +91,7 @@ def test_quantities_are_their_closed_forms():
     expected = {
         "gears.mass": 2 * 0.15 + 2 * 0.30,
         "envelope.diameter": 2e-3 * math.hypot(outer, planet_addendum),
-        # along the carrier's axis: 22.5 mm, and h_fs = 6.6574 mm down the back cone
+        # along the carrier's axis: 22.5 mm, plus h_fs = 6.6574 mm down the back cone
         "envelope.length": 2e-3 * (22.5 + (2.188 * 4.5 + 0.05 - 9.0 + planet_addendum) * 16 / math.hypot(10, 16)),
         "face.width_over_cone": 20.0 / outer,
         "teeth.common_divisor": 2.0,
@@ -109,7 +109,7 @@ def test_a_standard_rack_has_room_for_the_tool_radius_of_its_standard():
     # ISO 53, profile A: c = 0.25 m, rho = 0.38 m at 20 degrees
     standard = Pair.of({**study(), "geometry.addendum_system": 1})
     assert tool_room(standard, 0.38) == pytest.approx(0.0, abs=5e-3)
-    # at 25 degrees the flanks leave less width: a circle between both flanks that touches the tip
+    # at 25 degrees the flanks leave less width: a circle that touches both flanks and the tip
     steep = Pair.of({**study(), "geometry.addendum_system": 1, "geometry.pressure_angle": math.radians(25.0)})
     half_width, alpha = math.pi / 4 - 1.25 * math.tan(math.radians(25.0)), math.radians(25.0)
     radius = half_width / math.tan(math.pi / 4 - alpha / 2)
@@ -135,7 +135,7 @@ def test_checks_refuse_what_the_fmu_refuses_or_warns_of(fmu_file):
             refusals = violations(pair)
             try:
                 ratio = scene.final(values=values)["geometry.contact_ratio"]
-                # fillets are checked by the FMU alone
+                # only the FMU checks fillets
                 told = [text for text in scene.warnings if text.startswith("geometry.") and "root_fillet" not in text
                         and text.partition(":")[0] not in scene.unfelt]
                 assert pair.contact_ratio == pytest.approx(ratio, rel=1e-9)
@@ -156,11 +156,11 @@ def test_the_front_is_that_of_a_fine_grid(two, folder):
     truth = front.front(grid, two.objectives)
     assert 20 < len(truth) < sum(row.feasible for row in grid) < len(grid)
     cost, true_cost = front.costs(best, two.objectives), front.costs(truth, two.objectives)
-    # one number for nearness, spread and extent: the area that a front dominates, from its worst point on the grid
+    # one measure of closeness, spread and extent: the area that a front dominates, from its worst point on the grid
     worst = true_cost.max(axis=0)
     area, true_area = HV(ref_point=worst)(cost), HV(ref_point=worst)(true_cost)
     assert area == pytest.approx(true_area, rel=0.01)
-    # more modules than the conditions allow are refused, by the grid as by the search
+    # the grid and the search refuse more modules than the conditions allow
     assert all(row.violation == 0.0 and not row.refused for row in best)
     assert len(rows) < len(grid) / 2
 
@@ -173,7 +173,7 @@ def test_the_same_seed_gives_the_same_front_however_many_workers(two, folder):
     assert [(row.values, row.violation) for row in rows] == [(row.values, row.violation) for row in other_rows]
     other, _ = found(small.sized(seed=4), folder / "seed")
     assert [row.values for row in alone] != [row.values for row in other]
-    # two starts and one that goes on from the best of both
+    # two starts, and one that continues from the best designs of both
     assert len(rows) > 12 * 3 * 2
 
 
@@ -186,13 +186,13 @@ def test_a_search_that_goes_on_gives_the_front_of_one_that_was_not_interrupted(t
         on = search(two.sized(population=12, generations=6), farm, store)
     assert 12 < known < len(store.rows) == len(rows)
     assert [(row.run, row.values, row.figures) for row in on] == [(row.run, row.values, row.figures) for row in whole]
-    # rows that were read are the rows that were written
+    # rows that are read equal the rows that were written
     again = list(Store(folder / "parts", two.sized(population=12), resume=True).rows.values())
     assert [row.flat() for row in again] == [row.flat() for row in store.rows.values()]
 
 
 class Interrupted:
-    """A farm whose rows come in another order, as those of several workers do, and that is interrupted in a generation."""
+    """Farm that returns rows in another order, like several workers, and that is interrupted within a generation."""
 
     def __init__(self, after):
         self.left = after
@@ -206,7 +206,7 @@ class Interrupted:
 
 
 class Dying:
-    """A farm one of whose designs kills its worker each time."""
+    """Farm with one design that kills its worker each time."""
 
     def rows(self, task, designs):
         for run, values in designs:
@@ -243,7 +243,7 @@ def test_a_range_of_a_search_has_no_count(folder, fmu_file):
         Problem.load(file, fmu_file)
 
 
-def test_a_value_that_changes_nothing_makes_no_design_wrong(two):
+def test_a_value_that_changes_nothing_does_not_make_a_design_wrong(two):
     design = {"geometry.module": 4.5e-3, "geometry.face_width": 12e-3}
     plain = DesignTask(two).evaluate(0, design)
     two.scene.set({"geometry.planet_addendum": 1.3})
@@ -264,7 +264,7 @@ def test_designs_that_break_something_are_not_on_the_front(two, folder):
             assert row.values["geometry.face_width"] <= 3.0 * row.values["geometry.module"]
 
 
-def test_the_study_s_gears_stand_where_their_figures_say(two, folder):
+def test_the_study_s_gears_are_compared_with_the_front(two, folder):
     best, _ = found(two.sized(population=20, generations=8), folder / "out")
     task = DesignTask(two, thorough=True)
     row = task.evaluate(-1, two.compare["the study's gears"])
@@ -291,7 +291,7 @@ def test_dominance_and_knee_of_a_known_front():
     def row(run, x, y):
         return DesignRow(run, {}, {"x:final": x, "y:final": y}, feasible=True)
 
-    # y is to be large; the quarter circle x² + y² = 1 and points behind it
+    # y is maximised; the front is the quarter circle x² + y² = 1, with dominated points behind it
     angles = np.linspace(0.0, 0.5 * np.pi, 9)
     rows = [row(k, 1.0 - math.cos(a), math.sin(a)) for k, a in enumerate(angles)]
     rows += [row(20 + k, 1.3 - math.cos(a), 0.9 * math.sin(a)) for k, a in enumerate(angles)]
@@ -322,14 +322,14 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
         figures = richest.final([want.name for want in (each.want for each in problem.objectives) if want.name not in QUANTITIES])
     for name, figure in figures.items():
         assert told.models[model].figures[f"{name}:final"] == figure
-    # docs/accuracy.md: forces are right to 0.1 %, the swing of the transmission error to 9 %; root stress follows the forces and the
+    # docs/accuracy.md: forces are accurate to 0.1 %, the swing of the transmission error to 9 %; root stress follows the forces and the
     # load over the face
     assert abs(told.difference(model, "planet[1].left_transmission_error_peak_to_peak:final")) < 0.09
     assert abs(told.difference(model, "gears.mass:final")) == 0.0
     assert not told.models[model].refused and list(told.models) == [model]
 
 
-def test_a_run_without_a_whole_mesh_cycle_is_no_quiet_design(fmu_file):
+def test_a_run_without_a_whole_mesh_cycle_is_not_a_quiet_design(fmu_file):
     problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
     problem.scene.stop = 0.05
     row = DesignTask(problem, thorough=True).evaluate(0, problem.compare["the study's gears"])
@@ -362,10 +362,10 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     ("seed = 3", "sead = 3", ["sead", "did you mean seed"]),
     ("[vary]", "[follow]\ngeometry.module = { from = \"geometry.face_width\" }\n[vary]", ["geometry.module", "varies as well"]),
     ("[vary]", "[[confirm]]\nname = \"a\"\nconditions = [\"left.speed < 1\"]\n[vary]", ["left.speed", "replaces no condition"]),
-    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "a name of its own"]),
+    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "needs a unique name"]),
     ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
 ])
-def test_errors_in_a_file_name_what_is_wrong(folder, fmu_file, old, new, parts):
+def test_errors_in_a_file_name_the_fault(folder, fmu_file, old, new, parts):
     with pytest.raises(DifferentialError) as error:
         changed(folder, fmu_file, old, new)
     assert all(part in str(error.value) for part in parts), error.value
@@ -378,12 +378,12 @@ def test_all_errors_of_a_file_are_reported_at_once(folder, fmu_file):
     assert len(str(error.value).splitlines()) == 3
 
 
-def test_where_nothing_is_feasible_the_checks_say_so(folder, fmu_file):
+def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
     problem = changed(folder, fmu_file, "<= 95 mm", "<= 20 mm").sized(population=8, generations=2)
     with pytest.raises(DifferentialError) as error:
         found(problem, folder / "out")
     lines = str(error.value).splitlines()
-    assert lines[0] == "no feasible design among 16. So many were refused by:"
+    assert lines[0] == "no feasible design among 16. Designs refused by each check:"
     refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:] if line.startswith("  ")}
     assert sum(refused.values()) >= 16 and any("envelope.diameter" in check for check in refused)
     assert lines[-1].startswith("Widen the ranges")
@@ -392,14 +392,14 @@ def test_where_nothing_is_feasible_the_checks_say_so(folder, fmu_file):
 def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
     small = two.sized(population=8, generations=2)
     found(small, folder / "out")
-    with pytest.raises(DifferentialError, match="go on by --resume"):
+    with pytest.raises(DifferentialError, match="continue with --resume"):
         Store(folder / "out", small)
     with pytest.raises(DifferentialError, match="another problem"):
         Store(folder / "out", changed(folder, fmu_file, "95 mm", "94 mm").sized(population=8), resume=True)
-    with pytest.raises(DifferentialError, match="no results to go on from"):
+    with pytest.raises(DifferentialError, match="no results to continue from"):
         Store(folder / "elsewhere", small, resume=True)
     (folder / "out/evaluations.parquet").write_bytes(b"not a table")
-    with pytest.raises(DifferentialError, match="no results to go on from"):
+    with pytest.raises(DifferentialError, match="no results to continue from"):
         Store(folder / "out", small, resume=True)
 
 
@@ -423,7 +423,7 @@ def command(folder, fmu_file, *arguments):
 
 
 def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, capsys, monkeypatch):
-    # so slow that the interrupt comes in the middle
+    # slow enough that the interrupt comes in the middle
     (folder / "scene.toml").write_text(SCENE.replace("contact.mesh_stiffness_from_geometry = false\n", ""), encoding="utf-8")
     given = ["two.toml", "--out", "out", "--workers", "0", "--population", "12", "--generations", "4"]
     process = command(folder, fmu_file, *given)
@@ -432,10 +432,10 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, cap
             process.send_signal(signal.SIGINT)
             break
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == 130 and "go on by --resume" in errors and "Traceback" not in errors
+    assert process.returncode == 130 and "continue with --resume" in errors and "Traceback" not in errors
     before = pd.read_csv(folder / "out/front.csv")
     assert len(before) and len(pd.read_parquet(folder / "out/evaluations.parquet")) >= 2 * 8
-    # files for CAD are another test's
+    # another test covers files for CAD
     monkeypatch.setattr(cad, "available", lambda: False)
     monkeypatch.chdir(folder)
     assert main(["optimise", *given, "--resume", "--fmu", fmu_file]) == 0

@@ -1,4 +1,4 @@
-"""Ordinary life as a test: launches, stops, holds, turns and parking, of vehicles from a pedal car to a truck.
+"""Ordinary drives: launches, stops, holds, turns and parking of vehicles from a pedal car to a truck.
 
 `cargo run -p lab --release -- drives` runs a thousand drives, and repeats one by its seed and index."""
 
@@ -17,7 +17,7 @@ from ordinary_courses import MANOEUVRES, Course
 from ordinary_vehicles import EFFECTS, vehicle
 
 SEED, COUNT = 1, 48
-# drives that are drawn, and that are started, but not driven
+# number of drives that are drawn, and of drives that are started without being driven
 DRAWN, STARTED = 600, 150
 LEVELS = {effect.name: effect.contact for effect in effects(os.environ["FMU"])}
 
@@ -28,7 +28,7 @@ def drawn(count, seed=SEED):
 
 @pytest.fixture(scope="module")
 def stop(fmu):
-    """A stop with its holds, and what the FMU makes of it."""
+    """Drive with a stop and its holds, and its record."""
     drive = next(one for one in drawn(DRAWN, seed=2) if one["manoeuvre"] == "stop" and one["holds"] and "solver.method" not in one["start"]
                  and one["start"]["scene.gear_contact"] == "ideal" and one["start"]["scene.carrier_drive"] == "torque")
     return drive, play(fmu, drive)
@@ -46,7 +46,7 @@ def test_a_drive_is_the_same_again_and_has_a_json_form():
         assert json.loads(json.dumps(drive)) == drive == ordinary_drives.drive(SEED, drive["index"], LEVELS)
 
 
-def test_drives_cover_what_they_are_to_cover():
+def test_drives_cover_the_required_cases():
     found = Counter()
     for drive in drawn(DRAWN):
         start = drive["start"]
@@ -58,7 +58,7 @@ def test_drives_cover_what_they_are_to_cover():
         found.update(f"slope {sign:g}" for sign in {np.sign(drive["inputs"]["left.load_torque"][0][1])})
         wheel = start["inertia.left_end"]
         found.update(name for name, fits in (("light", wheel < 0.1), ("heavy", wheel > 90.0)) if fits)
-        # a drive in short communication steps is short, and an hour is parked in steps of a second
+        # a drive with short communication steps is short, and parking for an hour has steps of a second
         assert len(ordinary_drives.times(drive)) < 20_000
     expected = [*(manoeuvre.__name__ for manoeuvre in MANOEUVRES), "park_for_an_hour", "FMI 2.0", "FMI 3.0", *EFFECTS,
                 "0.0001 s", "0.001 s", "0.01 s", "1 s", "speed", "torque", "rest", "rolling", "equilibrium",
@@ -91,13 +91,13 @@ def test_a_mirrored_drive_has_the_other_sign_and_the_same_brakes():
         assert ordinary_drives.image(image) == drive
 
 
-def test_a_course_lasts_until_both_wheels_stand():
+def test_a_course_lasts_until_both_wheels_are_at_rest():
     random = np.random.default_rng(1)
     course = Course(random, vehicle(random, False))
     course.rolls(20.0)
     course.go(0.1, left_brake=0.5 * course.grip, right_brake=course.grip)
     course.until_still()
-    # ω/(T/J) of the weaker brake; a light carrier couples the wheels a little
+    # ω/(T/J) of the weaker brake; a light carrier couples the wheels slightly
     slowing = 0.5 * course.grip / course.vehicle.wheel
     assert course.speeds == [0.0, 0.0] and course.time == pytest.approx(1.3 * 20.0 / slowing, rel=0.2)
     assert course.firm() > 0.0
@@ -121,7 +121,7 @@ def test_impacts_are_counted_where_teeth_cross_the_backlash(fmu):
                        "inertia.right_end": 1.0, "effects.wheel_brake": True}}
     forces = mesh_forces(fmu, drive)
     closes = np.count_nonzero((forces[:-1] == 0.0) & (forces[1:] != 0.0), axis=0)
-    # both meshes of a planet, first and after each reversal; light planets bounce
+    # both meshes of a planet close at first and after each reversal; light planets bounce
     assert len(closes) == 2 and np.all(closes >= 3)
     calm = mesh_forces(fmu, drive | {"inputs": drive["inputs"] | {"carrier.torque_command": [[0.0, 0.0]]}})
     assert not np.any(calm)
@@ -147,7 +147,7 @@ def since_held(drive, played):
 
 
 @pytest.mark.parametrize("requirement", SPOILED)
-def test_what_violates_a_requirement_is_noticed(fmu, stop, requirement):
+def test_a_violated_requirement_is_detected(fmu, stop, requirement):
     drive, played = stop
     assert not judge(fmu, drive, played=played).problems
     spoiled = dataclasses.replace(played, **SPOILED[requirement](drive, played))

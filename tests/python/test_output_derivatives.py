@@ -1,5 +1,5 @@
-"""Output derivatives against central differences of the outputs over small communication steps: every output, scenes with effects on,
-and the arrays of FMI 3.0."""
+"""Output derivatives against central differences of the outputs over small communication steps: every output, scenes with
+effects, and the arrays of FMI 3.0."""
 
 import ctypes
 
@@ -16,7 +16,7 @@ WARM = {"effects.warm_up": True, "warm_up.gears_above_oil": 20.0, "warm_up.clutc
         "warm_up.clutch_capacity": 50.0}
 RUBBING = {"effects.thrust_friction": True, **theory.CLUTCHES, **theory.DRAG}
 DRIVEN = BRAKED | brakes(150.0, 100.0) | drive_torque(700.0) | WHEELS | {"carrier.speed_command": 40.0}
-# a start that is not in equilibrium keeps everything moving
+# a start out of equilibrium keeps everything moving
 SCENES = {
     "ideal": DRIVEN | WARM | {"scene.gear_contact": "ideal", **theory.DRAG, **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0,
                               "limited_slip.preload": 40.0, "bearing_drag.viscosity_from_oil": True},
@@ -33,13 +33,13 @@ SCENES = {
 SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "warm_up.ambient_change": 5.0},
           "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
           "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
-# outputs that jump, by the documentation: with completed steps, at events, and from tooth pair to tooth pair
+# outputs that jump by the documentation: with completed steps, at events, and from tooth pair to tooth pair
 JUMPS = ("damage.", "solver.", "held.", "safety.root_min", "safety.flank_min")
 COUNTS = ("_peak_to_peak", "_pairs", ".tooth")
 POINTS, STEP, SIZE = 4, 7e-3, 4e-6
-# of the largest slope of an output in the run; of the fastest temperature, as the thermal network is integrated to order 2
+# allowed error relative to the largest slope of an output in the run, or of the fastest temperature (the thermal network has order 2)
 CLOSE = 2e-3
-# of the solver, whose error in a step is in the slopes of its continuous extension; and of differences
+# tolerance of the solver, whose error in a step is in the slopes of its continuous extension; rounding error of differences
 TOLERANCE, ROUNDING, TORQUES = 1e-10, 1e-15, 1e3
 
 
@@ -48,14 +48,14 @@ def jumps(name):
 
 
 class Derivatives(Instance):
-    """An instance whose outputs have rates."""
+    """Instance whose outputs have rates."""
 
     def rates(self, names):
         references = [self.fmu.variable(name).reference for name in names]
         return np.array(self._through("rates", self.raw.getRealOutputDerivatives, references, [1] * len(names)))
 
     def around(self, names):
-        """Rates, central differences and their uncertainty, two short steps from here. Differences over two distances tell curvature
+        """Rates, central differences and their uncertainty, after two short steps. Differences over two distances distinguish curvature
         and kinks from errors."""
         values = [self.read(names)]
         for k in range(4):
@@ -84,7 +84,7 @@ def along(fmu, values, slopes, outputs):
 
 
 def scales(names, differences):
-    """The largest slope of each output; that of all temperatures for each of them."""
+    """Largest slope of each output; for a temperature, that of all temperatures."""
     largest = np.abs(differences).max(axis=0)
     warm = np.array([name.startswith("temperature.") for name in names])
     return np.where(warm, largest[warm].max(), largest)

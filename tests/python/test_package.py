@@ -1,7 +1,7 @@
-"""Contents of the packaged FMU: libraries that export FMI only, a valid description, complete documentation.
+"""Contents of the packaged FMU: libraries that only export FMI, a valid description, complete documentation.
 
-The environment variable PLATFORMS names what the archive must hold, as "linux64-glibc-2.17 win64": where the tool chains are
-there, nothing of that may be missing. Without it, whatever is in the archive is held to what its documentation says."""
+The environment variable PLATFORMS names the required platforms of the archive, such as "linux64-glibc-2.17 win64". It is set where
+the tool chains are installed; then no platform may be missing. Without it, the archive must agree with its documentation."""
 
 import os
 import re
@@ -28,23 +28,23 @@ EXCHANGING = ["EnterEventMode", "NewDiscreteStates", "EnterContinuousTimeMode", 
               "SetContinuousStates", "GetDerivatives", "GetEventIndicators", "GetContinuousStates",
               "GetNominalsOfContinuousStates"]
 DECLARED = {"fmi2" + name for name in COMMON + STEPPING + EXCHANGING}
-# those of FMI 3.0, as fmpy calls them
+# functions of FMI 3.0, as fmpy calls them
 DECLARED |= {name for name in dir(_FMU3) if name.startswith("fmi3")}
-# libraries that belong to Windows itself, besides the families below
+# libraries that belong to Windows, in addition to the families below
 WINDOWS_OWN = {"kernel32.dll", "ntdll.dll", "msvcrt.dll", "userenv.dll", "ws2_32.dll", "bcrypt.dll", "advapi32.dll",
                "bcryptprimitives.dll"}
 # libraries that belong to glibc, and the unwinder of a plain build
 LINUX_OWN = {"libc.so.6", "libm.so.6", "libdl.so.2", "libpthread.so.0", "librt.so.1", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1"}
-# the processors that ELF names, by platform
+# names of processors in ELF, by platform
 PROCESSORS = {"linux64": "EM_X86_64", "aarch64-linux": "EM_AARCH64"}
-# the one library that macOS lets programs rely on, and the oldest system by processor
+# the only library on which macOS lets programs rely, and the oldest system by processor
 MACOS_OWN, MACOS_OLDEST = ["/usr/lib/libSystem.B.dylib"], {"x86_64": "10.12", "arm64": "11.0"}
-# bytes in the archive: of the library of each platform, about half as much again as they have now, that for macOS being two, and of
-# all else together: description, documentation, licences, icon
+# maximum sizes in the archive, bytes: of the library of each platform, about one and a half times its present size (two for macOS), and
+# of everything else together: description, documentation, licences, icon
 MAX_LIBRARY, MAX_REST = {"linux64": 2.6e6, "win64": 2.2e6, "aarch64-linux": 2.0e6, "darwin64": 4.0e6}, 1.0e6
-# the page, which is packed along if it was made, and is not counted
+# the page, which is included if it was built, and is not counted
 LIVE = "documentation/BevelDifferential.html"
-# what FMI-LS-REF recommends beside the documentation
+# document that FMI-LS-REF recommends in addition to the documentation
 TESTS = "documentation/fmi-ls-ref.txt"
 DEMANDED = os.environ.get("PLATFORMS", "").split()
 
@@ -81,12 +81,12 @@ def page(archive):
 
 @pytest.fixture
 def libraries(archive, tmp_path):
-    """Each library of the archive, unpacked, by its platform."""
+    """Unpacked libraries of the archive by platform."""
     names = [name for name in archive.namelist() if name.startswith("binaries/")]
     return {PurePosixPath(name).parts[1]: Path(archive.extract(name, tmp_path)) for name in names}
 
 
-def test_nothing_demanded_is_missing(libraries, page):
+def test_every_demanded_library_is_there(libraries, page):
     assert libraries
     for demanded in DEMANDED:
         platform, *version = demanded.split("-glibc-")
@@ -107,7 +107,7 @@ def test_libraries_export_the_functions_of_fmi_and_nothing_else(libraries):
 
 
 @pytest.mark.parametrize("platform, processor", [("linux64", "x86-64"), ("aarch64-linux", "64-bit ARM")])
-def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page, platform, processor):
+def test_the_library_for_linux_needs_no_newer_glibc_than_the_page_states(libraries, page, platform, processor):
     if platform not in libraries:
         pytest.skip("the archive holds no library for Linux on this processor")
     assert binaries.processor_of_linux(libraries[platform]) == PROCESSORS[platform]
@@ -121,7 +121,7 @@ def test_the_library_for_linux_needs_no_newer_glibc_than_told(libraries, page, p
         assert set(needed) <= LINUX_OWN | {"libgcc_s.so.1"}
 
 
-def test_the_library_for_windows_needs_windows_alone(libraries):
+def test_the_library_for_windows_needs_only_windows(libraries):
     if "win64" not in libraries:
         pytest.skip("the archive holds no library for Windows")
     _, needed = binaries.of_windows(libraries["win64"])
@@ -137,7 +137,7 @@ def test_the_library_for_macos_has_both_processors_and_is_signed_for_each(librar
     for processor, library in found.items():
         assert library.needed == MACOS_OWN, processor
         assert library.signature == "ad hoc", processor
-        # neither is where it was built
+        # neither contains the path of its build
         assert library.own_name == ["@rpath/libbevel_differential.dylib"] and not library.searched, processor
 
 
@@ -161,7 +161,7 @@ def test_fmi_3_has_the_same_libraries_by_its_own_names(archive, fmu_file):
     for name in [name for name in archive.namelist() if name.startswith("binaries/")]:
         whole = archive.read(name)
         for platform in names[PurePosixPath(name).parts[1]]:
-            # of a universal library the part
+            # part of a universal library
             assert libraries.pop(platform) in whole, platform
     assert not libraries
 
@@ -170,7 +170,7 @@ def test_libraries_contain_no_path_of_the_machine_that_built_them(libraries):
     cargo = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     for platform, file in libraries.items():
         content = file.read_bytes()
-        # panics have locations
+        # panics contain source locations
         assert b"src/variables" in content and b"crates/" in content, platform
         for folder in [".cargo", str(cargo), str(ROOT)]:
             assert folder.encode() not in content, (platform, folder)
@@ -215,14 +215,14 @@ def test_licences_of_all_that_is_linked_in_are_there(archive, page):
     assert {f"documentation/{link}" for link in page.links} - {LIVE, TESTS} == set(texts)
     lock = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
     own = re.search(r'name = "bevel-differential"\nversion = "[^"]*"\ndependencies = \[\n(.*?)\]', lock, re.DOTALL)
-    crates = set(re.findall(r'^ "([^" ]+)', own[1], re.MULTILINE)) - {"fastrand", "serde_json"}  # for tests alone
+    crates = set(re.findall(r'^ "([^" ]+)', own[1], re.MULTILINE)) - {"fastrand", "serde_json"}  # only for tests
     assert len(crates) >= 6
     for crate in crates:
         assert re.search(rf"\b{crate}-\d", page.text), crate
 
 
 def sizes(archive):
-    """Bytes in the archive by platform, and of "the rest"."""
+    """Sizes in the archive by platform, and of "the rest", bytes."""
     found = {"the rest": 0}
     for entry in archive.infolist():
         parts = PurePosixPath(entry.filename).parts
@@ -232,14 +232,14 @@ def sizes(archive):
 
 
 def too_large(archive):
-    """Parts of an archive that are larger than they may be."""
+    """Parts of an archive that exceed their maximum size."""
     return {part: size for part, size in sizes(archive).items() if size > {**MAX_LIBRARY, "the rest": MAX_REST}[part]}
 
 
 def test_each_library_is_small_and_so_is_the_rest_of_the_archive(archive, fmu_file):
     assert not too_large(archive)
     live = archive.getinfo(LIVE).compress_size if LIVE in archive.namelist() else 0
-    # but for the names of its files
+    # except for the names of its files
     assert sum(sizes(archive).values()) + live == pytest.approx(os.path.getsize(fmu_file), rel=0.02)
 
 

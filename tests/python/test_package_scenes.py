@@ -1,4 +1,4 @@
-"""Scenes in the Python package: the bits of the library itself, and errors in files."""
+"""Scenes in the Python package: the same bits as from the library, and errors in files."""
 
 import csv
 import pickle
@@ -20,7 +20,7 @@ def everything(tmp_path):
 
 
 def by_itself(scene, tmp_path, changes=None):
-    """The record of the library itself, shape (points, 1 + outputs)."""
+    """Record of the library itself, shape (points, 1 + outputs)."""
     file = tmp_path / "record.csv"
     ask({"ask": "run", "of": about(scene, changes), "out": file})
     lines = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
@@ -117,7 +117,7 @@ def test_errors_in_tables_from_python_are_named(fmu_file, table, parts):
 
 @pytest.mark.parametrize("input_slopes", [False, True])
 def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slopes, fmu_file):
-    # rad/s over s: a ramp, a kink within a step, a jump at 50 ms, and the same once more from 80 ms on, where the value jumps, too
+    # rad/s over s: a ramp, a kink within a step, a jump at 50 ms, and all of it again from 80 ms, where the value also jumps
     step, times, speeds, period = 8e-3, [0.0, 0.03, 0.05, 0.05, 0.08], [10.0, 40.0, 30.0, 20.0, 60.0], 0.08
     with Scene(stop=0.16, step=step, outputs=["carrier.angle", "carrier.speed"], set={"scene.gear_contact": "ideal"},
                tables=[("carrier.speed_command", times, speeds, period)], input_slopes=input_slopes, fmu=fmu_file) as scene:
@@ -136,6 +136,6 @@ def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slo
         assert turned == pytest.approx(mean * (end - begin), rel=1e-7), begin
 
 
-def test_what_is_no_choice_of_slopes_is_refused(fmu_file):
+def test_a_wrong_choice_of_slopes_is_refused(fmu_file):
     with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
         Scene(outputs=["left.speed"], input_slopes="yes", fmu=fmu_file)

@@ -1,4 +1,4 @@
-"""The command `bevel-differential page`: it finds the page, or says how to make it."""
+"""The command `bevel-differential page`: it finds the page, or says how to build it."""
 
 import webbrowser
 
@@ -31,14 +31,14 @@ def test_the_page_of_the_wheel_is_opened(package, monkeypatch, capsys):
     assert opened == [file.as_uri()] and capsys.readouterr().out == f"{file.as_uri()}\n"
 
 
-def test_in_a_checkout_it_is_the_page_that_was_made_there(package, monkeypatch, capsys):
+def test_in_a_checkout_the_command_opens_the_page_made_there(package, monkeypatch, capsys):
     file = made(package.parents[2] / "target" / "page")
     monkeypatch.setattr(webbrowser, "open", lambda address: pytest.fail("nothing is opened"))
     assert main(["page", "--path"]) == 0
     assert capsys.readouterr().out == f"{file}\n"
 
 
-def test_without_a_page_the_message_says_what_makes_one(package, capsys):
+def test_without_a_page_the_message_gives_the_command_that_makes_one(package, capsys):
     assert main(["page"]) == 1
     message = capsys.readouterr().err
     assert "cargo run --release -- page" in message and len(message.splitlines()) == 1

@@ -1,4 +1,4 @@
-"""The gears that other programs are given in benches/peers are the FMU's own."""
+"""The gears of other programs in benches/peers equal those of the FMU."""
 
 import csv
 import dataclasses
@@ -16,7 +16,7 @@ import gears  # noqa: E402
 
 @pytest.fixture(scope="module")
 def golden_flanks():
-    """Points of reference flanks by gear; these have no backlash and no shift of thickness between the gears."""
+    """Points of reference flanks by gear. The gears have no backlash and no thickness shift."""
     with open(ROOT / "tests" / "data" / "golden_flank.csv", encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     return {name: [row for row in rows if row["gear"] == name] for name in ["planet", "side"]}
@@ -44,7 +44,7 @@ def test_teeth_of_the_peers_have_their_corners_on_the_flanks(gear):
 
 
 def test_gears_of_the_peers_are_as_heavy_as_the_fmu_s(run):
-    """A load makes an ideal differential spin by 1/(N I_p + 2 (z_p/z_s)² I_s): solids and given inertias agree."""
+    """A load spins an ideal differential in proportion to 1/(N I_p + 2 (z_p/z_s)² I_s): solids and given inertias agree."""
     scene = {"scene.gear_contact": "ideal", "left.load_torque": 0.0, "right.load_torque": 1.0}
     given = {"inertia.from_geometry": False, "inertia.planet": gears.PLANET.inertia(),
              "inertia.side_gear": gears.SIDE.inertia()}

@@ -1,7 +1,7 @@
-"""fmpy draws results in this environment, by its command line as a user calls it.
+"""fmpy draws results in this environment, by the command line for users.
 
-Its plot has a panel for each variable and takes 17 at most; without a choice it takes the first 19 outputs and fails. So the
-command must name what to draw."""
+Its plot has a panel for each variable, at most 17. By default it uses the first 19 outputs and fails, so the command must name the
+outputs to draw."""
 
 import os
 import shlex
@@ -9,7 +9,7 @@ import subprocess
 import sys
 
 DRAWN = ["left.speed", "right.speed", "left.tangential_force"]
-# takes the browser's place: fetches the page that fmpy serves once
+# replaces the browser: fetches the page that fmpy serves once
 BROWSER = """
 import sys, urllib.request
 open(sys.argv[1], "wb").write(urllib.request.urlopen(sys.argv[2], timeout=60).read())

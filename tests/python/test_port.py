@@ -1,4 +1,4 @@
-"""Ports for coupled scripts: the bits and the errors of `set`, `step` and `read`, in three calls of the FMU."""
+"""Ports for coupled scripts: the bits and the errors of `set`, `step` and `read`, with three calls of the FMU."""
 
 import math
 
@@ -12,7 +12,7 @@ from bevel_differential.vehicle import Car, Tyre
 SIZE = 1e-3
 DRIVEN = ["right.load_torque", "carrier.torque_command"]
 SHOWN = ["carrier.speed", "left.wheel_speed", "right.wheel_speed", "right.shaft_torque", "solver.steps"]
-# a carrier that a torque drives, between wheels with inertia
+# a torque-driven carrier between wheels with inertia
 AXLE = {"scene.carrier_drive": "torque", "inertia.left_end": 0.5, "inertia.right_end": 0.5, "left.load_torque": 300.0}
 
 
@@ -23,7 +23,7 @@ def opened(fmu):
 
 
 class Calls:
-    """What a port does, by `set`, `set_slopes`, `do_step` and `read`."""
+    """Stand-in for a port that uses `set`, `set_slopes`, `do_step` and `read`."""
 
     def __init__(self, instance, inputs, outputs):
         self.instance, self.inputs, self.outputs = instance, inputs, outputs
@@ -45,7 +45,7 @@ class Calls:
 
 
 def go_on(port, steps, has_rates):
-    """Outputs of steps in which the torques follow the speeds, and, with rates, lead to those of the next point."""
+    """Outputs of steps in which the torques follow the speeds and, with rates, change towards those of the next point."""
     rows, before = [port.read()], None
     for _ in range(steps):
         carrier, left, right, *_ = rows[-1]
@@ -65,7 +65,7 @@ def test_a_coupled_loop_has_the_bits_of_single_calls_also_from_a_restored_state_
             begin = go_on(first, 30, has_rates)
             saved = one.save()
             rest = go_on(first, 20, has_rates)
-            # the step after the state was saved is repeated, here and in another instance
+            # the step after the saved state is repeated, here and in another instance
             one.restore(saved)
             other.restore(saved)
             assert go_on(first, 20, has_rates) == rest == go_on(second, 20, has_rates)
@@ -103,7 +103,7 @@ def test_several_inputs_take_their_values_in_order(opened, pack):
     assert opened.port(DRIVEN, DRIVEN).step(pack([120.0, 700.0]), SIZE, pack([1e3, 2e3])) == pytest.approx([121.0, 702.0], rel=1e-12)
 
 
-def test_outputs_are_numbers_in_a_list_of_their_own(opened):
+def test_outputs_are_numbers_in_a_separate_list(opened):
     port = opened.port(DRIVEN, SHOWN)
     first = port.step([300.0, 900.0], SIZE)
     kept = [*first]
@@ -156,7 +156,7 @@ def test_a_wrong_value_is_refused_as_by_set_and_nothing_happens(opened, given):
     assert said[0].startswith("carrier.torque_command")
     assert said == refusal(lambda: opened.set({DRIVEN[0]: 100.0, DRIVEN[1]: given}))
     assert port.read() == before and opened.time == SIZE
-    # what was wrong is forgotten
+    # the wrong value is forgotten
     port.step([100.0, 900.0], SIZE)
 
 
@@ -175,7 +175,7 @@ def test_a_wrong_number_of_values_is_refused_by_the_names_of_the_inputs(opened, 
     with pytest.raises(DifferentialError) as refused:
         port.step(values, SIZE, rates)
     said = str(refused.value)
-    assert said.startswith("right.load_torque, carrier.torque_command: ") and f"the number of {what} is {count}," in said
+    assert said.startswith("right.load_torque, carrier.torque_command: ") and f"there are {count} {what} for 2 inputs" in said
     assert port.read() == before and opened.time == 0.0
 
 

@@ -1,6 +1,6 @@
-"""Measurements that others published (tests/data/published_measurements.toml) against what the FMU makes of the inputs that they state.
+"""Published measurements (tests/data/published_measurements.toml) against results of the FMU with the published inputs.
 
-Nothing is fitted. docs/design.md shows the figures as they come out, and each test finds its own there."""
+Nothing is fitted. docs/design.md shows the results, and each test finds its result there."""
 
 import tomllib
 from math import log10
@@ -14,18 +14,18 @@ from bevel_differential.bench import scene_file
 ROOT = Path(__file__).parents[2]
 MEASURED = tomllib.loads((ROOT / "tests/data/published_measurements.toml").read_text(encoding="utf-8"))
 PAGE = (ROOT / "docs/design.md").read_text(encoding="utf-8")
-# a wheel of usual radius, m: the publication has the speed of the car
+# usual radius of a wheel, m, because the publication gives the speed of the car
 ZERO_CELSIUS, WHEEL = 273.15, 0.31
-# carrier and sides turn at one speed, and nothing but viscous drag takes power
+# carrier and sides turn at one speed, and only viscous drag takes power
 VISCOUS = {"scene.gear_contact": "ideal", "carrier.speed_command": 30.0, "effects.bearing_drag": True,
            "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.01,
            **{f"bearing_drag.{name}": 0.0 for name in ("carrier_torque", "carrier_churning", "side_torque", "side_viscous")}}
-# the start values, for no density is published
+# start values, because no density is published
 DENSITY, FALL = 870.0, 0.65
 
 
 def oil(*points):
-    """The oil whose line goes through two points, degC and Pa.s."""
+    """Oil whose viscosity line goes through two points, degC and Pa.s."""
     def place(celsius):
         return log10(celsius + ZERO_CELSIUS)
 
@@ -36,7 +36,7 @@ def oil(*points):
 
 
 def drag(drive, fluid, celsius, reference):
-    """Heat of drag in a second at a temperature, viscous drag as given at the reference."""
+    """Heat of drag in a second at a temperature, with the given viscous drag at the reference temperature."""
     return drive(VISCOUS | fluid | {"oil.temperature": celsius + ZERO_CELSIUS, "bearing_drag.reference_temperature": reference
                                     + ZERO_CELSIUS}).to(1.0, 0.1)["heat.drag"]
 
@@ -54,7 +54,7 @@ def test_an_oil_between_two_measured_viscosities_has_the_third_one(drive):
 
 
 def test_cold_drag_falls_with_the_viscosity_of_the_oil(drive):
-    """Two fluids that differ when cold and agree at 100 °C, where viscous drag is as given."""
+    """Two fluids that differ when cold and agree at 100 °C, where viscous drag has its given value."""
     measured = MEASURED["transaxle"]
     cold = measured["temperature"]
     thick, thin = (drag(drive, oil((cold, viscosity), (100.0, 6e-3)), cold, 100.0) for viscosity in measured["viscosities"])
@@ -65,7 +65,7 @@ def test_cold_drag_falls_with_the_viscosity_of_the_oil(drive):
 
 
 def test_a_cold_gearbox_warms_up_within_minutes(fmu_file):
-    """The axle of the bench's winter start, at the speed, the power and the temperatures of the measurement."""
+    """The axle of the bench's winter start, at the speed, power and temperatures of the measurement."""
     measured = MEASURED["gearbox"]
     power, speed = measured["difference"] / measured["share"], measured["speed"] / 3.6 / WHEEL
     losses = {}
@@ -75,7 +75,7 @@ def test_a_cold_gearbox_warms_up_within_minutes(fmu_file):
             scene.set({"oil.temperature": kelvin, "warm_up.ambient_temperature": kelvin, "carrier.speed_command": speed,
                        "left.load_torque": load, "right.load_torque": load})
             record = scene.run(["power.loss"], stop=measured["duration"])
-        # without the first step, in which all starts to move
+        # without the first step, in which everything starts to move
         losses[celsius] = record["time"][1:], record["power.loss"][1:]
     cold, mild = measured["temperatures"]
     (time, loss), (_, mild_loss) = losses[cold], losses[mild]
@@ -84,9 +84,9 @@ def test_a_cold_gearbox_warms_up_within_minutes(fmu_file):
     more = (np.trapezoid(loss[early], time[early]) / np.ptp(time[early]) - loss[-1]) / power
     difference = loss[-1] - mild_loss[-1]
     assert done > 0.9
-    # thick oil takes this much more than the oil that has warmed up
+    # thick oil causes this much more loss than the oil that has warmed up
     assert 0.0 < more < measured["increase"]
-    # of another machine no more than the order of magnitude
+    # for another machine, only the order of magnitude can agree
     assert 0.1 < difference / measured["difference"] < 10.0
     for said in (f"| {100.0 * done:.0f} % |", f"| {1e-3 * difference:.2f} kW |"):
         assert said in PAGE, said

@@ -1,7 +1,7 @@
 """Random scenes on the packaged FMU: each finishes in balance or is refused with a clear error.
 
-None panics, hangs, calls a step good that gave a value which is no number, or takes more steps than are granted.
-200 by default; `cargo run -p lab --release -- test-python -k random --scenes 10000` runs more."""
+None panics, hangs, accepts a step whose values are not numbers, or exceeds the allowed number of steps. The default is 200 scenes;
+`cargo run -p lab --release -- test-python -k random --scenes 10000` runs more."""
 
 import collections
 
@@ -13,12 +13,12 @@ import scene_runs
 from sampling import latin, spread
 
 SEED = 1
-# failures shown with their whole scene
+# number of failures that are shown with their whole scene
 SHOWN = 5
 
 
 def described(fmu, kind, count, index, record):
-    """What reproduces a failure."""
+    """Text that reproduces a failure."""
     _, scene = next(random_scenes.scenes(fmu, kind, count, SEED, index, index + 1))
     return f"{kind} scene {index} of {count}: {record['problems']}\nlog: {record['log']}\nscene: {scene!r}\n"
 
@@ -62,23 +62,23 @@ def test_values_are_spread_over_their_ranges_to_the_ends(fmu):
         assert all(low <= value <= high for value in values), variable.name
         assert min(values) == pytest.approx(low, abs=1e-6 * (high - low)), variable.name
         assert max(values) == pytest.approx(high, rel=1e-3, abs=1e-6 * (high - low)), variable.name
-        # the start value is no end of nearly all that is drawn
+        # the start value is not beyond nearly all drawn values
         assert start in (low, high) or min(values) < start < max(values), variable.name
     assert spread(0.5, 1e-3, 1e3, 1.0) == pytest.approx(1.0)
 
 
-def test_what_is_printed_of_a_failure_reproduces_its_scene(fmu):
+def test_the_printed_failure_reproduces_its_scene(fmu):
     again = [random_scenes.scenes(fmu, "bold", 20, SEED, 7, 8) for _ in range(2)]
     first, second = (next(scenes) for scenes in again)
     assert first == second
     assert eval(repr(first[1])) == first[1]
 
 
-def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one_goes_on(fmu, monkeypatch):
+def test_a_process_that_crashes_or_hangs_is_reported_with_its_scene_and_the_next_one_runs(fmu, monkeypatch):
     crashed = list(scene_runs.attempts("no such folder", "wild", 2, SEED))
     assert [index for index, _ in crashed] == [0, 1]
     assert all("process ended with 1" in record["problems"][0] for _, record in crashed)
-    # no answer within less than it takes to start
+    # no answer within less time than the start needs
     monkeypatch.setattr(scene_runs, "PATIENCE", 1e-3)
     hung = list(scene_runs.attempts(fmu.file, "wild", 2, SEED))
     assert [record["verdict"] for _, record in hung] == ["failed", "failed"]
@@ -88,7 +88,7 @@ def test_a_process_that_crashes_or_hangs_is_told_with_its_scene_and_the_next_one
 def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(fmu, monkeypatch):
     scenes = (scene for _, scene in random_scenes.scenes(fmu, "plausible", 20, SEED))
     attempts = ((scene, scene_runs.Attempt(fmu, scene)) for scene in scenes)
-    # one whose rounding leaves something to be out of balance by
+    # a scene whose rounding error leaves a small imbalance
     scene = next(scene for scene, attempt in attempts if attempt.verdict == "ran" and attempt.imbalance > 0.0)
     monkeypatch.setattr(scene_runs, "IMBALANCE", 0.0)
     out_of_balance = scene_runs.Attempt(fmu, scene)

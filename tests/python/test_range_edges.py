@@ -1,4 +1,4 @@
-"""Values at the ends of ranges: what exceeds a range by rounding becomes its limit, and a call that is refused sets nothing."""
+"""Values at the ends of ranges: a value that exceeds a range by rounding becomes its limit, and a refused call sets nothing."""
 
 import math
 import random
@@ -37,7 +37,7 @@ def test_inputs_and_tunable_parameters_take_the_limit_that_rounding_exceeds(fmu,
                 put(running, variable.name, limit + outward * 0.9 * allowed)
                 assert running.get(variable.name) == limit
                 put(running, variable.name, last)
-                # a double resolves no less at the ends of wide ranges
+                # a double does not resolve less at the ends of wide ranges
                 beyond = max(1.1 * allowed, 2.0 * math.ulp(limit))
                 with pytest.raises(DifferentialError, match=rf"{variable.name}.* is outside"):
                     put(running, variable.name, limit + outward * beyond)
@@ -123,7 +123,7 @@ def test_ramps_by_input_derivatives_may_end_at_a_limit(fmu):
 
 @pytest.mark.parametrize("beyond, taken", [(0.5, True), (3.0, False)])
 def test_an_input_whose_derivative_leads_beyond_its_limit_by_rounding_keeps_the_limit(fmu, beyond, taken):
-    # an input that does not act in this scene, so that any value does no harm
+    # an input without effect in this scene, so that any value is harmless
     name, size = "carrier.torque_command", 1e-3
     limit = fmu.variable(name).maximum
     with fmu.open() as instance:
@@ -136,7 +136,7 @@ def test_an_input_whose_derivative_leads_beyond_its_limit_by_rounding_keeps_the_
             return
         instance.step(size)
         assert instance.get(name) == limit
-        # the state is one that can be saved and restored
+        # the state can be saved and restored
         instance.restore(instance.save())
 
 

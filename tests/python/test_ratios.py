@@ -1,4 +1,4 @@
-"""Efficiency by the powers of all ports, bias of torques that vanish, temperatures without ratings, mass and inertia of a side gear."""
+"""Efficiency by the powers of all ports, bias of vanishing torques, temperatures without rating, mass and inertia of a side gear."""
 
 from math import sqrt
 
@@ -25,7 +25,7 @@ FLOWS = {
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("contact", CONTACTS)
 @pytest.mark.parametrize("flow", FLOWS)
-def test_efficiency_is_what_is_not_lost_of_the_power_that_ports_feed(drive, flow, contact, sign):
+def test_efficiency_is_the_part_of_the_input_power_that_is_not_lost(drive, flow, contact, sign):
     values = {name: sign * value if name.endswith(("command", "torque")) else value for name, value in FLOWS[flow].items()}
     driven = drive(CLUTCH | {"effects.thrust_friction": contact != "ideal", "scene.gear_contact": contact} | values)
     driven.to(0.3, 0.01)
@@ -34,14 +34,14 @@ def test_efficiency_is_what_is_not_lost_of_the_power_that_ports_feed(drive, flow
     fed = sum(max(port, 0.0) for port in ports)
     assert fed > 1e3
     assert driven["efficiency"] == pytest.approx(1.0 - driven["power.loss"] / fed, rel=1e-12)
-    # without a moving store of energy the ports share the loss
+    # without a moving energy store, the ports share the loss
     if contact != "tooth":
         assert driven["efficiency"] == pytest.approx(1.0 - sum(ports) / fed, abs=1e-3)
     assert 0.6 < driven["efficiency"] < 0.999
 
 
 def test_a_wheel_that_drives_the_other_one_loses_the_friction_of_both_packs(drive):
-    # on the held carrier both packs slip, each with its preload, and wheels turn at one speed in opposite senses
+    # with a held carrier both packs slip, each with its preload, and wheels turn at the same speed in opposite directions
     load = 300.0
     driven = drive(CLUTCH | {"scene.gear_contact": "ideal"} | FLOWS["left drives right"])
     driven.to(0.3, 0.01)
@@ -49,7 +49,7 @@ def test_a_wheel_that_drives_the_other_one_loses_the_friction_of_both_packs(driv
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_nothing_fed_is_no_loss_of_it(drive, contact):
+def test_efficiency_is_one_without_input_power(drive, contact):
     # the differential coasts: clutch and inertia, no drive
     driven = drive(CLUTCH | {"scene.gear_contact": contact, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
                              "left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.speed_command": 50.0})
@@ -79,7 +79,7 @@ def test_a_small_sum_of_torques_has_the_same_locking_value_at_every_level(drive,
     for contact in ["ideal", "lumped"]:
         driven = drive(values | {"scene.gear_contact": contact})
         driven.to(0.3, 1e-2)
-        # wheels take half of the carrier's torque and the clutch's from the fast side to the slow one
+        # the wheels get half of the carrier's torque, and the clutch moves its torque from the fast side to the slow one
         assert driven["locking_value"] == pytest.approx(100.0 / abs(push), rel=1e-4)
         slow, fast = 0.5 * abs(push) + 50.0, 0.5 * abs(push) - 50.0
         assert driven["torque_bias_ratio"] == pytest.approx(slow / fast, rel=1e-3)
@@ -119,7 +119,7 @@ def seat_stiffness_over_mass(fmu, values):
 
 @pytest.mark.parametrize("contact", ["lumped", "tooth"])
 def test_a_side_gear_swings_on_its_seat_with_its_mass_whatever_its_inertia(fmu, contact):
-    # teeth in mid-gap: only the case pushes back
+    # with teeth in mid-gap, only the case pushes back
     case = 7e8
     values = {"scene.gear_contact": contact, "scene.start": "rolling", "effects.pin_compliance": True,
               "pin_compliance.case_stiffness": case, "inertia.from_geometry": False}
@@ -129,6 +129,6 @@ def test_a_side_gear_swings_on_its_seat_with_its_mass_whatever_its_inertia(fmu, 
         for mass in (0.1, 2.5):
             found, _ = seat_stiffness_over_mass(fmu, values | {"inertia.side_gear": inertia, "inertia.side_gear_mass": mass})
             assert sqrt(found) == pytest.approx(sqrt(case / mass), rel=1e-9)
-    # the solid's own if inertias are those of solids
+    # the solid's mass if inertias are those of solids
     found, solid = seat_stiffness_over_mass(fmu, values | {"inertia.from_geometry": True})
     assert found == pytest.approx(case / solid, rel=1e-9)

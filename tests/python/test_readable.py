@@ -1,4 +1,4 @@
-"""Numbers and names as people read them in pictures."""
+"""Numbers and names in pictures."""
 
 import pytest
 from bevel_differential.readable import in_words, plain, time_scale, with_unit

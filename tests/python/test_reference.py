@@ -1,4 +1,4 @@
-"""The packaged FMU against solutions that the program did not make: plain.py, integrated by scipy."""
+"""The packaged FMU against independent solutions: plain.py, integrated by scipy."""
 
 from math import atan2, cos, sin
 
@@ -9,17 +9,17 @@ from make_reference import CASES
 from plain import MATE, Gears
 from scipy.optimize import brentq
 
-# Asked of the default tolerance: speeds relative to the fastest, forces to the mean. A transient of damped teeth is
-# over by SETTLED, thousands of their time constants.
+# Requirements at the default tolerance: speeds relative to the fastest, forces relative to the mean. A transient of damped
+# teeth has ended after SETTLED, thousands of their time constants.
 SPEED_ERROR, FORCE_ERROR, SETTLED = 1e-6, 1e-3, 0.01
-# Of the files integrated again by the tests [s]; the blows of a rolling start and of the clunk are in it.
+# Interval of the files that the tests integrate again [s]; it contains the impacts of a rolling start and of the clunk.
 STRETCH = 3e-3
 
 
 @pytest.fixture
 def errors(fmu):
-    """errors(case, tolerance, at): times, and by name of the output the error of the FMU there. Communication points
-    are the rows `at`, or all, of the file."""
+    """errors(case, tolerance, at): times, and the errors of the FMU at these times by the name of the output. Communication
+    points are the rows `at` of the file, by default all."""
 
     def compared(name, tolerance=None, at=slice(None)):
         case = CASES[name]
@@ -42,7 +42,7 @@ def errors(fmu):
 
 
 def largest(errors, kind, late=slice(None)):
-    """Of all outputs of a kind, and where."""
+    """Largest error of all outputs of a kind, and its output."""
     return max((np.max(error[late]), name) for name, error in errors.items() if name.endswith(kind))
 
 
@@ -55,7 +55,7 @@ def test_the_study_follows_the_reference_from_the_first_instant(errors, case):
 
 @pytest.mark.parametrize("every", [2, 5, 10, 20])
 def test_the_turn_follows_the_reference_whatever_the_communication_step(errors, every):
-    # with any beginning, so that the integrator's own steps meet the places where pairs come and go in many ways
+    # with any first row, so that pairs enter and leave contact at different places of the integrator's steps
     rows = len(CASES["turn_equilibrium"].times)
     for first in range(1, every + 1):
         _, found = errors("turn_equilibrium", at=[0, *range(first, rows, every)])
@@ -73,14 +73,14 @@ def test_the_study_follows_the_reference_once_the_blows_of_a_rolling_start_are_o
 
 @pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
 def test_the_blows_of_a_rolling_start_follow_the_reference(errors, case):
-    # speeds pass through several times the settled ones within microseconds: ten times the error is theirs
+    # speeds pass through several times the settled ones within microseconds, so ten times the error is allowed
     _, found = errors(case)
     assert largest(found, "speed") <= (10.0 * SPEED_ERROR, "")
     assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
 
 
 def test_the_clunk_follows_the_reference(errors):
-    # gears without weight chatter between undamped teeth and shafts; the outputs here are those that a vehicle transmits
+    # gears without mass chatter between undamped teeth and shafts; the outputs here are those that a vehicle transmits
     _, found = errors("clunk")
     assert found["carrier.speed"].max() <= SPEED_ERROR
     assert largest(found, "shaft_torque") <= (FORCE_ERROR, "")
@@ -88,14 +88,14 @@ def test_the_clunk_follows_the_reference(errors):
 
 @pytest.mark.parametrize("case", ["straight_rolling", "turn_equilibrium", "turn_rolling"])
 def test_the_fmu_draws_near_the_reference_as_its_tolerance_is_tightened(errors, case):
-    # two solutions by methods, laws and hands that share nothing: at 1e-10 what is left is a few local errors
+    # two solutions with different methods, laws and authors: at 1e-10 the difference is a few local errors
     worst = [max(np.max(error) for error in errors(case, tolerance)[1].values()) for tolerance in [1e-6, 1e-8, 1e-10]]
     assert worst[2] < 1e-9 and worst[2] < 0.1 * worst[1] and worst[1] < worst[0], worst
 
 
 @pytest.mark.parametrize("case", [*CASES])
-def test_files_are_what_the_plain_model_gives(case):
-    """The first stretch, integrated again by another method."""
+def test_files_agree_with_the_plain_model(case):
+    """The first interval, integrated again by another method."""
     case, columns = CASES[case], make_reference.read(case)[1]
     count = max(11, np.count_nonzero(case.times <= STRETCH))
     rows = make_reference.table(case, make_reference.solve(case, case.times[:count], "Radau", 1e-9))
@@ -105,7 +105,7 @@ def test_files_are_what_the_plain_model_gives(case):
 
 
 @pytest.mark.parametrize("gear", ["planet", "side"])
-def test_the_gap_of_a_tip_corner_is_what_two_flanks_in_space_leave(gear):
+def test_the_gap_of_a_tip_corner_is_that_of_two_flanks_in_space(gear):
     gears, mate = Gears(), MATE[gear]
 
     def flank(of, unwound):
@@ -121,7 +121,7 @@ def test_the_gap_of_a_tip_corner_is_what_two_flanks_in_space_leave(gear):
         return flank(of, unwound)[1]
 
     def corner(past):
-        """About the gear's axis z, then polar angle and azimuth about the mate's axis x; teeth meet between both."""
+        """Angle about the gear's axis z, then polar angle and azimuth about the mate's axis x; teeth meet between both."""
         turned = (gears.end[gear] + past) / gears.lever[gear]
         around = turned - azimuth(gear, gears.tip[gear]) + azimuth(gear, gears.pitch[gear])
         tip = gears.tip[gear]

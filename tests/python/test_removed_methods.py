@@ -1,4 +1,4 @@
-"""Methods of integration that were removed: every way to set one is refused with the choices that remain and advice."""
+"""Methods of integration that were removed: every way to set one is refused with the remaining choices and advice."""
 
 import pytest
 from bevel_differential import Differential, DifferentialError, Scene
@@ -15,7 +15,7 @@ def assert_advises(message, value):
 
 @pytest.fixture
 def scene(tmp_path):
-    """scene(value): a scene file with the method as TOML has it."""
+    """scene(value): scene file with the method, written as in TOML."""
     def made(value):
         file = tmp_path / "scene.toml"
         file.write_text('description = "a removed method"\nstop_time = 0.01\nstep = 0.001\noutputs = ["left.speed"]\n[set]\n'

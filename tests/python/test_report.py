@@ -1,4 +1,4 @@
-"""The report of a scene: one file that needs nothing else, with figures that show something, for every scene."""
+"""The report of a scene: one self-contained file, with figures that show something, for every scene."""
 
 import re
 from functools import cache
@@ -16,9 +16,9 @@ from bevel_differential.report.write import write
 from report_page import ReportPage
 
 MOST_BYTES = 5e6
-# of a long scene its first part, s; a rattle has two periods in its
+# duration of the first part of a long scene, s; a rattle has two periods in its part
 LONGEST = {"drive_cycle": 60.0, "hil": 3.0, "rattle": 0.1}
-# figures of a scene with teeth, planets that roll and inputs that change
+# figures of a scene with teeth, rolling planets and changing inputs
 ALL = {"inputs", "section", "teeth", "outputs", "speeds", "torques", "forces", "error", "waterfall", "pattern", "stress", "bias",
        "power", "worth"}
 WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress", "worth"}, "study_straight": {"inputs"}, "study_turning": {"inputs"},
@@ -26,7 +26,7 @@ WITHOUT = {"hil": {"forces", "error", "waterfall", "pattern", "stress", "worth"}
            "drive_cycle": {"pattern", "waterfall"}}
 
 
-# scenes whose panels are arranged and whose run-up has all its turns, as users get it; the others take half the time
+# scenes with arranged panels and a complete run-up, as for users; the others take half the time
 WHOLE = ("study_turning", "locked")
 
 
@@ -37,14 +37,14 @@ def with_fmu(fmu_file, monkeypatch, tmp_path):
 
 
 def in_haste(patch):
-    """Panels stand where they are at first, and run-ups are short."""
+    """Skips the layout of panels and shortens run-ups, to save time."""
     patch.setattr(Figure, "get_layout_engine", lambda _: None)
     patch.setattr(runup, "TURNS", runup.FEWER)
 
 
 @cache
 def text_of(name, fmu_file):
-    """The report of a shipped scene."""
+    """Report of a shipped scene."""
     with Scene.load(name, fmu=fmu_file) as scene, pytest.MonkeyPatch.context() as patch:
         if name not in WHOLE:
             in_haste(patch)
@@ -67,7 +67,7 @@ def test_every_scene_has_a_report_whose_figures_show_something(name, fmu_file):
     assert all(len(section.strip()) > 40 for section in page.sections.values())
 
 
-def test_a_quick_report_leaves_out_what_needs_other_runs(monkeypatch):
+def test_a_quick_report_omits_the_parts_that_need_other_runs(monkeypatch):
     in_haste(monkeypatch)
     assert main(["report", "--scene", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
     page = ReportPage(Path("report-study_turning.html").read_text(encoding="utf-8"))
@@ -75,7 +75,7 @@ def test_a_quick_report_leaves_out_what_needs_other_runs(monkeypatch):
     assert "700 N·m" in page.sections["setup"]
 
 
-def test_what_a_scene_says_is_text_and_no_markup(fmu_file, monkeypatch):
+def test_texts_of_a_scene_are_escaped_and_not_markup(fmu_file, monkeypatch):
     in_haste(monkeypatch)
     scene = Scene("a<b>", description="<script>alert(1)</script>", stop=0.01, outputs=["left.speed"], fmu=fmu_file)
     with scene:
@@ -83,7 +83,7 @@ def test_what_a_scene_says_is_text_and_no_markup(fmu_file, monkeypatch):
     assert "<script" not in text and "&lt;script&gt;" in text and "a&lt;b&gt;" in text
 
 
-def test_effects_that_are_off_are_tried_and_refusals_are_the_fmus_own(fmu_file):
+def test_effects_that_are_off_are_tried_and_refusals_come_from_the_fmu(fmu_file):
     worth = ReportPage(text_of("study_turning", fmu_file)).sections["worth"]
     assert "effects.body_compliance: does not work with contact.law = impact" in worth
     assert re.search(r"tooth_errors\s+changes nothing beyond the solver's tolerance, as tooth_errors.accuracy_grade", worth)
@@ -109,13 +109,13 @@ def test_report_and_accuracy_agree_on_the_kinds_of_effects():
     (["--scene", "study_turning", "--set", "left.load_torque"], "write NAME=VALUE"),
     (["--scene", "study_turning", "--set", "geometry.module=0"], "geometry.module"),
 ])
-def test_wrong_use_is_said_in_one_line(arguments, said, capsys):
+def test_wrong_use_is_reported_in_one_line(arguments, said, capsys):
     assert main(["report", *arguments]) == 2
     lines = [line for line in re.split(r"[\r\n]+", capsys.readouterr().err) if said in line]
     assert len(lines) == 1, lines
 
 
-def test_a_missing_package_is_said_with_its_extra(monkeypatch):
+def test_a_missing_package_is_reported_with_its_extra(monkeypatch):
     def missing(name):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 

@@ -1,4 +1,4 @@
-"""The report compares each stress with the limit that its rating uses, and its colours leave out the seam at the foot of a flank."""
+"""The report compares each stress with the limit of its rating, and its colours leave out the seam at the foot of a flank."""
 
 import re
 
@@ -11,9 +11,9 @@ from bevel_differential.report.simulated import Simulated
 from bevel_differential.report.strength import limits, section
 from driving import CARRIER, STEADY_TURN
 
-# between communication points stresses may be higher by this, and at their largest they are met by this at least
+# stresses may be higher between communication points by the first fraction; their largest values are met within the second one
 BETWEEN, MET = 1e-4, 0.02
-# scenes that start in equilibrium: planets roll; stand; rock; and roll with a load that changes
+# scenes that start in equilibrium: planets roll; are at rest; rock; and roll with a changing load
 SCENES = {
     "turn": STEADY_TURN,
     "straight": {"carrier.speed_command": CARRIER},
@@ -38,7 +38,7 @@ def test_the_least_distance_of_drawn_stresses_to_drawn_limits_is_the_safety_fact
     for drawn, output in ((least[0], "safety.flank_min"), (min(least[1:]), "safety.root_min")):
         rated = float(run.record[output][-1])
         assert (1.0 - BETWEEN) * rated <= drawn <= (1.0 + MET) * rated, (output, drawn, rated)
-    # what the caption calls more than the limit is what the factor calls less than 1
+    # a stress above the limit in the caption agrees with a factor below 1
     text = section(run).blocks[0].caption
     over = [float(share) for share in re.findall(r"([\d.]+) % of the limit", text)]
     assert len(over) == 3
@@ -60,13 +60,13 @@ def test_the_scale_of_the_pattern_ends_at_the_largest_pressure_outside_the_seam(
     run = simulated(fmu_file, STEADY_TURN, 0.6)
     pair = pair_of(run)
     contacts = pattern.Contacts.of(run, 1.0, pair)
-    # one pair at the pitch point has 2385 MPa (docs/inside/theory.md, section 10), and the pressure under IMPACT is that of the mean cone
+    # one pair at the pitch point has 2385 MPa (docs/inside/theory.md, section 10), and the pressure under IMPACT is that at the mean cone
     toe = np.sqrt(0.5 * (pair.inner_cone + pair.outer_cone) / pair.inner_cone)
     single = 2384.6e6
     assert contacts.pressure.max() > 2.0 * toe * single
     assert contacts.most() <= 2.0 * toe * single
     assert contacts.most() >= single
-    # the seam is at the foot alone
+    # the seam is only at the foot
     assert 0 < np.sum(contacts.in_seam) < 0.3 * len(contacts.force)
     assert contacts.height[contacts.in_seam].max() < 0.0
     standing = pattern.Contacts.of(simulated(fmu_file, {}), 1.0, pair)

@@ -1,4 +1,4 @@
-"""Order tracking, bands of lash and contact patterns of a report, against closed forms."""
+"""Order tracking, intervals in the backlash and contact patterns of a report, against closed forms."""
 
 import math
 
@@ -13,14 +13,14 @@ from bevel_differential.report.pattern import Contacts
 from bevel_differential.report.runup import ANGLE, SIGNAL, SPIN, run_up
 from bevel_differential.report.simulated import Simulated
 
-# turns in a window: a line is 1/8 of an order wide
+# turns in a window: a spectral line is 1/8 of an order wide
 WINDOW = 8
 LINE = 1.0 / WINDOW
 
 
 @pytest.fixture(scope="module")
 def simulated(fmu_file):
-    """simulated(name, values): a scene and its record."""
+    """simulated(name, values): scene and its record."""
 
     def simulate(name, values=None):
         return Simulated.of(Scene.load(name, fmu=fmu_file).set(values or {}))
@@ -29,14 +29,14 @@ def simulated(fmu_file):
 
 
 def swept(orders, turns=64.0, per_turn=400):
-    """A signal of these {order: amplitude}, over an angle that speeds up from 1 to 10; points at equal steps of time."""
+    """Signal of these {order: amplitude}, over an angle that accelerates from 1 to 10; points at equal time steps."""
     times = np.linspace(0.0, 1.0, int(turns * per_turn))
     angle = TURN * turns * (times + 4.5 * times**2) / 5.5
     return angle, sum(size * np.sin(order * angle + order) for order, size in orders.items()), 1.0 + 9.0 * times
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_orders_of_a_known_signal_stand_within_one_line(sense):
+def test_orders_of_a_known_signal_are_within_one_line(sense):
     known = {10.0: 3.0, 20.5: 1.0, 37.3: 0.4}
     angle, values, speed = swept(known)
     spectra = waterfall(sense * angle, values + 5.0, speed, WINDOW, 50.0)
@@ -44,13 +44,13 @@ def test_orders_of_a_known_signal_stand_within_one_line(sense):
     assert len(found) == len(known)
     for (order, size), (theirs, amplitude) in zip(found, known.items()):
         assert abs(order - theirs) < 0.1 * LINE
-        # between two lines the window takes up to 15 % from a tone
+        # between two lines, the window reduces a tone by up to 15 %
         assert (0.84 if theirs == 37.3 else 0.99) < size / amplitude < 1.01
     assert np.all(np.diff(spectra.speeds) > 0.0) and 1.0 < spectra.speeds[0] and spectra.speeds[-1] < 10.0
 
 
 def test_orders_above_those_of_interest_do_not_come_back():
-    # at low speeds the record has it, with many points in each of its periods
+    # the record contains this order at low speeds, with many points in each of its periods
     angle, values, speed = swept({10.0: 1.0, 510.0: 1.0}, per_turn=8000)
     spectra = waterfall(angle, values, speed, WINDOW, 60.0)
     assert [round(order) for order, _ in spectra.strongest(8, 1e-3)] == [10]
@@ -75,7 +75,7 @@ def test_a_run_up_has_the_orders_of_mesh_and_ring_gear(simulated):
     found = [order for order, _ in spectra.strongest(12, 1e-3)]
     for name, order in expected.items():
         assert min(abs(order - theirs) for theirs in found) < LINE, f"{name}: {order} is not among {found}"
-    # and nothing stands where theory has nothing: all are sums of multiples of both
+    # there is nothing else: all lines are sums of multiples of both
     sums = [abs(10.0 * k + expected["ring"] * n) for k in range(-8, 9) for n in range(-3, 4)]
     assert all(min(abs(order - theirs) for theirs in sums) < LINE for order in found), found
 
@@ -85,7 +85,7 @@ OUT_OF_PHASE = {"geometry.planet_count": 4, "geometry.side_teeth": 14}
 
 
 def orders_of(run):
-    """The run-up, and the amplitudes [m] of whole mesh orders in the scene and in its run-up."""
+    """Run-up, and amplitudes [m] of whole mesh orders in the scene and in its run-up."""
     here = spectrum(run, rolling(run.time, run.series(ANGLE), 10))[1]
     up = run_up(run)
     spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW, 60.0)
@@ -95,7 +95,7 @@ def orders_of(run):
 
 @pytest.mark.parametrize("values", [{}, {"scene.right_drive": "torque", "scene.carrier_drive": "speed", "right.load_torque": "835 N.m"}])
 def test_a_run_up_with_free_planets_has_the_odd_orders_that_the_scene_has(simulated, values):
-    """Drives of the scene: with free planets, each balances its own two meshes, and odd orders do not cancel."""
+    """Each free planet balances its two meshes, and odd orders do not cancel."""
     up, here, there = orders_of(simulated("torque_bias", OUT_OF_PHASE | values))
     assert SPIN not in up.imposed and not up.is_driven_otherwise
     assert np.argmax(here) == np.argmax(there) == 0
@@ -110,7 +110,7 @@ def test_a_run_up_of_a_scene_driven_by_torques_leaves_the_planets_free_and_says_
 
 
 def test_a_run_up_at_imposed_spin_has_even_orders_only_if_planets_are_half_a_pitch_apart(simulated):
-    """In step, the odd orders of neighbouring planets have opposite signs, and the side gear bears their sum."""
+    """In step, the odd orders of neighbouring planets have opposite signs, so that they cancel at the side gear."""
     up, here, there = orders_of(simulated("study_turning", OUT_OF_PHASE))
     assert SPIN in up.imposed and not up.is_driven_otherwise
     assert here[::2].max() < 1e-5 * here[1] and there[::2].max() < 1e-3 * there[1]
@@ -132,7 +132,7 @@ def test_bands_of_lash_of_a_known_record():
     assert bands(times, np.ones(8)) == [] and bands(times, np.zeros(8)) == [(0.0, 7.0)]
 
 
-def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
+def test_rattling_teeth_are_in_the_lash_while_no_pair_is_loaded(simulated):
     run = simulated("rattle")
     free = run.series("planet[1].left_pairs") == 0.0
     found = bands(run.time, run.series("planet[1].left_normal_force"))
@@ -140,12 +140,12 @@ def test_rattling_teeth_are_in_the_lash_where_no_pair_is_loaded(simulated):
     assert np.array_equal(inside, free) and 0.5 < np.mean(free) < 1.0
 
 
-def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
+def test_a_tooth_at_rest_has_the_contact_strip_of_hertz(simulated):
     run = simulated("study_straight")
     pair = pair_of(run)
     contacts = Contacts.of(run, 1.0, pair)
     assert len(np.unique(contacts.tooth)) == 1 and len(Contacts.of(run, -1.0, pair).force) == 0
-    # radii of both flanks where they touch, R tan ψ with arcs that add up to the line of action
+    # radii of both flanks at the contact, R tan ψ with arcs that add up to the line of action
     planet, side = pair.gears
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
     arc = planet.arc(planet.pitch + contacts.height[-1] / mean)
@@ -153,11 +153,11 @@ def test_a_tooth_that_stands_has_the_strip_of_hertz(simulated):
     radius = mean / (1.0 / math.tan(arc) + 1.0 / math.tan(other))
     modulus = run.value("material.young_modulus") / (2.0 * (1.0 - run.value("material.poisson_ratio") ** 2))
     half = 2.0 * math.sqrt(contacts.force[-1] / pair.face_width * radius / (math.pi * modulus))
-    # loads are even over the face
+    # loads are uniform over the face
     assert contacts.half_width[-1] == pytest.approx(half, rel=1e-3)
 
 
-def test_the_drawn_teeth_touch_where_the_fmu_has_them_touch(simulated):
+def test_the_drawn_teeth_touch_at_the_points_of_the_fmu(simulated):
     run = simulated("study_turning")
     pair, last = pair_of(run), run.record[-1]
     planet, side = pair.gears
@@ -174,12 +174,12 @@ def test_the_drawn_teeth_touch_where_the_fmu_has_them_touch(simulated):
     begin, piece = corners[:-1], np.diff(corners, axis=0)
     apart = []
     for bend in (-1.0, 1.0):
-        # the FMU numbers the teeth of a planet against its azimuth: those that come into mesh as it spins forward have falling numbers
+        # the FMU numbers planet teeth against their azimuth: teeth that come into mesh in forward spin have decreasing numbers
         azimuth = -2.0 * math.pi * tooth / planet.teeth + bend * planet.half_angle(polar) - last["planet[1].spin_angle"]
         point = np.array(unrolled(pair, (math.sin(polar) * math.cos(azimuth), math.cos(polar), -math.sin(polar) * math.sin(azimuth))))
         along = np.clip(np.sum((point - begin) * piece, axis=1) / np.maximum(np.sum(piece**2, axis=1), 1e-12), 0.0, 1.0)
         apart.append(np.min(np.hypot(*(point - begin - along[:, None] * piece).T)))
-    # one flank lies in the other by the deflection, mm at the heel; the other has the lash and more between
+    # one flank penetrates the other by the deflection, mm at the heel; the other flank has a gap of the backlash and more
     deflection = 1e3 * last["planet[1].left_transmission_error"] * pair.outer_cone / mean
     lash = 1e3 * run.value("geometry.backlash") * math.cos(pair.pressure_angle)
     assert min(apart) == pytest.approx(deflection, rel=0.1) and max(apart) > 0.9 * lash

@@ -1,4 +1,4 @@
-"""Starts out of equilibrium: safety and damage may begin after the run-in, and who counts the blow is told."""
+"""Starts out of equilibrium: safety and damage may begin after the run-in, and users whose ratings count the impact are warned."""
 
 import pytest
 
@@ -13,7 +13,7 @@ RATED = ["safety.root_min", "safety.flank_min", "damage.planet", "damage.side_fl
 
 
 def turn(fmu, **values):
-    """The study's turn, its ratings at the end, and what the FMU said of them."""
+    """The study's turn: its ratings at the end, and messages of the FMU about them."""
     scene = Scene.load("study_turning", fmu=fmu).set({"effects.strength": True, **values})
     record = scene.run(RATED)
     return {name: record[name][-1] for name in RATED}, [text for text in scene.warnings if text.startswith(strength.MESSAGE)]
@@ -41,7 +41,7 @@ def test_the_report_says_that_the_smallest_factor_is_in_the_start(fmu):
         assert len(strength.notes(run)) == (2 if told else 0)
 
 
-def test_optimise_says_that_it_would_optimise_the_blow(fmu, tmp_path):
+def test_optimise_warns_that_it_would_optimise_the_impact_at_the_start(fmu, tmp_path):
     def problem(start, objectives="\"maximise safety.root_min\", \"minimise gears.mass\"", more=""):
         (tmp_path / "scene.toml").write_text(f"description = \"a turn\"\nstop_time = 0.01\nstep = 0.001\noutputs = []\n[set]\n"
                                              f"scene.start = \"{start}\"\neffects.strength = true\n{more}\n")
@@ -62,7 +62,7 @@ def test_the_rated_contact_pressure_is_what_the_safety_factor_follows(run):
     assert record["safety.flank_min"][-1] == pytest.approx(1500e6 / record["stress.contact_rated"][-1], rel=1e-6)
 
 
-def test_a_bias_that_the_scene_imposes_is_told_where_something_rubs(fmu):
+def test_a_bias_imposed_by_the_scene_is_reported_if_something_has_friction(fmu):
     for values, told in (({"effects.thrust_friction": True}, True), ({}, False),
                          ({"effects.thrust_friction": True, "scene.planet_spin": "free"}, False)):
         scene = Scene.load("study_turning", fmu=fmu).set(values)

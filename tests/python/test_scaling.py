@@ -1,6 +1,6 @@
-"""All outputs scale with lengths, masses and times as their units say (Buckingham's theorem), where the laws are homogeneous.
+"""All outputs scale with lengths, masses and times by their units (Buckingham's theorem), if the laws are homogeneous.
 
-`CARRIERS` lists what is not, with the constant that carries units: it scales as long as those units stay, and not when they change."""
+`CARRIERS` lists exceptions with a constant that has units: they scale as long as these units stay, but not when they change."""
 
 import os
 import re
@@ -15,27 +15,27 @@ from effects_list import effects
 from scaling import Scale, differences, dimension
 
 LIMIT = 1e-7
-# largest stresses are those at the ends of steps and at peaks of the approach in between, where others may be higher by some 1e-5;
-# damage goes with the ninth power of the stress and more (S-N curves), and so does its error
-# ratios of torques amplify what other steps of the solver change, as a small sum does
+# the largest stresses are those at step ends and at peaks of the approach, and may be higher by some 1e-5 in between;
+# damage is proportional to at least the ninth power of the stress (S-N curves), which amplifies its error;
+# ratios of torques, like small sums, amplify changes by other steps of the solver
 LIMITS = {"safety.": 1e-5, "damage.": 10.0 * LIMIT, "locking_value": 10.0 * LIMIT, "torque_bias_ratio": 10.0 * LIMIT}
-# what a constant must change to be one, far above what may be left of rounding and of the solver's tolerance
+# smallest change that counts as an effect of a constant, far above remaining errors of rounding and of the solver's tolerance
 SEEN = 1e-6
 SEED, SCENES, POINTS = 21, 36, 6
-# by their numbers in the interface
+# numbers of literals in the interface
 ADAPTIVE, FIXED_STEP, GLEASON, EXPLICIT = 1, 2, 2, 4
-# error control is not homogeneous (below): motions are resolved further than they are compared
+# error control is not homogeneous (below), so motions are resolved more finely than they are compared
 TIGHT = {"solver.relative_tolerance": 1e-11}
-# of lengths, masses and times
+# factors of lengths, masses and times
 ALL, NO_LENGTH, NO_TIME, NONE = [1.31, 0.77, 1.19], [1.0, 0.77, 1.19], [1.31, 0.77, 1.0], [1.0, 1.0, 1.0]
 ONLY_MASS = [1.0, 0.77, 1.0]
-# all that is calculated but what the solver did; and of that the whole numbers, beside which step sizes are of rounding errors, too
+# all calculated variables except those of the solver; and the whole numbers of the solver, because its step sizes contain rounding
 OUTPUTS, COUNTS = r"(?!solver\.)", r"solver\.(steps|rejected|rhs_calls)"
 DIMENSIONS = ["lengths", "masses", "times"]
-# of the factors of random scenes, in powers of two: most stay within the ranges of the variables
+# range of the factors of random scenes, in powers of two: most stay within the ranges of the variables
 RANGE = 0.5
 
-# a start without load: teeth strike, so that nothing is constant
+# a start without load: teeth collide, so nothing is constant
 BLOWS = {**TURN, **TIGHT, "geometry.addendum_system": "standard"}
 LIGHT = {**BLOWS, "left.load_torque": 2.0, "right.load_torque": 2.0}
 WHEELS = {**TIGHT, "geometry.addendum_system": "standard", "scene.carrier_drive": "torque", "inertia.left_end": 0.1,
@@ -43,12 +43,12 @@ WHEELS = {**TIGHT, "geometry.addendum_system": "standard", "scene.carrier_drive"
 HELD = {**WHEELS, "effects.wheel_brake": True, "left.brake_torque": 500.0, "right.brake_torque": 400.0, "scene.start": "rest",
         "carrier.speed_command": 0.0, "carrier.torque_command": 60.0, "wheel_brake.stiffness": 7e8, "left.load_torque": 20.0, "right.load_torque": 25.0}
 STEPS = [(5e-4, {})] * POINTS
-# side gears that friction holds are loaded unequally for a while
+# side gears in stiction are loaded unequally for some time
 UNEQUAL = [(2e-3, {"left.load_torque": load}) for load in (835.0, 835.0, 870.0, 870.0, 870.0, 835.0, 835.0)]
 STEADY = [(2e-3, {})] * POINTS
 
 SPRING = "springs of stuck friction have a damping time of 0.1 ms, and a body stands below 1e-6 rad/s"
-# (values, steps, factors that it stands, what it changes, the constant)
+# (values, steps, factors under which it scales, variables that it changes, the constant)
 CARRIERS = {
     "gleason": (BLOWS | {"geometry.addendum_system": "gleason"}, STEPS, NO_LENGTH, OUTPUTS, "0.05 mm of the whole depth"),
     "accuracy_grade": (BLOWS | {"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 7}, STEPS, NO_LENGTH, OUTPUTS,
@@ -69,7 +69,7 @@ CARRIERS = {
     "wheel_brake": (HELD, STEADY, NO_TIME, OUTPUTS, SPRING),
     "solver": (BLOWS | {"solver.relative_tolerance": 1e-6}, STEPS, NO_TIME, COUNTS, "error control resolves speeds to 1 rad/s, and the first step is 1 us"),
 }
-# with faceted teeth errors are those of whole flanks
+# with faceted teeth, errors are those of whole flanks
 SOLID = {"scene.gear_contact": "solid", "tooth_errors.accuracy_grade": 0, "tooth_errors.planet_tip_relief": 0.0}
 ERRORS = {"effects.tooth_errors": True, "tooth_errors.crowning": 2e-5, "tooth_errors.axis_offset": 2e-5,
           "tooth_errors.shaft_angle_error": 1e-3, "tooth_errors.planet_axial_offset": 3e-5}
@@ -90,20 +90,20 @@ def test_dimensions_from_units_are_those_of_the_description(fmu):
 
 
 def wrong(found, pattern=OUTPUTS, limit=LIMIT):
-    """Of the outputs that a pattern names those that do not scale."""
+    """Outputs of a pattern that do not scale, by name."""
     return {name: off for name, off in found.items() if re.match(pattern, name)
             and off > next((own for prefix, own in LIMITS.items() if name.startswith(prefix)), limit)}
 
 
 def homogeneous(start):
-    """A plausible scene without what carries units."""
+    """Plausible scene without parameters and effects that have units in constants."""
     start = start | {f"effects.{name}": False for name in CARRIERS if f"effects.{name}" in start}
     start |= {"lock.command": 0.0, "tooth_friction.law": 1, "tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
               "bearing_drag.viscosity_from_oil": False, "bearing_drag.churning_from_geometry": False,
               "material.density": min(start["material.density"], 10e3), **TIGHT}
     if start["geometry.addendum_system"] == GLEASON:
         start["geometry.addendum_system"] = EXPLICIT
-    # Newton's method of the fixed steps ends after four iterations, wherever a blow has brought it
+    # Newton's method of the fixed steps ends after four iterations, in any state after an impact
     if start["solver.method"] == FIXED_STEP:
         start["solver.method"] = ADAPTIVE
     return start
@@ -127,7 +127,7 @@ def test_all_outputs_of_random_scenes_scale_with_lengths_masses_and_times(fmu):
         try:
             off, points = differences(fmu, scene, factors)
         except DifferentialError:
-            # the scene and its image are refused alike
+            # the scene and its image are both refused
             continue
         ran += points > 1
         if wrong(off):
@@ -143,7 +143,7 @@ def test_all_outputs_scale_with_each_contact_law_and_effect(fmu, name):
 
 
 @pytest.mark.parametrize("name", CARRIERS)
-def test_what_carries_units_scales_while_they_stay_and_not_when_they_change(fmu, name):
+def test_parts_with_units_scale_only_while_those_units_are_unchanged(fmu, name):
     values, steps, stands, what, constant = CARRIERS[name]
     off, _ = differences(fmu, {"start": values, "steps": steps}, stands)
     assert not wrong(off, what), wrong(off, what)

@@ -1,4 +1,4 @@
-"""Scenes reach the FMU: the parameter sets and scripts that the command `plan` writes, against a record by the library itself."""
+"""Parameter sets and scripts that the command `plan` writes, against a record by the library itself."""
 
 import csv
 import os
@@ -15,8 +15,8 @@ from bevel_differential.command import main
 
 ROOT = Path(__file__).parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
-# what scenes of the repository do not have: tunable parameters, changes between communication points, two at one of them,
-# inputs from a file, a last step that is shorter, times with units
+# features that no scene of the repository has: tunable parameters, changes between communication points, two changes at one point,
+# inputs from a file, a shorter last step, times with units
 EVERYTHING = """
 description = "a \\"quoted\\" \\\\ text, and µ"
 stop_time = "20.3 ms"
@@ -55,16 +55,16 @@ period = "7 ms"
 [[inputs]]
 file = "cycle.csv"
 """
-# the same with inputs that are held within steps, and with jumps at ends of periods that are no ends of steps
+# variants: inputs held within steps, and jumps at ends of periods that are not ends of steps
 TEXTS = {"everything": EVERYTHING, "held": f"input_slopes = false{EVERYTHING}", "rounds": EVERYTHING.replace('"7 ms"', '"6.3 ms"')}
-# an hour as far as its tables begin anew
+# the cycle of an hour only until its tables repeat
 SHORTER = {"drive_cycle": {"stop_time": 650.0}}
 CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n4.25,97\n4.25,101\n11.1,90\n"
 
 
 @pytest.fixture(scope="module")
 def scene_command():
-    """scene_command(NAME, options of `plan`, csv=FILE): writes the scene for others, and a record by the library itself."""
+    """scene_command(NAME, options of `plan`, csv=FILE): writes the files of the command, and a record by the library itself."""
     def run(name, *arguments, csv=None):
         assert main(["plan", *map(str, (name, *arguments))]) == 0
         if csv is None:
@@ -88,7 +88,7 @@ def scene(request, tmp_path):
 
 
 def recorded(file):
-    """Comments, head and numbers of a record, each number as its bits read."""
+    """Comments, head and numbers of a record, each number in hexadecimal."""
     lines = Path(file).read_text(encoding="utf-8").splitlines()
     comments = [line for line in lines if line.startswith("#")]
     head, *rows = csv.reader(line for line in lines if not line.startswith("#"))
@@ -96,7 +96,7 @@ def recorded(file):
 
 
 def run_script(script, fmu_file):
-    """What a script prints in a process of its own, and the record that it says it wrote."""
+    """Output of a script in a separate process, and the record that it says it wrote."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT / "python" / "src"), "BEVEL_DIFFERENTIAL_FMU": os.path.abspath(fmu_file)}
     done = subprocess.run([sys.executable, script], cwd=script.parent, env=environment, capture_output=True, text=True,
                           encoding="utf-8")
@@ -105,7 +105,7 @@ def run_script(script, fmu_file):
 
 
 def run_script_here(script, fmu_file, monkeypatch, capsys):
-    """The same in this process, which has loaded the package."""
+    """Output and record of a script that runs in this process, which has loaded the package."""
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", os.path.abspath(fmu_file))
     monkeypatch.chdir(script.parent)
     capsys.readouterr()
@@ -128,7 +128,7 @@ def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tm
     assert len(rows) > 10
     for number, (wanted, row) in enumerate(zip(own_rows, rows)):
         assert row == wanted, f"row {number}"
-    # the summaries agree as far as they are printed
+    # the summaries agree to the printed digits
     for name in head[1:]:
         line = next(line for line in shown.splitlines() if line.startswith(f"{name} "))
         wanted = next(line for line in printed.splitlines() if line.strip().startswith(f"{name} "))
@@ -153,7 +153,7 @@ def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_fi
 def test_a_parameter_set_is_valid_and_starts_the_scene(scene_command, scene, fmu, tmp_path):
     file, record = tmp_path / "set.ssv", tmp_path / "own.csv"
     scene_command(scene, "--ssv", file, "--set", "stop_time=1e-4", "--set", "step=1e-4", csv=record)
-    # against the schema of SSP 1.0 that fmpy has
+    # validated by fmpy's schema of SSP 1.0
     parameters = read_ssv(str(file), validate=True).parameters
     names = [parameter.name for parameter in parameters]
     assert len(names) == len(set(names))

@@ -9,7 +9,7 @@ from driving import STEADY_TURN
 
 
 def test_a_half_shaft_twists_by_its_stiffness_and_oscillates_with_its_end(drive):
-    # soft against the teeth, which deflect too
+    # soft relative to the teeth, which deflect too
     stiffness, inertia, extra = 1e3, 0.5, 50.0
     base = {"effects.half_shaft": True, "half_shaft.left_stiffness": stiffness, "half_shaft.left_damping": 0.0,
             "scene.planet_spin": "imposed"}
@@ -38,7 +38,7 @@ def test_pins_and_case_are_springs_in_series_with_the_teeth(run, contact):
     share = thrust / (theory.PLANETS * soft["planet[1].left_normal_force"][0])
     seat = thrust / case * share / theory.SIDE_LEVER
     wind_up = rigid["left.angle"][0] - soft["left.angle"][0]
-    # the seat moves all slices alike, so that it acts at the cone distance of the resultant
+    # the seat moves all slices by the same amount, so it acts at the cone distance of the resultant
     outer, inner = theory.OUTER_CONE, theory.OUTER_CONE - theory.FACE_WIDTH
     resultant = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2)
     assert wind_up == pytest.approx(pins + seat / resultant, rel=0.01)
@@ -79,7 +79,7 @@ def test_a_chipped_tooth_shows_once_per_revolution_of_its_planet_in_each_mesh(ru
                   "tooth_fault.missing_fraction": 0.3}, stop=stop, output=names)
     for name in names[:2]:
         deeper = np.abs(broken[name] - sound[name]) > 3e-6
-        # the tooth is in contact for the contact ratio's share of a revolution's ten pitches
+        # each revolution has ten pitches, and the tooth is in contact for the contact ratio's share of them
         assert 0.08 < deeper.mean() < 0.25, name
         begins = np.flatnonzero(np.diff(deeper.astype(int)) == 1)
         gaps = np.diff(broken["time"][begins]) > 0.5 * stop / 10.0

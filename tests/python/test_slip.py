@@ -1,4 +1,4 @@
-"""Dry friction by slip speed, temperature and p v: closed forms, the onset of judder by the linear theory, and bad input."""
+"""Dry friction by slip speed, temperature and p v: closed forms, onset of judder by linear theory, wrong input."""
 
 from math import exp, pi, sqrt
 
@@ -16,7 +16,7 @@ CLUTCH = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "effect
 
 
 def over_kinetic(speed):
-    """Friction over its kinetic value at a speed of sliding [m/s]."""
+    """Ratio of friction to its kinetic value at a sliding speed [m/s]."""
     return 1.0 + (RATIO - 1.0) * exp(-abs(speed) / STRIBECK) + SLOPE * abs(speed)
 
 
@@ -31,7 +31,7 @@ def test_a_clutch_has_the_torque_of_its_slip_and_temperature(drive, spin, sign):
     begin, time = driven["heat.clutch"], driven.time
     driven.to(0.3, 1e-2)
     torque = (driven["heat.clutch"] - begin) / (driven.time - time) / (2.0 * abs(slip))
-    # half way from the cold point at 253.15 K to the reference at 353.15 K
+    # halfway between the cold point at 253.15 K and the reference at 353.15 K
     expected = PRELOAD * 0.5 * (cold + 1.0) * over_kinetic(RADIUS * slip)
     assert torque == pytest.approx(expected, rel=1e-12)
 
@@ -40,14 +40,14 @@ AREA, PLATES, BEYOND, BAND = 0.03, 0.12, 0.7, 0.05
 
 
 def over_unlimited(pv, limit):
-    """Friction over that without a limit of p v."""
+    """Ratio of friction to its value without a limit of p v."""
     share = min(max((pv / limit - 1.0) / BAND, 0.0), 1.0)
     return 1.0 + (BEYOND - 1.0) * share**2 * (3.0 - 2.0 * share)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("share", [0.5, 0.999, 1.005, 1.025, 1.045, 1.06, 10.0])
-def test_a_clutch_has_the_torque_of_its_pressure_times_speed_which_temperature_leaves_as_it_is(drive, share, sign):
+def test_a_clutch_has_the_torque_of_its_pressure_times_speed_at_any_temperature(drive, share, sign):
     slip = 20.0 * theory.RATIO
     pv = PRELOAD * slip / (PLATES * AREA)
     driven = drive(CLUTCH | {"spin.command": sign * 20.0, "oil.temperature": 303.15, "limited_slip.cold_factor": 1.4,
@@ -101,7 +101,7 @@ def test_a_pressure_times_speed_above_its_limit_is_reported_once_in_a_run(drive)
     assert all(word in reported[0] for word in ["side gear", f"{pv:.3f} W/mm2", "the limit of 0.200 W/mm2", "t = 0.010000 s"])
     torque = driven["heat.clutch"]
     plain = drive(values | {"limited_slip.pv_limit": 0.0}).to(0.3, 1e-2)
-    # without a value for what is beyond the limit a warning is all
+    # without a value beyond the limit, the only effect is a warning
     assert plain["heat.clutch"] == torque and not [message for message in plain.messages if "p v" in message]
     driven.reset()
     driven.initialise(values)
@@ -109,7 +109,7 @@ def test_a_pressure_times_speed_above_its_limit_is_reported_once_in_a_run(drive)
     assert len([message for message in driven.messages if "p v" in message]) == 1
 
 
-# a wheel with its end's inertia on an undamped half-shaft between a speed and a brake
+# a wheel with inertia at the end of an undamped half-shaft, between an imposed speed and a brake
 END, STIFFNESS, LINING, TORQUE, SPEED = 0.8, 6000.0, 0.12, 400.0, 10.0
 BRAKED = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "spin.command": 0.0, "carrier.speed_command": SPEED,
           "effects.half_shaft": True, "half_shaft.left_stiffness": STIFFNESS, "half_shaft.left_damping": 0.0,
@@ -118,8 +118,8 @@ BRAKED = {"scene.gear_contact": "ideal", "scene.planet_spin": "imposed", "spin.c
 
 
 def growth(drive, slope, kick):
-    """Rate at which a small vibration of the left wheel grows [1/s], and its frequency [rad/s]: those of a recurrence of its
-    differences (Prony)."""
+    """Growth rate [1/s] and frequency [rad/s] of a small vibration of the left wheel, from a recurrence of its speed differences
+    (Prony)."""
     driven = drive(BRAKED | {"wheel_brake.slip_slope": slope, "left.brake_torque": TORQUE - kick})
     driven.to(0.01, 1e-3)
     driven.set({"left.brake_torque": TORQUE})
@@ -134,8 +134,8 @@ def growth(drive, slope, kick):
 
 
 @pytest.mark.parametrize("slope", [-0.02, -0.005, 0.005, 0.02])
-def test_falling_friction_judders_and_rising_friction_damps_as_the_linear_theory_has_it(drive, slope):
-    # J w' = ... - T (1 + k r w): growth -T k r/(2 J) about the speed of rolling
+def test_falling_friction_judders_and_rising_friction_damps_by_the_linear_theory(drive, slope):
+    # J w' = ... - T (1 + k r w): growth rate -T k r/(2 J) about the rolling speed
     rate, frequency = growth(drive, slope, 0.5)
     assert rate == pytest.approx(-TORQUE * slope * LINING / (2.0 * END), rel=0.01)
     assert frequency == pytest.approx(sqrt(STIFFNESS / END), rel=0.01)
@@ -152,13 +152,13 @@ def test_judder_grows_until_the_wheel_sticks(drive):
         driven.step(1e-3)
         held += driven["held.wheels"] >= 1.0
         speeds.append(driven["left.end_speed"])
-    # the wheel stands part of the time, and is faster than the other end of its shaft at others
+    # the wheel sticks for part of the time, and is at other times faster than the other end of its shaft
     assert 0 < held < len(speeds) and max(speeds) > 1.5
 
 
 @pytest.mark.parametrize(("name", "value", "words"), [
     ("limited_slip.cold_temperature", 360.0, ["limited_slip.cold_temperature", "360 K", "limited_slip.reference_temperature"]),
-    ("limited_slip.hot_temperature", 300.0, ["limited_slip.hot_temperature", "300 K", "in order"]),
+    ("limited_slip.hot_temperature", 300.0, ["limited_slip.hot_temperature", "300 K", "must increase"]),
     ("limited_slip.hot_temperature", 700.0, ["limited_slip.hot_temperature", "700", "673.15"]),
     ("oil.temperature", 200.0, ["oil.temperature", "200", "213.15"]),
     ("limited_slip.pv_limit", -1.0, ["limited_slip.pv_limit", "-1"]),

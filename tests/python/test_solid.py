@@ -16,8 +16,7 @@ MISALIGNED = {"effects.tooth_errors": True, "tooth_errors.shaft_angle_error": 1e
 
 @pytest.fixture(scope="module")
 def turn(fmu):
-    """turn(facets): outputs every millisecond over a mesh cycle of the study's turn, and after it the drive; 0 facets are
-    tooth pairs on the path of contact."""
+    """turn(facets): outputs every millisecond over a mesh cycle of the study's turn; 0 facets are tooth pairs on the path of contact."""
     kept = {}
 
     def record(facets):
@@ -33,7 +32,7 @@ def turn(fmu):
 
 
 def ripple(record):
-    """What facets do to forces and speeds: rms of the difference to teeth without facets, over their mean."""
+    """ripple(record)(facets, part): effect of facets on forces and speeds, as rms of the difference to 0 facets over the mean."""
     def of(facets, part):
         off = record(facets)[:, part] - record(0)[:, part]
         return np.sqrt((off**2).mean()) / np.abs(record(0)[:, part]).mean()
@@ -58,10 +57,10 @@ def test_straight_ahead_the_normal_force_is_the_torque_over_the_base_circle_s_le
 
 @pytest.mark.parametrize("part, order", [(slice(0, 2), 1.0), (slice(2, 4), 1.0), (slice(4, 5), 1.5)],
                          ids=["force", "speed", "deflection"])
-def test_what_facets_do_falls_with_their_number_at_the_expected_order(turn, part, order):
-    """Heights of arc over facets, which determine deflections, fall with the square of the facets' number, at tip corners but for
-    a logarithm (the patch there lies on one side of the corner, and its part of the sum falls with the softness);
-    slopes, which determine forces and speeds, fall with the number, and faster where the patch smooths them."""
+def test_the_effect_of_facets_falls_with_their_number_at_the_expected_order(turn, part, order):
+    """Arc heights over facets determine deflections and fall with the square of the number of facets. Tip corners add a logarithm:
+    the patch there is on one side of the corner, and its part of the sum falls with the softness. Slopes determine forces and speeds.
+    They fall with the number, and faster where the patch smooths them."""
     of = ripple(turn)
     values = np.array([of(facets, part) for facets in (8, 16, 32, 64)])
     assert np.all(np.diff(values) < 0.0), values
@@ -90,7 +89,7 @@ def test_misaligned_forces_balance(drive):
         assert driven[f"{side}.shaft_torque"] == pytest.approx(835.0, rel=1e-6)
         assert driven[f"{side}.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
     assert driven["carrier.torque"] == pytest.approx(2.0 * 835.0, rel=1e-6)
-    # the planet that its offset carries ahead takes nearly all
+    # the planet whose offset moves it ahead takes nearly all the load
     first, second = ([driven[f"planet[{i}].{side}_normal_force"] for side in SIDES] for i in (1, 2))
     assert min(first) > 100.0 * max(second) >= 0.0
     assert driven.imbalance() < UNDAMPED
@@ -125,7 +124,7 @@ def test_other_gears_and_reversals_of_load_run(drive, teeth):
     ({"effects.tooth_errors": True, "tooth_errors.accuracy_grade": 6}, "tooth_errors.accuracy_grade"),
     ({"solid.facets": 1}, "solid.facets"),
 ])
-def test_what_solid_teeth_do_not_know_is_refused_by_name(fmu, values, name):
+def test_settings_that_solid_teeth_do_not_support_are_refused_by_name(fmu, values, name):
     with fmu.open() as opened:
         opened.set(SOLID | values)
         with pytest.raises(Exception):

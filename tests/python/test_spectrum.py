@@ -12,7 +12,7 @@ from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.spectrum.picture import curves, rolling_spectrum, standing_spectrum
 from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
 
-# the FMU's start values, by the standards that docs/inside/theory.md names
+# the FMU's start values, by the standards cited in docs/inside/theory.md
 BENDING, BENDING_CYCLES, BENDING_SLOPE = 1000e6, 3e6, log(3e6 / 1e3) / log(2.5)
 CONTACT, CONTACT_CYCLES, CONTACT_SLOPE = 1500e6, 5e7, log(5e7 / 1e5) / log(1.6)
 IDLER, SENSITIVITY = 0.7, 0.4
@@ -75,7 +75,7 @@ def test_in_the_written_order_events_follow_each_other_without_unloading():
     histories = [np.array([6.0]), np.array([4.0]), np.array([-3.0])]
     found = count_slow_cycles(histories, [1.0, 1.0, 1.0], "written")
     assert _merged(zip(found.low, found.high, found.count)) == [(-3.0, 6.0, 1.0)]
-    # twice the second: it unloads in between, and before and after
+    # with the second event twice, the load returns to zero between the two, before and after
     found = count_slow_cycles(histories, [1.0, 2.0, 1.0], "written")
     assert sorted(_merged(zip(found.low, found.high, found.count))) == [(-3.0, 6.0, 1.0), (0.0, 4.0, 2.0)]
     with pytest.raises(DifferentialError, match="whole number"):
@@ -88,7 +88,7 @@ def test_drive_and_overrun_straight_ahead_by_hand(cycle, stress):
     found = []
     for drive in stress(1200.0):
         overrun = 0.5 * drive
-        # two cycles from −1/2 to 1: mean over amplitude 1/3; the drive flank's root is in tension
+        # two cycles from −1/2 to 1: mean over amplitude 1/3; the root at the drive flank is in tension
         permissible = 1.0 / (1.0 + SENSITIVITY / 3.0)
         alternating = (drive + overrun) / ((1.0 + SENSITIVITY) * permissible)
         found.append(2.0 * bending(alternating) + 1.0 * bending(drive))
@@ -103,7 +103,7 @@ def test_drive_and_overrun_straight_ahead_by_hand(cycle, stress):
 def test_a_turn_does_the_damage_of_its_passes_by_hand(cycle, stress):
     result = cycle(HEAD, "turn,4,20,18,10,1200", parameters=LUMPED)
     planet, side = stress(1200.0)
-    # the left side gear turns by v/r w/(2R) against the carrier, a planet of 10 teeth by 16/10 of it
+    # relative to the carrier, the left side gear turns by v/r w/(2R), and a planet of 10 teeth by 16/10 of it
     passes = 4 * 20 * (18 / 3.6 / 0.334) * 1.55 / (2 * 10) / (2 * pi)
     assert result.damage["damage.planet"] == pytest.approx(1.6 * passes * bending(planet / IDLER), rel=1e-6)
     # two planets pass each side gear
@@ -116,7 +116,7 @@ def test_a_turn_does_the_damage_of_its_passes_by_hand(cycle, stress):
 
 @pytest.mark.parametrize("weak", ["planet root", "side root", "side flank"])
 def test_the_load_spectrum_and_its_curves_give_the_damage(cycle, weak):
-    # flanks that bear anything, or planets as strong as side gears, let the roots or the side gears come first
+    # very strong flanks, or planets as strong as side gears, make the roots or the side gears the critical part
     strong = {} if weak == "side flank" else {"strength.contact_strength": "1e10 Pa"}
     strong |= {"strength.idler_factor": 1.0} if weak == "side root" else {}
     lines = ["turn,4,20,18,10,1200", "wide,9,20,50,-80,800", "start,3,4,20,,1000", "overrun,5,4,20,,-300"]
@@ -132,7 +132,7 @@ def test_the_left_wheel_is_the_slow_one_of_a_turn_to_the_left(cycle, fmu_file):
     (left,) = cycle(HEAD, "left,1,5,18,10,500").events
     with Differential(left.event.values, fmu=fmu_file) as differential:
         angles = differential.final(["left.angle", "right.angle"], stop=10.0)
-    # at R ∓ w/2, in the mean: speeds ripple with the teeth
+    # mean speeds at R ∓ w/2, because the teeth make speeds ripple
     assert angles["left.angle"] / 10.0 == pytest.approx(18 / 3.6 / 0.334 * (1.0 - 1.55 / 20.0), rel=1e-3)
     assert angles["right.angle"] / 10.0 == pytest.approx(18 / 3.6 / 0.334 * (1.0 + 1.55 / 20.0), rel=1e-3)
 
@@ -152,13 +152,13 @@ def test_a_history_of_a_steady_turn_does_the_damage_of_the_steady_turn(fmu_file)
     turn = event(duration=80.0, spin=3.5)
     history = event(duration=80.0, spin=3.5, signals={"left.load_torque": (np.array([0.0, 80.0]), np.array([400.0, 400.0]))})
     steady, over_time = (all_damages(spectrum([one], fmu=fmu_file)) for one in (turn, history))
-    # the FMU leaves out half a pitch of 10 teeth at the start
+    # the FMU omits half a pitch of 10 teeth at the start
     turns = 80.0 * 3.5 / (2.0 * pi)
     assert over_time / steady == pytest.approx(1.0 - 0.05 / turns, rel=1e-3)
 
 
-def test_a_history_that_turns_and_stands_counts_each_once(fmu_file):
-    # 10 s in a turn, 10 s straight ahead under swings, without load where one meets the other
+def test_a_history_with_a_turn_and_a_straight_part_counts_each_once(fmu_file):
+    # 10 s in a turn, then 10 s straight ahead under swings, without load at the transition
     times = np.array([0.0, 0.1, 9.9, 10.0, 10.5, 11.0, 11.5, 12.0, 20.0])
     load = np.array([0.0, 400.0, 400.0, 0.0, 700.0, 0.0, 700.0, 0.0, 0.0])
     spin = (np.array([0.0, 10.0, 10.0, 20.0]), np.array([3.5, 3.5, 0.0, 0.0]))
@@ -186,7 +186,7 @@ def test_twice_the_counts_do_twice_the_damage_and_halves_of_events_the_same(fmu_
     assert twice.life_hours == pytest.approx(once.life_hours, rel=1e-12)
     half_the_count = spectrum([changed(one, count=one.count / 2) for one in EVENTS for _ in range(2)], fmu=fmu_file)
     assert all_damages(half_the_count) == pytest.approx(all_damages(once), rel=1e-12)
-    # one after the other, events in halves are the same events
+    # in the written order, split events are the same events
     single = [changed(one, count=1.0) for one in EVENTS]
     whole = spectrum(single, order="written", fmu=fmu_file)
     halves = [changed(one, duration=one.duration / 2) for one in single for _ in range(2)]
@@ -202,7 +202,7 @@ def test_twice_the_counts_do_twice_the_damage_and_halves_of_events_the_same(fmu_
 def test_a_mirrored_cycle_does_the_same_damage(fmu_file, mirror):
     once = spectrum(EVENTS, fmu=fmu_file)
     mirrored = spectrum([changed(one, **mirror(one.values)) for one in EVENTS], fmu=fmu_file)
-    # the teeth begin at the other side of the mesh; rates over whole mesh cycles agree to some 1e-4
+    # the teeth start on the other side of the mesh; rates over whole mesh cycles agree to about 1e-4
     assert all_damages(mirrored) == pytest.approx(all_damages(once), rel=1e-3)
 
 

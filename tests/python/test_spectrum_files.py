@@ -1,4 +1,4 @@
-"""Duty cycles from files: the example, the command, and errors that help."""
+"""Duty cycles from files: the example, the command, and helpful errors."""
 
 import numpy as np
 import pytest
@@ -36,7 +36,7 @@ def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
     text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
     lines = iter(spectrum(DUTY_CYCLE, fmu=fmu_file).markdown())
-    # the worst events, in their order
+    # the worst events in their order
     assert len(written) > 10 and all(line in lines for line in written)
 
 
@@ -54,7 +54,7 @@ def test_a_cycle_from_a_spreadsheet_of_any_country_is_the_same(cycle, tmp_path, 
     (tmp_path / "history.csv").write_text("\ufeff" + "\r\n".join(_as(history, separator, comma)), encoding="utf-8")
     found = cycle(*_as(lines, separator, comma))
     assert np.array_equal(found.by_event, expected.by_event)
-    # a name is no number
+    # a name is not read as a number
     assert [each.event.name for each in found.events] == [f"1{comma}5", "b"]
 
 
@@ -96,7 +96,7 @@ def _as(lines, separator, comma):
     (["name,count,duration [s],speed [m/s],wheel_radius [m],torque [N.m],lock.command", "a,1,1,5,0.3,100,7"],
      ["event 'a'", "lock.command"]),
 ])
-def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
+def test_errors_in_a_cycle_are_reported_with_their_place(cycle, lines, parts):
     with pytest.raises(DifferentialError) as error:
         cycle(*lines)
     assert all(part in str(error.value) for part in parts), error.value
@@ -110,14 +110,14 @@ def test_what_is_wrong_in_a_cycle_is_said_with_its_place(cycle, lines, parts):
     (["time [s],contact.damping", "0,1"], ["contact.damping", "not an input of"]),
     (["time [s],torque [N.m]", "0,", "1,1"], ["line 2, column torque [N.m]", "write a value"]),
 ])
-def test_what_is_wrong_in_a_history_is_said_with_its_place(cycle, tmp_path, lines, parts):
+def test_errors_in_a_history_are_reported_with_their_place(cycle, tmp_path, lines, parts):
     (tmp_path / "history.csv").write_text("\n".join(lines))
     with pytest.raises(DifferentialError) as error:
         cycle("name,count,speed [km/h],history", "a,1,20,history.csv")
     assert all(part in str(error.value) for part in ["history.csv", *parts]), error.value
 
 
-def test_the_command_reports_and_says_in_one_line_what_is_wrong(fmu_file, tmp_path, capsys):
+def test_the_command_reports_results_and_has_one_line_for_an_error(fmu_file, tmp_path, capsys):
     table, picture = tmp_path / "table.csv", tmp_path / "picture.png"
     good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--csv", str(table), "--plot", str(picture), "--set", "contact.law=line"]
     assert main(["spectrum", *good]) == 0

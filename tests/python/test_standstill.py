@@ -1,4 +1,4 @@
-"""A car that brakes to a stop and waits: the solver takes hardly any steps, brakes hold, hosts that integrate see the same."""
+"""A car that brakes to a stop and waits: the solver takes few steps, brakes hold, and hosts that integrate agree."""
 
 import warnings
 
@@ -7,7 +7,7 @@ import pytest
 import theory
 from bevel_differential import Differential
 
-# both wheels roll at the start value of 50 rad/s, and are braked
+# both wheels start at 50 rad/s and are braked
 STOP = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rolling", "effects.wheel_brake": True,
         "carrier.torque_command": 0.0, "left.load_torque": 0.0, "right.load_torque": 0.0, "left.brake_torque": 100.0,
         "right.brake_torque": 100.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
@@ -16,9 +16,9 @@ LAWS |= {law: {"scene.gear_contact": "tooth", "contact.law": law} for law in ["i
 LEVELS = {"ideal": {}} | LAWS | {"solid": {"scene.gear_contact": "solid"}}
 WAYS = {"plain": {}, "half-shafts": {"effects.half_shaft": True}, "drag": {**theory.DRAG},
         "limited slip": {**theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0}}
-# what ends the rattle of teeth: friction of planets, and drag of the carrier
+# friction of planets and drag of the carrier, which end the rattle of teeth
 QUIET = {"effects.thrust_friction": True, **theory.DRAG}
-# solver steps in two seconds of standstill, in addition to one for each communication step
+# solver steps in two seconds at rest, in addition to one for each communication step
 STANDING = 400
 
 
@@ -28,7 +28,7 @@ def loaded(torque):
 
 
 def stopped(fmu_file, values, stop, step=0.1):
-    """Record of a car that stops before the middle of the time; at its end the wheels stand, and the brakes hold them."""
+    """Record of a car that stops before half of the time; at the end the wheels are at rest and the brakes hold them."""
     with Differential(STOP | values, fmu=fmu_file) as car:
         record = car.run(outputs=["left.wheel_speed", "right.wheel_speed", "solver.steps", "held.wheels", "power.in"],
                          stop=stop, step=step)
@@ -49,7 +49,7 @@ def steps_in_last(record, seconds):
 def test_braked_wheels_stop_and_stand(fmu_file, way, method, load):
     record = stopped(fmu_file, WAYS[way] | loaded(load) | {"solver.method": method}, 4.0)
     assert steps_in_last(record, 2.0) <= STANDING
-    # braking from 50 rad/s takes half a second; all of it takes some hundred steps
+    # braking from 50 rad/s takes half a second, and all of it takes a few hundred steps
     assert record["solver.steps"][-1] <= 400
 
 
@@ -83,7 +83,7 @@ def test_an_hour_parked_takes_one_step_a_second(fmu_file, level, load):
     with car:
         record = car.run(outputs=["left.wheel_angle", "held.wheels", "solver.steps"], stop=3600.0, step=1.0)
     assert record["held.wheels"][-1] == 2
-    # the spring of the brake winds up in the first second, and then nothing creeps
+    # the spring of the brake winds up in the first second, and nothing creeps afterwards
     assert np.ptp(record["left.wheel_angle"][1:]) < 1e-9
     assert record["left.wheel_angle"][-1] == pytest.approx(-load / 1e5, rel=1e-6, abs=1e-12)
     assert record["solver.steps"][-1] <= 3600 + 100
@@ -98,12 +98,12 @@ def test_brakes_of_any_stiffness_and_torque_stop_a_wheel(fmu_file, stiffness, to
               "inertia.left_end": inertia, "inertia.right_end": inertia, "carrier.speed_command": slow}
     with Differential(STOP | values, fmu=fmu_file) as car:
         record = car.run(outputs=["left.wheel_speed", "solver.steps"], stop=2.0, step=0.1)
-    # the least torque does not stop the lightest wheels before the gears, which have no brake
+    # the smallest torque does not stop the lightest wheels before the gears, which have no brake
     assert record["solver.steps"][-1] <= 400
 
 
-def test_rattle_is_reported_with_its_share_and_with_what_ends_it(fmu_file):
-    """Planets without friction, and a carrier without drag, go on between the flanks when the wheels stand."""
+def test_rattle_is_reported_with_its_share_and_with_the_effects_that_end_it(fmu_file):
+    """Planets without friction and a carrier without drag continue to bounce between the flanks when the wheels are at rest."""
     rattling = STOP | {"scene.gear_contact": "tooth", "contact.law": "line"}
     with Differential(rattling, fmu=fmu_file) as car:
         record = car.run(outputs=["solver.steps"], stop=2.0, step=0.1)
@@ -129,8 +129,8 @@ def random_stop(seed):
     return values, 1.6 * abs(speed) * inertia / min(torques) + 0.1
 
 
-def test_cvode_stops_where_the_own_solver_stops_and_brakes_hold(through_fmpy, request):
-    """Random stops in model exchange. CVode often enters an event at a speed of zero, or of a few ulps of either sign."""
+def test_cvode_stops_where_the_fmu_s_solver_stops_and_brakes_hold(through_fmpy, request):
+    """Random stops in model exchange. CVode often enters an event at a speed of zero or of a few ulps, with either sign."""
     outputs = ["left.wheel_speed", "right.wheel_speed", "left.angle", "right.angle", "held.wheels", "heat.brake"]
     for seed in range(request.config.getoption("--scenes") // 5):
         values, stop = random_stop(seed)
@@ -145,7 +145,7 @@ def test_cvode_stops_where_the_own_solver_stops_and_brakes_hold(through_fmpy, re
             expected = np.interp(theirs["time"], own["time"], own[f"{side}.angle"])
             apart = np.abs(theirs[f"{side}.angle"] - expected).max()
             assert apart < 0.01 * np.abs(expected).max(), (seed, side, apart)
-            # a brake that holds turns a wheel back by no more than its spring is wound, at the speed of that spring
+            # a holding brake turns a wheel back by no more than the wind-up of its spring, at the speed of that spring
             rate = (values["wheel_brake.stiffness"] / values[f"inertia.{side}_end"]) ** 0.5
             wound = values[f"{side}.brake_torque"] / values["wheel_brake.stiffness"]
             first = np.argmax(theirs["held.wheels"] == 2)

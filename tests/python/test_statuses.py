@@ -1,4 +1,4 @@
-"""Each command ends with the same status for the same kind of end, and has the same options for less work."""
+"""Each command has the same exit status for the same kind of end, and the same options for less work."""
 
 import argparse
 import dataclasses
@@ -18,9 +18,9 @@ from bevel_differential.fmu import Fmu
 from bevel_differential.instance import Instance
 
 ROOT = Path(__file__).resolve().parents[2]
-# the package has a function of the same name
+# the package has a function with the same name
 accuracy_module = importlib.import_module("bevel_differential.accuracy")
-# a load that bends teeth past each other in the first step, and a folder in which nobody can write
+# a load that pushes teeth past each other in the first step, and a folder in which nobody can write
 TOO_MUCH, NOWHERE = "left.load_torque=1e7", "/proc"
 PROBLEM = """description = "light or strong"
 scene = "scene.toml"
@@ -49,7 +49,7 @@ SWEEP = "sweep --scene study_turning --stop 2ms --want left.speed --plan grid --
 LOSSES = "losses torque_bias --speed 10,20 --difference 5,10 --temperature 20degC --unseen 3 --workers 0 --torque 100,200"
 ACCURACY = "accuracy study_turning --stop 5ms --want left.speed:mean --within"
 OPTIMISE = "optimise {problem} --workers 0 --out {out}"
-# by command and status: a command line
+# command lines by command and status
 CASES = {
     "run": {DONE: "run study_turning --stop 1ms", FAILED: f"run study_turning --set {TOO_MUCH}", WRONG: "run study_turnin"},
     "plan": {DONE: "plan study_turning", FAILED: f"plan study_turning --ssv {NOWHERE}/a.ssv", WRONG: "plan study_turning --set geometry.module=0"},
@@ -85,7 +85,7 @@ EACH = [(status, line) for cases in CASES.values() for status, line in cases.ite
 
 @pytest.fixture(scope="module")
 def units(fmu_file, tmp_path_factory):
-    """FMUs with one scene of evidence, which is met in good.fmu and not in bad.fmu."""
+    """FMUs with the evidence of one scene: good.fmu agrees with it, bad.fmu does not."""
     folder = tmp_path_factory.mktemp("units")
     for name, changes in (("good", {}), ("bad", {"results/one_wheel_on_ice.csv": lambda text: text.replace("\n0,", "\n0,1", 1)})):
         packed(fmu_file, folder / f"{name}.fmu", ["one_wheel_on_ice"], changes)
@@ -94,7 +94,7 @@ def units(fmu_file, tmp_path_factory):
 
 @pytest.fixture
 def prepared(fmu_file, units, tmp_path, monkeypatch):
-    """prepared(status): a folder with the files of the command lines, and what a command meets that ends with this status."""
+    """prepared(status): a folder with the files of the command lines, and the conditions in which a command ends with this status."""
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
@@ -102,7 +102,7 @@ def prepared(fmu_file, units, tmp_path, monkeypatch):
     main(["examples", "--out", "there"])
     for unit in units.iterdir():
         Path(unit.name).symlink_to(unit)
-    # files for CAD are another test's
+    # another test covers files for CAD
     monkeypatch.setattr(cad, "available", lambda: False)
     monkeypatch.setattr(page_command, "page_file", lambda: tmp_path / "there.toml")
 
@@ -124,7 +124,7 @@ def test_each_kind_of_end_has_its_status(status, line, prepared, capsys):
         assert said and all(text.startswith("bevel-differential") for text in said if text.strip()), said
 
 
-def test_every_command_is_among_the_cases_and_is_done_fails_and_is_used_wrongly():
+def test_every_command_has_a_case_of_success_of_failure_and_of_wrong_use():
     assert CASES.keys() == COMMANDS.keys()
     assert all({DONE, FAILED, WRONG} <= cases.keys() for cases in CASES.values())
 
@@ -183,7 +183,7 @@ QUICK = {"optimise": " --quick --population 8 --generations 1", "tolerance": " -
 
 
 @pytest.mark.parametrize("name", sorted(having("--quick")))
-def test_a_quick_answer_says_what_it_left_out(name, prepared, capsys):
+def test_a_quick_answer_lists_its_omissions(name, prepared, capsys):
     prepared(DONE)
     line = CASES[name][DONE]
     assert main((line if "--quick" in line else line + QUICK.get(name, " --quick")).split()) == DONE
@@ -206,7 +206,7 @@ def test_every_command_with_another_end_reads_it(name, prepared, capsys):
     assert "stop_time" in (said := capsys.readouterr().err) and "soon" in said
 
 
-def test_a_run_and_loads_end_there_and_a_plan_says_so(prepared, capsys):
+def test_a_run_and_loads_end_at_the_given_stop_and_a_plan_states_it(prepared, capsys):
     prepared(DONE)
     assert main(["run", "study_turning", "--stop", "3 ms", "--csv", "run.csv"]) == DONE
     assert main(["loads", "study_turning", "--stop", "3 ms", "--out", "loads.csv"]) == DONE

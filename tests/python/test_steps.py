@@ -1,4 +1,4 @@
-"""The trajectory does not depend on the communication steps; a state continues in another process as in this one."""
+"""The trajectory does not depend on the communication steps; a saved state continues with the same bits in another process."""
 
 import json
 import os
@@ -24,7 +24,7 @@ STOP = 0.2
 
 
 def irregular(seed):
-    """Steps of 1e-5 to 1e-1 s in a random order, to the end."""
+    """Steps from 1e-5 to 1e-1 s in random order, up to the end."""
     random, steps, time = np.random.default_rng(seed), [], 0.0
     while time < STOP - 1e-12:
         steps.append(min(10.0 ** random.uniform(-5, -1), STOP - time))
@@ -40,7 +40,7 @@ def end(fmu, scene, steps):
     with fmu.open() as opened:
         opened.initialise(SCENES[scene])
         for step in steps:
-            # times are added up as hosts do it, with all the rounding that brings
+            # times are summed with rounding errors, as hosts do
             opened.step(step)
         assert opened.time == pytest.approx(STOP, rel=1e-9)
         return np.array(opened.read(OUTPUTS))
@@ -68,7 +68,7 @@ with Fmu.of(file).open() as opened:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_a_state_continues_in_another_process_as_in_this_one(fmu, outputs, tmp_path, scene):
+def test_a_state_continues_with_the_same_bits_in_another_process(fmu, outputs, tmp_path, scene):
     def go_on():
         for step in range(20):
             opened.step(1e-3)
@@ -78,12 +78,12 @@ def test_a_state_continues_in_another_process_as_in_this_one(fmu, outputs, tmp_p
         opened.initialise(SCENES[scene])
         for step in range(61):
             opened.step(5e-4)
-        # in mid contact: teeth carry the load
+        # in the middle of a contact: teeth carry the load
         assert opened.get("planet[1].left_pairs") >= 1.0 and opened.get("left.normal_force") > 1e4
         state, kept = opened.raw.getFMUstate(), opened.save()
         (tmp_path / "state").write_bytes(pickle.dumps(kept))
         here = go_on()
-        # and once more here
+        # repeated in this instance
         opened.raw.setFMUstate(state)
         opened.time = kept[0]
         assert go_on() == here
@@ -100,6 +100,6 @@ def test_a_spring_for_each_mesh_rolls_without_kinks_of_tooth_pairs(fmu):
         opened.initialise({**TURN, "scene.gear_contact": "lumped", "scene.start": "equilibrium"})
         opened.step(1.0)
         before = opened.get("solver.steps")
-        # five teeth roll past each mesh in a second, whose force does not change
+        # five teeth per second roll past each mesh, whose force does not change
         opened.step(10.0)
         assert opened.get("solver.steps") - before < 20

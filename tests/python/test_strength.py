@@ -13,7 +13,7 @@ def test_hertz_pressure_at_the_pitch_point_of_the_mean_section(run, planets, pre
     record = run({"effects.strength": True, "geometry.planet_count": planets}, stop=0.002,
                  output=["stress.contact_pitch", "stress.contact_max"])
     assert record["stress.contact_pitch"][-1] == pytest.approx(pressure, rel=0.02)
-    # where the pair really touches, closer to the planet's tip, the planet's flank is flatter and the side gear's sharper
+    # the real contact is closer to the planet's tip, where the planet's flank is flatter and the side gear's sharper
     assert record["stress.contact_max"][-1] == pytest.approx(pressure, rel=0.15)
 
 
@@ -24,8 +24,8 @@ def test_damage_counts_relative_revolutions_and_nothing_without_them(run):
     assert straight["damage.planet"][-1] == 0.0
     assert straight["damage.side"][-1] == 0.0
     turn = run({**STEADY_TURN, "effects.strength": True, "spin.command": 20.0}, stop=2.0, output=names)
-    # Miner's sum at a constant stress: each side gear loads another flank of a planet's tooth once a revolution,
-    # N planets the same flank of a side gear's tooth
+    # Miner's sum at a constant stress: in each revolution every side gear loads a different flank of a planet's tooth, and N planets
+    # load the same flank of a side gear's tooth
     slope = log(3e6 / 1e3) / log(2.5)
     turns = abs(turn["planet[1].spin_angle"][-1]) / (2.0 * pi)
     forces = {side: turn[f"planet[1].{side}_normal_force"] for side in ("left", "right")}

@@ -1,5 +1,5 @@
-"""Fatigue of teeth that stand in mesh, against another rainflow count: the package rainflow (ASTM E1049), with the S–N curve and
-the mean stress rule of docs/inside/theory.md, section 10, written here once more."""
+"""Fatigue of teeth in mesh that do not roll, against another rainflow count: the package rainflow (ASTM E1049). The S–N curve and
+the mean stress rule of docs/inside/theory.md, section 10, are written here a second time."""
 
 from math import log, pi, sin
 
@@ -15,7 +15,7 @@ SENSITIVITY = 2.0 * 0.7 - 1.0
 
 
 def pulsating(span, mean):
-    """Range of the cycle from 0 that is as bad as one of the range `span` about `mean` (FKM guideline)."""
+    """Range of the cycle from 0 that does the same damage as one of the range `span` about `mean` (FKM guideline)."""
     m, ratio = SENSITIVITY, mean / (0.5 * span)
     if ratio <= 1.0:
         permissible = 1.0 / (1.0 + m * max(ratio, -1.0))
@@ -27,18 +27,18 @@ def pulsating(span, mean):
 
 
 def miner(stress):
-    """Damage of a history of stress, tension positive; what is left at the end counts in half cycles."""
+    """Damage of a history of stress, tension positive; the residue counts in half cycles."""
     cycles = [(span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(stress) if span > 0.01 * STRENGTH]
     return sum(count * (pulsating(span, mean) / STRENGTH) ** SLOPE / CYCLES for span, mean, count in cycles)
 
 
 def smooth(phase):
-    """A pulse too slow for blows, whose peaks would pass between two readings."""
+    """A pulse too slow for impacts, whose peaks could be missed between two readings."""
     return sin(pi * phase) ** 2
 
 
 def pulses(drive, low, high, values=None):
-    """Damage of the planets and of the side gears by the FMU, and by the count here, after pulses of both loads."""
+    """Damage of the planets and of the side gears by the FMU, and by this count, after pulses of both loads."""
     length, step = 0.02, 1e-4
     scene = drive({"effects.strength": True, "left.load_torque": low, "right.load_torque": low, **(values or {})})
     names = ["planet[1].left_transmission_error", "stress.root_planet_max", "stress.root_side_max"]
@@ -49,14 +49,14 @@ def pulses(drive, low, high, values=None):
         approach, *stresses = scene.read(names)
         history.append(np.copysign(stresses, approach))
     ours = [scene["damage.planet"], scene["damage.side"]]
-    # tension at the drive flank's root is compression at the coast flank's
+    # tension at the root of the drive flank is compression at that of the coast flank
     return ours, [max(miner(stress), miner(-stress)) for stress in np.transpose(history)]
 
 
 @pytest.mark.parametrize("law", ["impact", "line"])
-def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(drive, law):
+def test_damage_of_teeth_at_rest_agrees_with_another_rainflow_count_on_either_flank(drive, law):
     values = {"contact.law": law}
-    # free planets that stand beside the middle leave their place while a reversal lets all flanks go
+    # free planets away from the middle move when a reversal unloads all flanks
     held = values | {"scene.planet_spin": "imposed"}
     planet = {}
     for low, high, scene in [(50.0, 900.0, values), (-50.0, -900.0, values), (-400.0, 900.0, held), (400.0, -900.0, held)]:
@@ -68,9 +68,9 @@ def test_damage_of_standing_teeth_is_that_of_another_rainflow_on_either_flank(dr
     assert planet[400.0, -900.0] == pytest.approx(planet[-400.0, 900.0], rel=0.03)
 
 
-def test_standing_teeth_that_carry_unevenly_are_damaged_by_the_stress_at_the_worst_of_the_face(drive):
+def test_teeth_at_rest_with_uneven_load_are_damaged_by_the_largest_stress_over_the_face(drive):
     line = {"contact.law": "line", "effects.tooth_errors": True}
-    # crowned teeth under a small load are in balance beside the middle, from where free planets roll to and fro
+    # crowned teeth under a small load are in balance away from the middle, and free planets would roll to and fro
     line["scene.planet_spin"] = "imposed"
     even, _ = pulses(drive, 50.0, 900.0, line)
     for errors in [{"tooth_errors.crowning": 60e-6}, {"tooth_errors.side_axial_offset": 1e-4}]:

@@ -1,9 +1,9 @@
 """Damage of load swings while the gears roll slowly, against a count that follows each tooth through each of its passages.
 
-A tooth carries the load of its mesh over one pitch. It comes without load and leaves without load, so that all cycles of its passage
-close; all but the largest add to its damage. The passage itself counts as the mean damage of a cycle. Of a planet's tooth both roots are
-followed through both meshes, which load opposite flanks; a side gear's tooth meets each planet. S–N curve and mean stress are those of
-docs/inside/theory.md, section 10, written once more in `test_strength_fatigue`."""
+A tooth carries the load of its mesh over one pitch. It enters and leaves without load, so that all cycles of its passage close. All
+except the largest add to its damage. The passage itself counts as the mean damage of a cycle. For a planet's tooth, both roots are
+followed through both meshes, which load opposite flanks; a side gear's tooth meets each planet. The S–N curve and the mean stress
+rule of docs/inside/theory.md, section 10, are those of `test_strength_fatigue`."""
 
 from math import ceil, pi
 
@@ -36,7 +36,7 @@ CASES = [
 
 
 def duration(frequency, spin):
-    """Long enough for 60 swings and 8 rad, up to 150 swings."""
+    """Time for 60 swings and 8 rad, at most 150 swings."""
     return min(max(60.0 / frequency, 8.0 / abs(spin)), 150.0 / frequency)
 
 
@@ -58,12 +58,12 @@ def simulated(fmu, mean, amplitude, frequency, spin, stop, points=60, values=Non
 
 
 def swings(stress):
-    """Damage of the swings of a passage at the root of the flank that a positive stress bends, and at the other."""
+    """Damage of the swings in a passage: at the root of the flank that a positive stress bends, and at the other root."""
     history = np.concatenate([[0.0], stress, [0.0]])
-    # a closed history begins at its peak
+    # a closed history starts at its peak
     history = np.roll(history, -np.argmax(abs(history)))
     cycles = sorted((span, mean, count) for span, mean, count, *_ in rainflow.extract_cycles(np.append(history, history[0])))
-    # both halves of the largest
+    # both halves of the largest cycle
     while cycles and cycles[-1][2] == 0.5:
         cycles.pop()
     cycles = [cycle for cycle in cycles if cycle[0] > 0.01 * STRENGTH]
@@ -72,7 +72,7 @@ def swings(stress):
 
 
 def counted(mean, amplitude, frequency, spin, stop, per_torque):
-    """Damage of the worst teeth of planet and side gear."""
+    """Damage of the worst teeth of planet and side gear by this count."""
     time = np.linspace(0.0, stop, ceil(200.0 * frequency * stop))
     torque, angle = load(mean, amplitude, frequency, time), spin * time / PITCH
     passed = np.floor(angle + 0.5).astype(int)
@@ -99,7 +99,7 @@ def test_damage_is_that_of_a_count_tooth_by_tooth(fmu_file, case):
 
 
 def swung(unit, pieces, steps):
-    """Advances by 10 ms for each of the loads in `pieces`, in so many steps each; returns the damage."""
+    """Advances by 10 ms for each load in `pieces`, divided into `steps` steps; returns the damage."""
     for torque in pieces:
         unit.set(dict.fromkeys(["left.load_torque", "right.load_torque"], torque))
         for _ in range(steps):
@@ -119,7 +119,7 @@ def test_damage_does_not_depend_on_communication_steps(fmu, spin):
         with fmu.open() as unit:
             unit.initialise({**SCENE, "spin.command": spin})
             damages.append(swung(unit, pieces(400), steps))
-    # stresses follow the solver's tolerance of 1e-6, damage the ninth power of stresses
+    # stresses follow the solver's tolerance of 1e-6, and damage follows their ninth power
     assert min(damages[0]) > 0.0
     assert damages[1:] == [pytest.approx(damages[0], rel=1e-4)] * 2
 

@@ -1,4 +1,4 @@
-"""The comparison with the study: closed forms against numbers known by hand and the library's geometry, and what is printed."""
+"""The comparison with the study: closed forms against numbers by hand and the library's geometry, and the printed table."""
 
 import json
 
@@ -68,7 +68,7 @@ def test_rows_compare_the_program_with_theory_and_name_their_notes(fmu, forms):
     assert rows["straight: energy residual [7]"][-3:] == ["–", "0", "-2.500e-10"]
     assert rows["turn: normal force per mesh, N [4]"][-5:] == ["–", "16144", "16250", "+0.65", "%"]
     assert max(map(len, lines)) <= 118 and sum(line.startswith("[") for line in lines) == len(found.notes) == 8
-    # Markdown has the same cells, and each note on one line
+    # Markdown has the same cells, with each note on one line
     table, _, notes = found.document().partition("\n\n")
     assert [[cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines()[2:]] == found.rows
     assert notes.splitlines() == [f"{i}. {note}" for i, note in enumerate(found.notes, 1)]

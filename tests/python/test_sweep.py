@@ -1,4 +1,4 @@
-"""Sweeps: the same rows whatever evaluates them, and nothing lost by a killed worker, an interrupt, a crash or a full disk."""
+"""Sweeps: equal rows with any workers, and no loss by a killed worker, an interrupt, a crash or a full disk."""
 
 import io
 import json
@@ -43,7 +43,7 @@ def expected(scene):
 
 @pytest.fixture(scope="module")
 def two():
-    """A farm of two processes, whatever has happened to them before."""
+    """A farm of two processes; other tests do not affect it."""
     with Farm(workers=2) as farm:
         yield farm
 
@@ -52,19 +52,19 @@ def few(**changed):
     return {**PLAN, "runs": 20, "workers": 0, **changed}
 
 
-def test_what_cannot_be_assembled_is_a_row_with_its_message(expected):
+def test_gears_that_cannot_be_assembled_are_a_row_with_its_message(expected):
     rows = expected.table.to_pylist()
     failed = [row for row in rows if row["message"]]
     assert [row["run"] for row in rows] == list(range(RUNS)) and 0.1 * RUNS < len(failed) < 0.9 * RUNS
     for row in rows:
-        # planets evenly spaced: both side gears have the same number of teeth, so twice that number is a multiple of planets
+        # planets are evenly spaced and both side gears have the same number of teeth, so twice that number is a multiple of planets
         assembles = 2 * row["geometry.side_teeth"] % row["geometry.planet_count"] == 0
         assert assembles == (row["message"] == ""), row
         assert assembles or ("geometry.planet_count" in row["message"] and row["left.speed:final"] is None)
         assert row["feasible"] == (assembles and row["efficiency:final"] >= 0.99999)
 
 
-def test_rows_are_the_same_whatever_evaluates_them(scene, expected, two):
+def test_rows_are_the_same_with_any_workers(scene, expected, two):
     assert sweep(scene, **PLAN, workers=3, processes=False).digest() == expected.digest()
     task, space = Task(scene, WANTS, CONDITIONS), Space.parse(scene.fmu, VARY)
     rows = two.rows(task, Plan.parse(space, "lhs", RUNS, 1).designs())
@@ -81,7 +81,7 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_who_stops_early_ends_the_rows_behind_the_bar_too(monkeypatch):
+def test_closing_the_rows_early_also_closes_the_rows_behind_the_progress_bar(monkeypatch):
     ended = []
 
     def rows(_task, designs):
@@ -112,7 +112,7 @@ def test_chunks_of_a_killed_worker_run_again(scene, expected, two):
 
 
 class Deadly:
-    """A task of which one design ends its process."""
+    """A task with one design that kills its process."""
 
     def evaluate(self, run, values):
         if values["deadly"]:
@@ -129,7 +129,7 @@ def test_a_design_that_kills_its_worker_each_time_is_a_failed_row(two):
     assert [row.run for row in rows if row.message] == [30] and "worker process died" in rows[30].message
 
 
-def test_a_scheduler_that_is_not_there_is_said_within_seconds(monkeypatch):
+def test_a_missing_scheduler_is_reported_within_seconds(monkeypatch):
     assert cluster.ANSWER_TIMEOUT <= 5.0
     monkeypatch.setattr(cluster, "ANSWER_TIMEOUT", 0.5)
     begun = time.monotonic()
@@ -140,7 +140,7 @@ def test_a_scheduler_that_is_not_there_is_said_within_seconds(monkeypatch):
 
 # results on disk
 
-def test_a_file_says_what_it_holds(scene, tmp_path):
+def test_a_file_describes_its_contents(scene, tmp_path):
     file = tmp_path / "found.parquet"
     result = sweep(scene, **few(), out=file)
     read = SweepResult.load(file)
@@ -154,7 +154,7 @@ def test_a_file_says_what_it_holds(scene, tmp_path):
     assert read.frame().index.tolist() == list(range(20))
 
 
-def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
+def test_existing_results_are_overwritten_only_on_request(scene, tmp_path):
     file = tmp_path / "found.parquet"
     first = sweep(scene, **few(), out=file)
     before = file.read_bytes()
@@ -174,7 +174,7 @@ def test_what_is_there_is_never_overwritten_unasked(scene, tmp_path):
         sweep(scene, **few(), out=tmp_path / "nowhere" / "found.parquet")
 
 
-def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, monkeypatch):
+def test_an_interrupt_and_a_crash_keep_the_finished_rows(scene, expected, tmp_path, monkeypatch):
     file, evaluate = tmp_path / "found.parquet", Task.evaluate
     for ends, caught in [(RUNS // 4, KeyboardInterrupt), (RUNS // 2, RuntimeError)]:
 
@@ -197,11 +197,11 @@ def test_an_interrupt_and_a_crash_keep_what_is_done(scene, expected, tmp_path, m
 
 
 class Freed:
-    """Its end is interrupted, where an exception is lost."""
+    """An object whose destructor is interrupted, where Python loses exceptions."""
 
     def __del__(self):
         os.kill(os.getpid(), signal.SIGINT)
-        # Python runs handlers between its own instructions
+        # Python runs signal handlers between its bytecode instructions
         time.sleep(0.0)
 
 
@@ -243,8 +243,8 @@ def errors(text):
     return [line for line in text.splitlines() if not line.startswith("warning: ")]
 
 
-def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_path, capsys):
-    # a mean over two thousand steps, so that the interrupt comes in the middle
+def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(fmu_file, tmp_path, capsys):
+    # a mean over two thousand steps, so that the interrupt comes before the end
     scene = tmp_path / "turn.toml"
     scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
@@ -253,14 +253,14 @@ def test_ctrl_c_keeps_what_is_done_and_the_same_command_goes_on(fmu_file, tmp_pa
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
-    # to all processes of it, as a terminal does
+    # to the whole process group, as a terminal sends it
     os.killpg(running.pid, signal.SIGINT)
     said = running.communicate(timeout=60)
     assert running.returncode == 130 and len(errors(said[1])) == 1 and "--resume" in said[1], said
-    # an interrupt while a part is written may write its rows twice; they count once
+    # an interrupt during the writing of a part may write its rows twice; they count once
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
-    # a resumed sweep may have other workers; gears that cannot be assembled are a finding
+    # a resumed sweep may have other workers; gears that cannot be assembled give the status 3
     assert main([*arguments(scene, out, wants, "--resume", "--workers", "0"), "--fmu", fmu_file]) == 3
     told = capsys.readouterr()
     assert not errors(told.err) and f"{kept} runs were kept from before" in told.out
@@ -280,7 +280,7 @@ def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_fi
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
 
 
-def test_a_disk_that_fills_on_the_way_keeps_the_parts_before(scene, tmp_path, monkeypatch):
+def test_a_disk_that_fills_during_a_sweep_keeps_the_earlier_parts(scene, tmp_path, monkeypatch):
     monkeypatch.setattr(store, "INTERVAL", 0.0)
     write, written = pq.write_table, []
 
@@ -322,8 +322,8 @@ def test_a_part_that_is_cut_off_is_left_out_and_its_runs_are_repeated(scene, tmp
     assert rest.new == 13 + 3 and rest.digest() == sweep(scene, **few()).digest()
 
 
-def test_a_folder_of_parts_without_its_plan_is_begun_again(scene, tmp_path):
-    # a full disk or a killed process leaves one
+def test_a_folder_of_parts_without_its_plan_starts_from_the_beginning(scene, tmp_path):
+    # a full disk or a killed process leaves such a folder
     (tmp_path / "found.parquet.parts").mkdir()
     assert sweep(scene, **few(), out=tmp_path / "found.parquet").new == 20
 

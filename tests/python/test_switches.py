@@ -18,7 +18,7 @@ OUTPUTS = ["temperature.gears", "left.angle", "left.speed", "left.acceleration",
 
 
 def other_value(variable):
-    """A value of a parameter that is neither its start value nor out of range."""
+    """A value of a parameter within its range that is not its start value."""
     if variable.kind == "Boolean":
         return not variable.start
     if variable.kind == "Enumeration":

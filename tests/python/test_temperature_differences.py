@@ -1,4 +1,4 @@
-"""Temperature differences are converted without the offset of degC, wherever values are written or shown; temperatures with it."""
+"""Temperature differences are converted without the offset of degC, and temperatures with it, in all inputs and outputs."""
 
 import zipfile
 from pathlib import Path
@@ -22,7 +22,7 @@ OIL = 353.15
 
 
 @pytest.mark.parametrize("version", ["2", "3"])
-def test_the_model_description_declares_them(version, fmu_file):
+def test_the_model_description_declares_temperature_differences(version, fmu_file):
     file = fmu_file if version == "2" else str(Path(fmu_file).with_name("BevelDifferential3.fmu"))
     with zipfile.ZipFile(file) as archive:
         root = etree.fromstring(archive.read("modelDescription.xml"))
@@ -31,7 +31,7 @@ def test_the_model_description_declares_them(version, fmu_file):
     assert {name for name, each in named.items() if each.get("relativeQuantity") == "true"} == DIFFERENCES
     assert {name for name, each in named.items() if each.get("declaredType") == "TemperatureDifference"} == DIFFERENCES
     assert {"oil.temperature", "temperature.oil", "temperature.contact", "warm_up.ambient_temperature"} <= set(named)
-    # as hosts read it
+    # by the reader that hosts use
     types = {each.name: each.relativeQuantity for each in read_model_description(file).typeDefinitions}
     assert types.pop("TemperatureDifference") and not any(types.values())
 
@@ -49,7 +49,7 @@ def test_the_package_and_fmpy_start_a_node_above_the_oil(node, kelvin, fmu_file)
         assert found[outputs[0]][0] == pytest.approx(OIL + kelvin, abs=1e-6), written
 
 
-def test_they_are_shown_as_they_are_read(fmu_file):
+def test_temperature_differences_are_shown_as_they_are_read(fmu_file):
     variables = Fmu.of(fmu_file).variables
     for name in DIFFERENCES:
         assert variables[name].shown(20.0) == ("K", 20.0)
@@ -60,7 +60,7 @@ def test_they_are_shown_as_they_are_read(fmu_file):
     assert oil.shown(OIL) == ("degC", 80.0), "the variable itself has changed"
 
 
-def test_out_of_range_is_said_in_kelvin(fmu_file):
+def test_a_difference_out_of_range_is_reported_in_kelvin(fmu_file):
     with pytest.raises(DifferentialError, match=r"500 degC is outside \[-400, 400\] K"):
         Differential({"warm_up.gears_above_oil": "500 degC"}, fmu=fmu_file)
 
@@ -94,11 +94,11 @@ def test_a_scene_gives_off_heat_by_the_change_of_the_air(way, kelvin, tmp_path, 
     with Scene.load(tmp_path / "air.toml", fmu=fmu_file) as scene:
         given_off = scene.final()["warm_up.given_off"]
         conductance = scene.value("warm_up.case_to_ambient")
-    # all is at 80 °C, and cools by little in a second
+    # everything starts at 80 °C and cools only a little in a second
     assert given_off == pytest.approx(-conductance * kelvin, rel=1e-2)
 
 
-def test_the_command_sets_and_shows_them(tmp_path, capsys, fmu_file):
+def test_the_command_sets_and_shows_temperature_differences(tmp_path, capsys, fmu_file):
     (tmp_path / "air.toml").write_text(SCENE.replace('"temperature.case"', '"temperature.gears"'), encoding="utf-8")
     assert main(["run", str(tmp_path / "air.toml"), "--fmu", fmu_file, "--set", "warm_up.gears_above_oil=20 degC"]) == 0
     line = next(line.split() for line in capsys.readouterr().out.splitlines() if line.startswith("temperature.gears"))
@@ -133,7 +133,7 @@ def test_a_band_of_a_tolerance_is_a_difference(fmu_file):
     with Scene.load("study_straight", fmu=fmu_file) as scene:
         for text in ("80 degC +- 6 degC", "80 degC ± 6 K"):
             law = Reader(scene).read("oil.temperature", text).law
-            # ± 3 standard deviations
+            # the band is ± 3 standard deviations
             assert law.dimension.numbers == (OIL, 2.0)
 
 

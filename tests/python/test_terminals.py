@@ -1,4 +1,4 @@
-"""Terminals of the packaged FMU: valid by the standard's schema, with variables that exist and fit the drive."""
+"""Terminals of the packaged FMU: valid by the standard's schema, with existing variables that fit the drive."""
 
 import zipfile
 from pathlib import Path
@@ -37,7 +37,7 @@ def test_the_file_is_valid_by_the_standard_s_schema(document):
 def test_names_and_descriptions_are_complete(document, terminals):
     assert len(terminals) == len(list(document.iter("Terminal")))
     assert all(terminal.get("description") and terminal.get("matchingRule") == "plug" for terminal in document.iter("Terminal"))
-    # two members of one name would be one connection
+    # two members with the same name would be a single connection
     assert all(len(terminals[terminal.get("name")]) == len(terminal) for terminal in document.iter("Terminal"))
 
 
@@ -48,7 +48,7 @@ def test_a_shaft_has_the_inputs_of_its_drive(terminals, fmu, shaft, drive):
     assert {name: fmu.variable(variable).causality for name, (variable, _) in members.items()} == DRIVEN[drive]
     assert {name: fmu.variable(variable).unit for name, (variable, _) in members.items()} == {
         name: unit for name, unit in (("tau", "N.m"), ("w", "rad/s"), ("phi", "rad")) if name in members}
-    # power goes into the carrier and out of the sides
+    # power enters at the carrier and leaves at the sides
     assert members["tau"][1] == ("inflow" if shaft == "carrier" else "outflow")
     assert {kind for name, (_, kind) in members.items() if name != "tau"} == {"signal"}
 
@@ -63,7 +63,7 @@ def test_every_input_is_in_one_terminal_and_nothing_is_calculated_by_the_host(te
 
 @pytest.mark.parametrize("drive, causes", [("torque_driven", "torque"), ("speed_driven", "speed")])
 def test_signs_are_those_of_the_descriptions(terminals, run, drive, causes):
-    """Power of the members: what flows into the carrier flows out of the sides, in both drives of the carrier."""
+    """In both drives of the carrier, the power that flows into the carrier flows out of the sides."""
     carrier = terminals[f"carrier_{drive}"]
     sides = [terminals[f"{side}_torque_driven"] for side in ("left", "right")]
     values = {"scene.carrier_drive": causes, "left.load_torque": 800.0, "right.load_torque": 800.0, "carrier.torque_command": 1600.0,

@@ -1,5 +1,5 @@
-"""What happens at a time falls on, just before and just after communication points, and no motion is lost: the carrier turns at
-an imposed speed, so its angle at every communication point is known."""
+"""Time events on, just before and just after communication points, without loss of motion. The carrier turns at an imposed speed, so
+its angle at every communication point is known."""
 
 from collections import Counter
 
@@ -11,15 +11,15 @@ from driving import CARRIER, SIDES, put
 METHODS = ["adaptive", "radau", "fixed_step"]
 SIZES = [1e-4, 5e-4, 1e-3, 2e-3, 1e-2]
 COUNTS = range(3, 60)
-# longest time to an event with a method whose steps are always short [s]
+# longest time to an event [s] with a method that always takes short steps
 LONGEST = {"fixed_step": 0.2}
-# how many points of each kind of rounding are tried; by the usual method all are
+# tested points for each kind of rounding; the default method tests all
 OF_A_KIND = 3
 TIMES = {"multiplied": lambda k, h: k * h, "rounded": lambda k, h: round(k * h, 9), "summed": lambda k, h: sum([h] * k)}
-# the default step of fixed_step would take a minute
+# fixed_step would take a minute with its default step
 SPEED = {"carrier.speed_command": CARRIER, "solver.fixed_step": 1e-4}
 FAULT = {"effects.tooth_fault": True, "tooth_fault.gear": "planet", "tooth_fault.missing_fraction": 0.6}
-# sets nothing, then what begins at an event, then what ends it
+# values of the start, values that begin the event, values that end it
 EVENTS = {
     "trigger": (FAULT, {"fault.trigger": 1.0}, {"fault.trigger": 0.0}),
     "lock": ({}, {"lock.command": 1.0}, {"lock.command": 0.0}),
@@ -37,7 +37,7 @@ def step(instance, begin, end):
 
 
 def assert_nothing_is_lost(instance, times, change=lambda k: None):
-    """Steps through `times`; `change(k)` is called before step k. The carrier turns by what its speed makes it turn."""
+    """Steps through `times` and checks the carrier's angle after each; `change(k)` is called before step k."""
     for k, (begin, end) in enumerate(zip(times, times[1:], strict=False)):
         change(k)
         step(instance, begin, end)
@@ -52,13 +52,13 @@ def grid(way, count, size):
 
 
 def rounding(way, count, size):
-    """On which sides of the event the point on it is, as the host has it and as the FMU adds it up."""
+    """Signs of the distances from the event to its communication point: by the time of the host, and by the sum of the FMU."""
     before, at = (TIMES[way](k, size) for k in (count - 1, count))
     return tuple(np.sign([at - count * size, before + (at - before) - count * size]))
 
 
 def counts(name, way, size):
-    """Steps before an event for a method: all, or the first ones of each kind of rounding."""
+    """Numbers of steps before an event for a method: all, or the first ones of each kind of rounding."""
     found, kinds = [], Counter()
     for count in COUNTS:
         kind = rounding(way, count, size)
@@ -69,7 +69,7 @@ def counts(name, way, size):
 
 
 def short(name, counts, size):
-    """Of numbers of steps those that do not take a method long."""
+    """Numbers of steps that a method simulates quickly."""
     return [count for count in counts if count * size <= LONGEST.get(name, np.inf)]
 
 
@@ -95,7 +95,7 @@ def test_no_step_is_lost_where_a_tooth_breaks_just_before_or_after_a_communicati
 
 @pytest.mark.parametrize("off", [0.0, -2e-16, 1e-13])
 def test_a_tooth_breaks_at_its_time_wherever_communication_points_are(fmu, off):
-    """The contact loses what the broken tooth stored: the same heat in steps that end at the onset and in one beyond it."""
+    """The contact loses the energy of the broken tooth: equal heat in steps that end at the onset and in one step past it."""
     onset = 7e-3
     values = SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset * (1.0 + off),
                               "solver.relative_tolerance": 1e-9}
@@ -127,8 +127,8 @@ def test_no_step_is_lost_where_an_input_steps(fmu, name, kind):
 
 
 @pytest.mark.parametrize("name", METHODS)
-def test_an_onset_and_inputs_that_step_at_it_lose_nothing(fmu, name):
-    """All at once, on the onset, with brakes and a lock that hold."""
+def test_an_onset_with_simultaneous_steps_of_inputs_loses_nothing(fmu, name):
+    """All inputs step at the onset, while brakes and a lock hold."""
     effects = FAULT | {"effects.wheel_brake": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 5e-3}
     with fmu.open() as instance:
         for size in SIZES[:3]:
@@ -146,7 +146,7 @@ def test_an_onset_and_inputs_that_step_at_it_lose_nothing(fmu, name):
 @pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize("off", [-1e-3, -1e-10, 0.0, 1e-10, 1e-3])
 def test_tables_that_jump_on_communication_points_lose_nothing(fmu_file, name, off):
-    """Loads that jump, in steps of the package, and a carrier whose own speed jumps: its angle is the integral of the table."""
+    """Loads jump, in steps of the package, and the carrier's speed jumps: its angle is the integral of the table."""
     size, count = 1e-3, 24
     jumps = (np.array([3, 7, 8, 20]) + off) * size
     speeds = CARRIER * np.array([1.0, 0.5, -1.0, 2.0, 0.25])
@@ -158,7 +158,7 @@ def test_tables_that_jump_on_communication_points_lose_nothing(fmu_file, name, o
     bounds = np.concatenate([[0.0], jumps, [1.0]])
     expected = [sum(w * max(0.0, min(t, b) - a) for w, a, b in zip(speeds, bounds, bounds[1:], strict=False) if t > a)
                 for t in record["time"]]
-    # a jump that is closer to a communication point than a part of 1e-9 of the step is taken to be on it
+    # a jump closer to a communication point than 1e-9 of the step counts as on it
     assert record["carrier.angle"] == pytest.approx(expected, abs=1e-9 * size * CARRIER * 4 + 1e-12)
 
 
@@ -177,7 +177,7 @@ def test_scenes_whose_settings_change_on_communication_points_lose_nothing(fmu_f
 
 
 def test_a_host_that_integrates_itself_breaks_the_tooth_on_rounded_times(fmu):
-    """In model exchange the time of the event is known before, and a host that comes to it by a sum does not find it ahead."""
+    """In model exchange the event's time is known in advance, and a host whose summed time reaches it does not find it ahead."""
     with fmu.open("ModelExchange") as instance:
         onset = 0.3
         instance.initialise(SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset})

@@ -55,7 +55,7 @@ outputs = ["torque_bias_ratio"]
 
 
 class Formula:
-    """A task that is a formula of the factors; `fails` says where it fails."""
+    """A task that is a formula of the factors; it fails where `fails` is true."""
 
     def __init__(self, formula, fails=lambda values: False):
         self.formula, self.fails = formula, fails
@@ -121,18 +121,18 @@ def test_runout_of_a_grade_is_that_of_the_fmu(shape, turn):
     given = turn.run(outputs, {f"tooth_errors.{kind}_runout": gear.runout(8) for kind, gear in pair.items()})
     other = turn.run(outputs, {f"tooth_errors.{kind}_runout": 1.001 * gear.runout(8) for kind, gear in pair.items()})
     for name in outputs:
-        # the solver makes a little of a last bit; a thousandth of the tolerance is a hundred times as much
+        # the solver amplifies the last bit a little, while a thousandth of the tolerance has a hundred times the effect
         assert 100.0 * np.abs(given[name] - by_grade[name]).max() < np.abs(other[name] - by_grade[name]).max()
 
 
 @pytest.mark.parametrize("capability, beyond", [(1.0, 2.6998e-3), (4.0 / 3.0, 6.334e-5)])
-def test_draws_have_the_spread_that_tolerance_and_capability_say(capability, beyond):
+def test_draws_have_the_spread_of_tolerance_and_capability(capability, beyond):
     gear = Gear(diameter=0.05, module=3e-3, teeth=16)
     shares = (np.arange(20000) + 0.5) / 20000
     runout = RunoutGrade(7, gear, capability)
     # parts per million beyond ± 3 C_p standard deviations: tables of the normal distribution
     assert runout.at([1.0 - beyond])[0] == pytest.approx(gear.runout(7), rel=1e-4)
-    # two normal components of the eccentricity, each half of the runout's
+    # the eccentricity has two normal components, each with half of the runout
     scale = gear.runout(7) / math.sqrt(-2.0 * math.log(beyond))
     x, y = np.random.default_rng(5).normal(0.0, scale, (2, 4000))
     assert stats.ks_2samp(runout.at(shares), np.hypot(x, y)).pvalue > 0.05
@@ -146,7 +146,7 @@ def test_draws_have_the_spread_that_tolerance_and_capability_say(capability, bey
 def test_sobol_indices_of_ishigami_s_function_are_within_their_intervals():
     study = Study([factor(name, "uniform", -math.pi, math.pi) for name in "abc"], [want()], runs=2048)
     indices = result_of(study, Formula(ishigami)).indices["y:final"]
-    # Ishigami and Homma 1990, for 7 and 0.1
+    # Ishigami and Homma 1990, with the coefficients 7 and 0.1
     eighth, tenth = math.pi**8, math.pi**4
     variance = 49.0 / 8.0 + 0.1 * tenth / 5.0 + 0.01 * eighth / 18.0 + 0.5
     first = np.array([0.5 * (1.0 + 0.1 * tenth / 5.0) ** 2, 49.0 / 8.0, 0.0]) / variance
@@ -174,7 +174,7 @@ def test_intervals_of_the_yield_contain_it_as_often_as_they_say():
     factors = [factor("a", "normal", 0.0, 3.0), factor("b", "normal", 0.0, 4.0)]
     studies = [Study(factors, [want()], [limit], runs=128, seed=seed, indices=False) for seed in range(60)]
     found = [proportion(result_of(study, Formula(total)).base.good) for study in studies]
-    # 95 % of 60: 53 or more but for one case in a thousand
+    # 95 % of 60: at least 53 except in one case of a thousand
     assert sum(each.low <= 0.9 <= each.high for each in found) >= stats.binom.ppf(1e-3, 60, 0.95)
     assert np.mean([each.value for each in found]) == pytest.approx(0.9, abs=3.0 * 0.3 / math.sqrt(60 * 128))
 
@@ -187,14 +187,14 @@ def test_intervals_of_the_gain_contain_it_as_often_as_they_say(better, worse, co
         before, after = share < always + worse, (share < always) | (share >= 1.0 - better)
         found = gain(before, after, cost)
         inside += found.low <= exact <= found.high
-    # 950 of 1000 but for one case in a thousand
+    # at least 950 of 1000 except in one case of a thousand
     assert inside >= stats.binom.ppf(1e-3, 1000, 0.95)
 
 
-def test_where_no_run_changes_a_gain_remains_possible():
+def test_a_gain_remains_possible_if_no_run_changes():
     good = np.arange(64) < 50
     found = gain(good, good, 0.0)
-    # rule of three: 3/64 at 95 % on one side
+    # rule of three: one-sided 95 % limit 3/64
     assert found.value == 0.0 and -found.low == found.high > 3.0 / 64.0
 
 
@@ -206,7 +206,7 @@ def alternatives_of_a_sum(cost):
     return Study([a, b], [want()], limits, others, runs=1024)
 
 
-def test_alternatives_are_drawn_at_the_same_shares_and_judged_by_what_they_cost():
+def test_alternatives_are_drawn_at_the_same_shares_and_judged_by_their_cost():
     study = alternatives_of_a_sum(0.05)
     result = result_of(study, Formula(total))
     first = len(result.rows) - 2 * 1024
@@ -242,13 +242,13 @@ def test_failed_runs_are_out_of_limits_and_leave_no_indices():
     assert Spread.of(result.base.figures["y:final"]).runs == 64 - failed
 
 
-def test_a_figure_that_is_no_number_is_out_of_limits():
+def test_a_result_that_is_not_a_number_is_out_of_limits():
     study = Study([factor("a", "uniform", -1.0, 1.0)], [want()], [Condition(want(), "<", 9.0)], runs=64)
     result = result_of(study, Formula(lambda x: math.sqrt(x["a"]) if x["a"] > 0.0 else math.nan))
     assert result.base.good.sum() == 32 and "runs failed" in result.indices["y:final"]
 
 
-def test_without_tolerances_all_are_the_nominal_one(turn):
+def test_without_tolerances_all_runs_are_nominal(turn):
     reader = Reader(turn)
     factors = [reader.read("geometry.backlash", "0.12 mm +- 0 mm"), reader.read("tooth_errors.side_runout", "20 um")]
     name = "planet[1].left_transmission_error"
@@ -279,7 +279,7 @@ def test_mirror_images_have_the_same_spread(fmu_file):
     assert stats.ks_2samp(left, transmission_errors(MIRRORED, "right", 10, fmu_file)).pvalue < 1e-4
 
 
-def test_a_file_gives_the_same_for_any_workers_and_what_an_engineer_expects(files, fmu_file):
+def test_a_file_gives_the_same_results_with_any_workers_and_plausible_ones(files, fmu_file):
     plan = Plan.load(files, fmu=fmu_file)
     results = []
     for workers in (0, 2):
@@ -290,7 +290,7 @@ def test_a_file_gives_the_same_for_any_workers_and_what_an_engineer_expects(file
     base, (coarser, smoother) = results[0].base, results[0].others
     error, bias = map(str, plan.study.wants)
     assert not base.failures
-    # coarser teeth swing more, in each pair of runs; less friction biases less
+    # in each pair of runs, coarser teeth have a larger error and less friction gives less bias
     assert np.all(coarser.figures[error] > base.figures[error])
     assert np.all(smoother.figures[bias] < base.figures[bias])
     assert coarser.good.sum() <= base.good.sum()
@@ -309,7 +309,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     for part in ("8 differentials drawn, 0 of them failed", "tooth_errors.seed", "all: yield", "smoother flanks", "as it is"):
         assert part in printed
     assert picture.read_bytes().startswith(b"\x89PNG")
-    # four factors vary: 4 (4 + 2) runs of the scheme, and 8 of each alternative
+    # four factors vary: 4 (4 + 2) runs of the Sobol scheme, and 8 of each alternative
     assert len(runs.read_text(encoding="utf-8").splitlines()) == 1 + 24 + 16
 
 
@@ -323,15 +323,15 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("side_runout = \"grade 7\"", "side_runout = \"grade 6.5\"", ["tooth_errors.side_runout", "whole number"]),
     ("\"0.1 mm +- 0.04 mm\"", "\"grade 7\"", ["geometry.backlash", "no accuracy grade"]),
     ("limits = [\"planet[1].left", "limits = [\"planet[1].right", ["right_transmission_error", "is not wanted"]),
-    ("triangular(0.04, 0.05, 0.07)", "triangular(0.08, 0.05, 0.07)", ["tooth_friction.coefficient", "make no distribution"]),
+    ("triangular(0.04, 0.05, 0.07)", "triangular(0.08, 0.05, 0.07)", ["tooth_friction.coefficient", "do not define a distribution"]),
     ("\"coarser\"", "\"grade 12\"", ["[[alternative]]", "grade 12"]),
     ("accuracy_grade = \"coarser\"", "seed = \"finer\"", ["tooth_errors.seed", "whole numbers"]),
-    ("accuracy_grade = \"coarser\"", "crowning = \"finer\"", ["tooth_errors.crowning", "none of the factors"]),
+    ("accuracy_grade = \"coarser\"", "crowning = \"finer\"", ["tooth_errors.crowning", "not one of the factors"]),
     ("tooth_friction.coefficient = \"tri", "tooth_friction.law = \"tri", ["tooth_friction.law", "only real"]),
     ("triangular(0.04, 0.05, 0.07)", "lognormal(0.05, much)", ["tooth_friction.coefficient", "much"]),
     ("[factors]", "factors = 7\n[other]", ["factors = 7: it is a table"]),
-    ("wants = [", "wants = [7, ", ["wants: it has text"]),
-    ("cost = -0.01", "cost = \"cheap\"", ["[[alternative]]", "cost", "part of the price"]),
+    ("wants = [", "wants = [7, ", ["wants: it contains only texts"]),
+    ("cost = -0.01", "cost = \"cheap\"", ["[[alternative]]", "cost", "fraction of the price"]),
     ("runs = 8", "runs = 20", ["runs = 20", "power of two"]),
     ("runs = 8", "seed = -1", ["seed = -1"]),
     ("runs = 8", "capability = 0", ["capability = 0"]),

@@ -1,5 +1,5 @@
-"""Tooth contact over the face against sums that the program did not make: deflection of crowned teeth, pressure at toe, middle and
-heel, and the pressure at the pitch point, under every law."""
+"""Tooth contact over the face under every law, against sums made outside the program: deflection of crowned teeth, pressure at
+toe, middle and heel, and the pressure at the pitch point."""
 
 from math import log, pi, sqrt, tan
 
@@ -14,7 +14,7 @@ CONTACT_MODULUS = YOUNG / (2.0 * (1.0 - POISSON**2))
 # B of Weber's Hertz part: p = ω (Q − B ln ω)
 LOCAL = 2.0 * (1.0 - POISSON**2) / (pi * YOUNG)
 INNER, MIDDLE, OUTER = theory.OUTER_CONE - theory.FACE_WIDTH, theory.MEAN_CONE, theory.OUTER_CONE
-# cone distance of the resultant of a load that grows with R
+# cone distance of the resultant of a load that is proportional to R
 RESULTANT = 2.0 / 3.0 * (OUTER**3 - INNER**3) / (OUTER**2 - INNER**2)
 SLICES = INNER + (np.arange(4000) + 0.5) * theory.FACE_WIDTH / 4000
 
@@ -50,13 +50,13 @@ def moment(law, compliance, approach, crowning):
 
 
 def of_load(law, approach, crowning, wanted):
-    """The compliance with which a pair at this approach carries this moment."""
+    """Compliance with which a pair at this approach carries this moment."""
     low, high = (1e-13, 1e-9) if law == "line" else (LOCAL * (1.0 + log(1e9)), 100.0 * LOCAL * log(1e9))
     return brentq(lambda q: moment(law, q, approach, crowning) / wanted - 1.0, low, high, xtol=1e-24, rtol=1e-14)
 
 
 def standing(run, law, crowning, torque, **values):
-    """A planet whose left mesh stands in equilibrium; nothing where more than one pair carries."""
+    """Outputs of a planet whose left mesh is in equilibrium at rest; None if more than one pair carries."""
     record = run({"contact.law": law, "effects.tooth_errors": True, "tooth_errors.crowning": crowning, "effects.strength": True,
                   "scene.planet_spin": "imposed", "spin.command": 0.0, "scene.start": "equilibrium",
                   "left.load_torque": torque, "right.load_torque": torque, **values},
@@ -67,10 +67,10 @@ def standing(run, law, crowning, torque, **values):
 
 @pytest.mark.parametrize("law", ["line", "line_weber"])
 @pytest.mark.parametrize("torque", [5.0, 150.0, 835.0])
-def test_crowned_teeth_deflect_as_4000_slices_say(run, law, torque):
+def test_crowned_teeth_deflect_as_4000_slices_do(run, law, torque):
     wanted = torque / (theory.PLANETS * theory.SIDE_LEVER)
     plain = standing(run, law, 1e-9, torque)
-    # what a pair at this place gives, from teeth that are not crowned
+    # compliance of a pair at this place, from teeth without crowning
     compliance = of_load(law, plain["planet[1].left_transmission_error"] / MIDDLE, 1e-9, wanted)
     compared = 0
     for crowning in (3e-6, 20e-6, 48e-6, 100e-6, 200e-6, 300e-6):
@@ -80,7 +80,7 @@ def test_crowned_teeth_deflect_as_4000_slices_say(run, law, torque):
         compared += 1
         own = brentq(lambda a: moment(law, compliance, a, crowning) / wanted - 1.0, 1e-9, 0.05, xtol=1e-15, rtol=1e-13)
         assert crowned["planet[1].left_transmission_error"] == pytest.approx(own * MIDDLE, rel=1e-3), crowning
-    # under the full load the tip of the next pair comes to carry
+    # under the full load the tip of the next pair starts to carry
     assert compared == 6 or (torque == 835.0 and compared >= 3), compared
 
 

@@ -1,5 +1,5 @@
-"""Heat agrees with power, and the largest pressure with those over the face. Other pairs of outputs are compared in random scenes
-(two_places.py, test_random_scenes.py)."""
+"""Heat agrees with power, and the largest pressure with the pressures over the face. two_places.py and test_random_scenes.py compare
+other pairs of outputs in random scenes."""
 
 import os
 
@@ -11,11 +11,11 @@ from integrals import Walk
 from two_places import Scene
 
 TOLERANCE = 1e-8
-# heat that comes at once, by springs of dry friction, a tooth that breaks, or pairs that come and go abruptly
+# effects with instantaneous heat: springs of dry friction, a tooth that breaks, pairs that enter or leave contact abruptly
 AT_ONCE = ["thrust_friction", "limited_slip", "wheel_brake", "tooth_fault"]
-# the heat of brakes is part of the power that goes out
+# heat of brakes is part of the output power
 OUTSIDE = "heat.brake"
-# s
+# communication steps [s]
 STEPS = [2e-4, 5e-4, 1e-3, 2e-3, 1e-4, 3e-3]
 
 
@@ -30,7 +30,7 @@ def test_heat_is_the_integral_of_the_power_that_is_lost(fmu, effect):
         opened.initialise(TURN | on | {"solver.relative_tolerance": TOLERANCE})
         walk = Walk(opened, [(heats, "power.loss")], TOLERANCE)
         for size in STEPS:
-            # a point within a step that passes the end of a contact is not balanced until the step is complete
+            # if a step passes the end of a contact, its inner points are not balanced until the step is complete
             before = abs(opened.get("solver.energy_residual"))
             wrong = walk.step(size)
             after = abs(opened.get("solver.energy_residual"))
@@ -38,13 +38,13 @@ def test_heat_is_the_integral_of_the_power_that_is_lost(fmu, effect):
         assert sum(opened.read(heats)) > 0.0
 
 
-# crowning, displacement of the pins across, and load of each side [m, N.m]; all of the face carries
+# crowning, lateral displacement of the pins, and load of each side [m, N.m]; the whole face carries
 FACES = [(0.0, 0.0, 835.0), (1e-5, 0.0, 835.0), (2e-5, 1e-5, 835.0), (0.0, 2e-5, 400.0)]
 
 
 @pytest.mark.parametrize("crowning, offset, load", FACES)
 def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_heel(fmu, crowning, offset, load):
-    """Under the law `line` load per width over radius, and so the square of pressure, is c₀/R + c₁ + c₂ R over the face."""
+    """Under the law `line`, load per width over radius is c₀/R + c₁ + c₂ R over the face, and so is the square of pressure."""
     values = {"contact.law": "line", "effects.strength": True, "effects.tooth_errors": True, "tooth_errors.crowning": crowning,
               "tooth_errors.axis_offset": offset, "scene.planet_spin": "imposed",
               "left.load_torque": load, "right.load_torque": load}
@@ -63,5 +63,5 @@ def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_he
         factors = np.linalg.solve(np.stack([1.0 / cones, np.ones(3), cones], axis=1), squares)
         face = np.linspace(scene.inner, scene.outer, 2001)
         largest = max(largest, np.sqrt(np.max(factors[0] / face + factors[1] + factors[2] * face)))
-    # planet 1 carries what the others carry, or more where the pins are off toward it
+    # planet 1 carries as much as the others, or more where the displaced pins load it
     assert largest == pytest.approx(o["stress.contact_max"], rel=1e-6)

@@ -1,4 +1,4 @@
-"""The command `variables` and `Fmu.find`: all variables, by words and by what acts in a scene."""
+"""The command `variables` and `Fmu.find`: all variables, by words and by their effect in a scene."""
 
 import csv
 import subprocess
@@ -8,7 +8,7 @@ import pytest
 from bevel_differential import DifferentialError
 from bevel_differential.command import main
 
-# packages of extras
+# packages of the optional extras
 EXTRAS = ("matplotlib", "dask", "pandas", "pyarrow", "scipy", "jinja2")
 
 
@@ -29,7 +29,7 @@ def test_without_words_all_variables_are_listed(listed, fmu):
     assert head.split() == ["name", "kind", "unit", "start", "range", "description"]
     assert [line.split()[0] for line in lines] == list(fmu.variables)
     assert count == f"{len(fmu.variables)} of {len(fmu.variables)} variables"
-    # columns begin at the same place in all lines
+    # columns start at the same place in all lines
     place = head.index("description")
     assert all(line[place - 1] == " " and line[place] != " " for line in lines)
 
@@ -39,13 +39,13 @@ def test_words_must_all_occur_in_name_or_description(listed, fmu):
     number, all_of_them = fmu.variable("geometry.planet_count"), len(fmu.variables)
     assert line.split()[:4] == ["geometry.planet_count", "parameter", str(number.start), f"{number.minimum}..{number.maximum}"]
     assert line.endswith(number.description) and count == f"1 of {all_of_them} variables"
-    # a word of descriptions only
+    # a word that occurs only in descriptions
     expected = [name for name, each in fmu.variables.items() if "hertz" in f"{name} {each.description}".lower()]
     assert [line.split()[0] for line in listed("hertz")[1:-1]] == expected and len(expected) > 1
     assert listed("no", "such", "quantity")[-1].startswith(f"0 of {all_of_them} variables")
 
 
-def test_values_are_in_the_units_that_are_read(listed):
+def test_values_are_in_units_that_can_be_read(listed):
     assert listed("geometry.module")[1].split()[1:6] == ["parameter", "mm", "(m)", "4.5", "0.2..100"]
     assert listed("lock.command")[1].split()[1] == "input" and listed("power.loss")[1].split()[1] == "output"
     line = listed("scene.start")[1]
@@ -77,8 +77,8 @@ def test_the_file_has_si_values_that_read_back(listed, fmu, tmp_path):
     assert {row["name"]: row["display unit"] for row in rows}["geometry.module"] == "mm"
 
 
-def test_what_acts_in_a_scene_is_what_the_fmu_says(listed, fmu, tmp_path):
-    """The FMU warns of values that change nothing; they are those that are left out."""
+def test_variables_that_act_in_a_scene_are_those_of_the_fmu(listed, fmu, tmp_path):
+    """The command omits the values for which the FMU warns that they change nothing."""
     scene = tmp_path / "scene.toml"
     scene.write_text('description = ""\nstop_time = "1 ms"\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\neffects.bearing_drag = true\n'
                      'scene.gear_contact = "lumped"\n')
@@ -102,7 +102,7 @@ def test_what_acts_in_a_scene_is_what_the_fmu_says(listed, fmu, tmp_path):
     assert not wrong and silent > 10
 
 
-def test_a_scene_that_is_none_is_said(fmu_file, capsys):
+def test_a_wrong_scene_is_reported(fmu_file, capsys):
     assert main(["variables", "--acting", "study_strait", "--fmu", fmu_file]) != 0
     assert "did you mean 'study_straight'" in capsys.readouterr().err
 
@@ -116,7 +116,7 @@ def test_the_smallest_installation_is_enough(fmu_file):
 
 # suggestions
 
-def test_wrong_names_of_all_kinds_are_suggested(fmu, fmu_file, capsys):
+def test_wrong_names_of_all_kinds_get_suggestions(fmu, fmu_file, capsys):
     for call, words in [
         (lambda: fmu.variable("planet.count"), "(did you mean geometry.planet_count?)"),
         (lambda: fmu.variable("carier.speed"), "(did you mean carrier.speed?)"),

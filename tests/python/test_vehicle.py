@@ -1,4 +1,4 @@
-"""The car around the differential: against all its equations at once, its mirror, and what it refuses."""
+"""The car around the differential: against all its equations at once, in the mirror, and with wrong values."""
 
 import runpy
 from math import atan, pi, sin, tanh
@@ -14,8 +14,8 @@ from scipy.integrate import solve_ivp
 
 ROOT = Path(__file__).resolve().parents[2]
 
-# ideal gears with inertias that the reference knows: carrier, side gear, two planets (kg.m2), so light that the carrier does not feel them;
-# ratio of their teeth
+# ideal gears with the inertias of the reference: carrier, side gear, two planets (kg.m2), too light to affect the carrier; ratio of
+# their teeth
 CARRIER, SIDE, PLANET, RATIO = 0.05, 1.2e-4, 1e-9, 10 / 14
 IDEAL = {"scene.gear_contact": "ideal", "inertia.from_geometry": False, "inertia.carrier": CARRIER, "inertia.side_gear": SIDE,
          "inertia.planet": PLANET, "geometry.planet_count": 2, "geometry.planet_teeth": 10, "geometry.side_teeth": 14}
@@ -40,12 +40,12 @@ def magic(tyre, slip):
 
 
 def allowed(motor, carrier):
-    """Largest torque of the motor: its peak, and its power over its speed."""
+    """Largest torque of the motor: its peak, or its power divided by its speed."""
     return min(motor.peak, motor.peak * motor.knee / max(motor.ratio * carrier, 1e-9))
 
 
 def reference(speed, motor, body):
-    """All equations as one system, by a solver with variable steps at 1e-10: Willis' equation as a constraint."""
+    """Solves all equations as one system, with variable steps at 1e-10 and Willis' equation as a constraint."""
     mass_matrix = np.array([[CARRIER + motor.inertia * motor.ratio**2 + 2 * SIDE + LEFT.inertia + RIGHT.inertia,
                              RATIO * (LEFT.inertia - RIGHT.inertia)],
                             [RATIO * (LEFT.inertia - RIGHT.inertia),
@@ -110,7 +110,7 @@ def test_the_mirrored_car_moves_the_mirrored_way(fmu_file):
 
 
 def test_a_slow_turn_follows_the_geometry_of_the_axles(fmu_file):
-    """Without slip the driven axle goes around a circle of the radius wheelbase by steering angle."""
+    """Without slip, the driven axle follows a circle with the radius wheelbase divided by steering angle."""
     car = Car(IDEAL, body=Body(rolling=0.0, drag=0.0), fmu=fmu_file)
     record = car.run(["body.speed", "body.yaw_rate", "left.wheel_speed", "right.wheel_speed"], 6.0, 2e-3, steer=0.05, speed=1.0)
     speed, yaw, left, right = (record[name][-1] for name in record.dtype.names[1:])
@@ -142,7 +142,7 @@ LIMITED = {"ratio": 9.0, "inertia": 0.03, "peak": PEAK, "knee": KNEE, "lag": 0.0
 @pytest.mark.parametrize("asked", [25.0, 125.0, PEAK, 1e4])
 @pytest.mark.parametrize("signs", [(1, 1), (-1, 1), (1, -1), (-1, -1)])
 def test_a_motor_gives_the_request_up_to_its_torque_and_its_power_in_all_four_quadrants(turns, asked, signs):
-    """Below the knee the peak torque is the limit, above it the power of the knee."""
+    """The peak torque is the limit below the knee, and the power of the knee above it."""
     given = motor_torque(Motor(**LIMITED), signs[0] * asked, signs[1] * turns * KNEE)
     limit = PEAK if turns <= 1.0 else PEAK / turns
     assert given == pytest.approx(signs[0] * min(asked, limit), rel=1e-15)
@@ -151,8 +151,8 @@ def test_a_motor_gives_the_request_up_to_its_torque_and_its_power_in_all_four_qu
 @pytest.mark.parametrize("request_", [1e4, PEAK, -PEAK])
 @pytest.mark.parametrize("speed", [0.0, 10.0, 30.0, -30.0])
 def test_the_power_of_the_motor_is_never_above_its_limit_and_reaches_it(fmu_file, request_, speed):
-    """From the first instant, driving and braking, forward and backward, though the torque follows with a lag."""
-    # slippery, so that the wheels spin up faster than the lag
+    """The limit applies from the first instant, in driving, braking and both directions, although the torque has a lag."""
+    # little friction, so that the wheels spin up faster than the lag
     tyre = Tyre(friction=0.1 if speed == 0.0 else 0.9)
     car = Car(IDEAL, motor=Motor(**LIMITED), left=tyre, right=tyre, fmu=fmu_file)
     record = car.run(["motor.torque", "motor.speed"], 0.6, 1e-3, request=request_, speed=speed)
@@ -161,13 +161,13 @@ def test_the_power_of_the_motor_is_never_above_its_limit_and_reaches_it(fmu_file
     assert np.abs(torque).max() <= PEAK * (1.0 + 1e-12) and power.max() <= limit * (1.0 + 1e-12)
     assert np.all(np.sign(torque[1:]) == np.sign(request_))
     if abs(speed) == 30.0:
-        # 30 m/s are 808 rad/s of the motor
+        # 30 m/s correspond to 808 rad/s of the motor
         assert power[0] == pytest.approx(limit, rel=1e-12) and torque[0] == pytest.approx(limit / (9.0 * 30.0 / 0.334) * np.sign(request_))
     if speed == 0.0:
         assert np.abs(turns).max() > 1.2 * KNEE and power[-1] == pytest.approx(limit, rel=1e-9)
 
 
-def test_a_moving_car_begins_with_the_torque_that_is_asked_for_below_the_limit(fmu_file):
+def test_a_moving_car_begins_with_the_requested_torque_below_the_limit(fmu_file):
     car = Car(IDEAL, motor=Motor(**LIMITED), fmu=fmu_file)
     record = car.run(["motor.torque"], 0.05, 1e-3, request=25.0, speed=30.0)
     assert record["motor.torque"] == pytest.approx(np.full(len(record), 25.0), rel=1e-12)
@@ -177,7 +177,7 @@ def test_constant_power_above_the_knee(fmu_file):
     car = Car(IDEAL, motor=Motor(peak=100.0, knee=100.0), left=Tyre(), fmu=fmu_file)
     record = car.run(["motor.torque", "motor.speed"], 0.3, 1e-3, request=100.0, speed="144km/h")
     power = record["motor.torque"] * record["motor.speed"]
-    # the speed falls, and the torque rises with it behind its lag
+    # the speed falls, and the torque rises behind it with its lag
     assert power[0] == pytest.approx(100.0 * 100.0, rel=1e-12) and power == pytest.approx(np.full(len(record), 100.0 * 100.0), rel=1e-3)
 
 
@@ -194,13 +194,13 @@ def test_constant_power_above_the_knee(fmu_file):
     (lambda fmu: Car(fmu=fmu).run(speed="fast"), "speed = 'fast': it is m/s, or a number and one of m/s, km/h"),
     (lambda fmu: Car(fmu=fmu).run(steer="left"), "steer = 'left': it is a finite number"),
 ])
-def test_what_cannot_be_is_refused_by_name(fmu_file, make, message):
+def test_impossible_values_are_refused_by_name(fmu_file, make, message):
     with pytest.raises(DifferentialError) as refused:
         make(fmu_file)
     assert message in str(refused.value)
 
 
-def test_all_that_can_be_recorded_is_drawn(fmu_file, tmp_path):
+def test_every_output_of_a_record_is_drawn(fmu_file, tmp_path):
     car = Car(IDEAL, fmu=fmu_file)
     record = car.run(list(UNITS), 0.05, 1e-3, request=50.0)
     assert record.dtype.names == ("time", *UNITS)
@@ -210,7 +210,7 @@ def test_all_that_can_be_recorded_is_drawn(fmu_file, tmp_path):
 
 @pytest.mark.parametrize("name, words", [("launch", ["open", "limited slip", "lock"]), ("torque_vectoring", ["off", "on"])])
 def test_the_examples_run_and_each_case_beats_the_one_before(fmu_file, tmp_path, monkeypatch, capsys, name, words):
-    """Speed after the launch; yaw rate in the bend."""
+    """Cases are compared by the speed after the launch, and by the yaw rate in the bend."""
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     monkeypatch.setattr("sys.argv", [name, str(tmp_path / "picture.png")])
     runpy.run_path(str(ROOT / "examples" / "vehicle" / f"{name}.py"), run_name="__main__")
@@ -221,7 +221,7 @@ def test_the_examples_run_and_each_case_beats_the_one_before(fmu_file, tmp_path,
     assert (tmp_path / "picture.png").is_file()
 
 
-def test_the_command_copies_all_examples_and_never_over_others(tmp_path, capsys):
+def test_the_command_copies_all_examples_and_never_overwrites_files(tmp_path, capsys):
     assert main(["examples", "--out", str(tmp_path)]) == 0
     assert {file.parent.name for file in tmp_path.rglob("*.*")} == {"design", "vehicle"}
     assert (tmp_path / "vehicle" / "launch.py").is_file() and (tmp_path / "design" / "study_gears.toml").is_file()

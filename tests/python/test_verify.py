@@ -1,4 +1,4 @@
-"""The evidence in the FMU, and the command that tests a unit with it. The form of the files: test_evidence_form.py."""
+"""The evidence in the FMU, and the command that tests a unit with it. test_evidence_form.py tests the form of the files."""
 
 import csv
 import re
@@ -20,7 +20,7 @@ from bevel_differential.verify import FOLDER, MANIFEST, verify
 ROOT = Path(__file__).resolve().parents[2]
 KEPT = ROOT / "modelDescription" / "evidence"
 OTHERS = ROOT / "fmu-build" / "evidence"
-# files of all scenes in the evidence: the shipped ones, and those for laws, levels and effects that no shipped scene uses
+# files of all scenes in the evidence: the shipped scenes, and those for laws, levels and effects that no shipped scene uses
 SCENES = {**{name: find(name) for name in shipped_scenes()}, **{file.stem: file for file in OTHERS.glob("*.toml")}}
 LARGEST = 1_000_000  # bytes of all files
 ROWS = 300
@@ -30,7 +30,7 @@ DESCRIPTION = "modelDescription.xml"
 
 @pytest.fixture
 def unit(fmu_file, tmp_path):
-    """unit(changes, scenes): path of an FMU with other evidence."""
+    """unit(changes, scenes): path of an FMU with changed evidence."""
     return lambda changes, scenes=FEW: packed(fmu_file, tmp_path / "unit.fmu", scenes, changes)
 
 
@@ -64,12 +64,12 @@ def test_the_shipped_unit_passes_in_all_scenes(fmu_file, tmp_path, capsys, versi
     ("one_wheel_on_ice", "inertia.left_end", "left.wheel_speed"),
     ("rattle", "carrier.speed_command", None),
 ])
-def test_other_physics_is_noticed_with_scene_variable_time_and_by_how_much(unit, fmu_file, capsys, scene, name, variable):
+def test_changed_physics_is_reported_with_scene_variable_time_and_deviation(unit, fmu_file, capsys, scene, name, variable):
     def changed(text):
         parameter = re.compile(rf'(name="{re.escape(name)}".*?value=")([^"]+)(")', re.DOTALL)
         return parameter.sub(lambda found: f"{found[1]}{1.02 * float(found[2])}{found[3]}", text, count=1)
 
-    # the scene rattle follows a table from 0 s on, so that a start value changes nothing
+    # the scene rattle follows a table from 0 s on, so that a change of its start value has no effect
     change = {f"parameters/{scene}.ssv": changed} if variable else {f"inputs/{scene}.csv": lambda text: text.replace("3.49", "3.56")}
     assert main(["verify", unit(change, {*FEW, scene})]) == 3
     lines = capsys.readouterr().out.splitlines()
@@ -114,7 +114,7 @@ def test_one_wrong_value_of_a_result_is_noticed_at_its_place(unit, capsys):
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="NaN"', 1)}, ["parameters/hil.ssv", "'NaN'", "finite"]),
     ({"parameters/hil.ssv": lambda text: text.replace('unit="N.m"', 'unit="lbf.ft"', 1)}, ["parameters/hil.ssv", "lbf.ft", "N.m"]),
     ({"parameters/hil.ssv": lambda text: re.sub('<ssv:Real value="10.0".*?/>', "", text, count=1)}, ["parameters/hil.ssv", "half_shaft", "''"]),
-    ({"parameters/hil.ssv": "<"}, ["parameters/hil.ssv", "no valid XML"]),
+    ({"parameters/hil.ssv": "<"}, ["parameters/hil.ssv", "not valid XML"]),
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="-10.0"', 1)}, ["the unit fails", "half_shaft"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "clunk,left.twist")}, ["tolerances.csv", "left.twist", "hil"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "hil,left.twits")}, ["tolerances.csv, line", "left.twits", "did you mean"]),
@@ -141,7 +141,7 @@ def test_without_tolerances_no_scene_is_compared(unit, capsys, content, part):
 @pytest.mark.parametrize("changes, parts", [
     ({MANIFEST: None}, [FOLDER, MANIFEST, "no evidence"]),
     ({MANIFEST: lambda text: text.replace('role="result"', 'role="report"')}, [MANIFEST, "no file with the role result"]),
-    ({MANIFEST: "no XML"}, [MANIFEST, "no valid XML"]),
+    ({MANIFEST: "no XML"}, [MANIFEST, "not valid XML"]),
     ({DESCRIPTION: lambda text: text.replace('modelName="BevelDifferential"', 'modelName="Gearbox"')}, ["the unit Gearbox", "BevelDifferential"]),
     ({DESCRIPTION: "no XML"}, ["its model description cannot be read"]),
 ])
@@ -163,7 +163,7 @@ def test_parameter_sets_are_valid_by_the_standard_s_schema():
 
 
 @pytest.mark.parametrize("version", ["", "3"])
-def test_both_units_have_what_the_repository_keeps_and_that_is_small(fmu_file, version):
+def test_both_units_have_the_small_evidence_of_the_repository(fmu_file, version):
     kept = {file.relative_to(KEPT).as_posix(): file.read_bytes() for file in KEPT.rglob("*") if file.is_file()}
     document = kept.pop("fmi-ls-ref.txt")
     with zipfile.ZipFile(fmu_file.replace(".fmu", f"{version}.fmu")) as archive:
@@ -174,7 +174,7 @@ def test_both_units_have_what_the_repository_keeps_and_that_is_small(fmu_file, v
     assert all(data.count(b"\n") <= ROWS for name, data in kept.items() if name.startswith("results/"))
 
 
-def test_the_repository_keeps_what_the_command_makes(fmu_file, tmp_path):
+def test_the_evidence_of_the_repository_is_that_of_the_command(fmu_file, tmp_path):
     import evidence
 
     made = tmp_path / "made"
@@ -197,8 +197,8 @@ def test_the_repository_keeps_what_the_command_makes(fmu_file, tmp_path):
 
 @pytest.mark.parametrize("name", sorted(SCENES))
 def test_results_are_those_of_the_scenes(fmu_file, name):
-    """The package's own way to simulate a scene, with its own reader of inputs, gives the results too."""
-    # results are those of hosts, which hold inputs between communication points
+    """The package simulates a scene and reads its inputs with other code than the command, and gives equal results."""
+    # the results are those of hosts that hold inputs between communication points
     with Scene(**(read_scene(SCENES[name]) | {"input_slopes": False}), fmu=fmu_file) as scene:
         scene.stop = min(scene.stop, LONGEST)
         record = scene.run()

@@ -1,4 +1,4 @@
-"""Temperatures: heat of the ledger warms oil, gears, clutch packs, washers and case, and none of it is lost."""
+"""Temperatures: friction warms oil, gears, clutch packs, washers and case, and the heat is conserved."""
 
 import re
 from math import exp
@@ -56,7 +56,7 @@ def test_temperatures_do_not_depend_on_communication_points(drive):
 
 
 def test_a_clutch_fades_as_it_warms_up(drive):
-    # linear fade in a pack without a path for heat: C T' = 2 M0 w (1 - a (T - T0)), so the torque falls exponentially
+    # linear fade in a pack without heat paths: C T' = 2 M0 w (1 - a (T - T0)), so the torque falls exponentially
     preload, capacity, hot = 80.0, 20.0, 0.5
     driven = drive(SLIP | CLOSED | {"scene.gear_contact": "ideal", "effects.warm_up": True, "limited_slip.preload": preload,
                                     "limited_slip.torque_coefficient": 0.0, "warm_up.clutch_capacity": capacity,
@@ -68,7 +68,7 @@ def test_a_clutch_fades_as_it_warms_up(drive):
     assert driven["temperature.clutch"] - 353.15 == pytest.approx(rise, abs=0.5)
 
 
-def test_without_the_effect_all_has_the_temperature_of_the_oil(drive):
+def test_without_the_effect_all_nodes_have_the_temperature_of_the_oil(drive):
     driven = drive(TURN | FRICTIONS | {"oil.temperature": 321.0}).to(0.05, 1e-3)
     assert [driven[f"temperature.{node}"] for node in NODES] == [321.0] * 5
     driven.set({"oil.temperature": 330.0})
@@ -84,12 +84,12 @@ def test_flanks_flash_and_scuff_by_the_temperatures_of_gears_and_oil(drive):
         driven.step(1e-3)
         flash, contact = driven["temperature.flash"], driven["temperature.contact"]
         flashes.append(flash)
-        # forces are those of the present, with the temperatures of the last completed step
+        # forces are current, with the temperatures of the last completed step
         assert contact == pytest.approx(driven["temperature.gears"] + flash, abs=1e-3)
         assert driven["safety.scuffing"] == pytest.approx(250.0 / (contact - 350.0), rel=1e-9)
-    # no pair slides at the pitch point; elsewhere flanks are warmed by some degrees at this speed
+    # no pair slides at the pitch point; elsewhere sliding warms the flanks by a few degrees at this speed
     assert 0.0 <= min(flashes) < 0.5 * max(flashes) and 0.1 < max(flashes) < 200.0
-    # friction and heat twice as large
+    # doubles friction and heat
     double = drive(values | {"tooth_friction.coefficient": 0.1})
     double.to(0.02, 1e-3)
     single = drive(values).to(0.02, 1e-3)
@@ -108,7 +108,7 @@ def test_a_cold_oil_drags_by_its_viscosity(drive):
     assert heats[1] / heats[0] == pytest.approx(theory.viscosity(253.15) / theory.viscosity(353.15), rel=1e-9)
 
 
-# carrier and sides turn at one speed, and nothing else drags
+# carrier and sides turn at one speed, and only churning drags
 ROLLING = {"scene.gear_contact": "ideal", **theory.DRAG, **{f"bearing_drag.{name}": 0.0 for name in (
     "carrier_torque", "carrier_viscous", "carrier_churning", "side_torque", "side_viscous")}}
 
@@ -157,12 +157,12 @@ def test_values_of_drag_outside_their_ranges_are_refused(drive, name, value):
 
 
 @pytest.mark.parametrize("follows", [False, True])
-def test_flanks_with_a_given_viscosity_do_not_follow_an_oil_that_others_follow(drive, follows):
+def test_flanks_with_a_given_viscosity_do_not_follow_the_oil(drive, follows):
     values = TURN | {"effects.tooth_friction": True, "tooth_friction.law": "iso_14179", "tooth_friction.viscosity_from_oil": follows,
                      **theory.DRAG, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.0,
                      "bearing_drag.side_viscous": 1e-9}
     heats = [drive(values | {"oil.temperature": oil}).to(0.1, 1e-3)["heat.tooth_friction"] for oil in [280.0, 380.0]]
-    # a thinner oil rubs more
+    # a thinner oil gives more friction
     assert heats[1] > 1.1 * heats[0] if follows else heats[1] == pytest.approx(heats[0], rel=1e-6)
 
 
@@ -182,7 +182,7 @@ STEADY = SLIP | {"scene.start": "steady_heat", "effects.warm_up": True, "limited
 def test_a_start_with_steady_heat_balances_the_heat_of_the_clutch(drive, contact, given):
     driven = drive(STEADY | {"scene.gear_contact": contact, "warm_up.sump_given": given, "warm_up.ambient_temperature": 285.0})
     heat = 2.0 * 40.0 * 20.0 * theory.RATIO
-    # start values: 10 W/K from the clutch, 30 W/K from the oil to the case, 10 W/K and 0.1 W·s/(K·rad) to ambient
+    # start values: 10 W/K from the clutch, 30 W/K from oil to case, 10 W/K and 0.1 W·s/(K·rad) from case to ambient
     to_ambient = 10.0 + 0.1 * 10.0
     oil = 353.15 if given else 285.0 + heat / to_ambient + heat / 30.0
     case = (30.0 * oil + to_ambient * 285.0) / (30.0 + to_ambient)
@@ -193,7 +193,7 @@ def test_a_start_with_steady_heat_balances_the_heat_of_the_clutch(drive, contact
     assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(expected, rel=10.0 * tolerance)
 
 
-def test_a_start_with_steady_heat_stays_where_friction_feels_temperature(drive):
+def test_a_start_with_steady_heat_stays_where_friction_depends_on_temperature(drive):
     values = STEADY | {"scene.gear_contact": "lumped", "limited_slip.hot_factor": 0.5, "limited_slip.cold_factor": 1.5,
                        **theory.DRAG, "bearing_drag.viscosity_from_oil": True, "bearing_drag.carrier_viscous": 0.2}
     driven = drive(values)
@@ -201,7 +201,7 @@ def test_a_start_with_steady_heat_stays_where_friction_feels_temperature(drive):
     driven.to(300.0, 1.0)
     # friction follows temperature in steps of 0.5 K
     assert [driven[f"temperature.{node}"] for node in NODES] == pytest.approx(begin, abs=0.5)
-    # from afar it comes to the same
+    # a start far away converges to the same temperatures
     far = drive(values | {"scene.start": "equilibrium", "oil.temperature": 300.0, "solver.relative_tolerance": 1e-4})
     far.to(8000.0, 20.0)
     assert [far[f"temperature.{node}"] for node in NODES] == pytest.approx(begin, abs=0.5)
@@ -219,7 +219,7 @@ def test_a_start_without_steady_heat_is_refused_by_name(drive, values, words):
     assert all(word in str(refused.value) for word in words), str(refused.value)
 
 
-# inertias that the acceleration follows from, kg.m2: carrier, side gear, wheel; the planets' is so small that it does not count
+# inertias that determine the acceleration [kg.m2]: carrier, side gear, wheel; the planets' inertia is negligible
 CARRIER, SIDE, WHEEL = 0.05, 1.2e-4, 1.0
 FREE = {"scene.start": "steady_heat", "effects.warm_up": True, "scene.gear_contact": "ideal", "inertia.from_geometry": False,
         "inertia.carrier": CARRIER, "inertia.side_gear": SIDE, "inertia.planet": 1e-9, "inertia.left_end": WHEEL,
@@ -233,7 +233,7 @@ def said(driven):
 @pytest.mark.parametrize("torque", [0.75, 100.0, -100.0])
 @pytest.mark.parametrize("cycle", [0.02, 1.0])
 def test_steady_heat_of_a_car_that_accelerates_is_reported_with_the_speed_that_changes(drive, torque, cycle):
-    """T = I α, so that the mean speeds of neighbouring cycles of length L differ by α L; cycles below 0.1 s are compared in groups."""
+    """T = I α, so the mean speeds of adjacent cycles of length L differ by α L; cycles below 0.1 s are compared in groups."""
     driven = drive(FREE | {"scene.carrier_drive": "torque", "carrier.torque_command": torque, "warm_up.cycle": cycle})
     [warned] = said(driven)
     assert "scene.start" in warned and "scene.carrier_drive" in warned
@@ -246,7 +246,7 @@ def test_steady_heat_of_a_car_that_accelerates_is_reported_with_the_speed_that_c
 
 @pytest.mark.parametrize("side, sign", [("left", 1.0), ("right", -1.0)])
 def test_steady_heat_of_wheels_that_accelerate_against_each_other_names_a_wheel(drive, side, sign):
-    """At a given carrier speed the torque T on one wheel accelerates both by T/2I, I the inertia of a wheel."""
+    """At a given carrier speed, the torque T on one wheel accelerates each wheel by T/2I, with the wheel's inertia I."""
     [warned] = said(drive(FREE | {f"{side}.load_torque": -1.0}))
     mean = 10.0 + sign * 1.5 / (2.0 * (SIDE + WHEEL))
     assert "left.wheel_speed has a mean of" in warned and "carrier.speed has" not in warned
@@ -255,11 +255,11 @@ def test_steady_heat_of_wheels_that_accelerate_against_each_other_names_a_wheel(
 
 @pytest.mark.parametrize("values", [
     FREE | theory.DRAG | {"scene.carrier_drive": "torque", "carrier.torque_command": 1500.0},
-    # too fast for three cycles, and for one
+    # diverges too fast for three cycles, and for one
     FREE | {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "left.load_torque": 300.0, "right.load_torque": 250.0,
             "warm_up.cycle": 0.1, "inertia.left_end": 0.01, "inertia.right_end": 0.01},
 ])
-def test_steady_heat_is_not_refused_with_advice_on_cooling_where_the_motion_runs_away(drive, values):
+def test_steady_heat_of_a_motion_that_diverges_is_refused_without_advice_on_cooling(drive, values):
     with pytest.raises(DifferentialError) as refused:
         drive(values)
     text = str(refused.value)
@@ -274,7 +274,7 @@ def test_steady_heat_is_not_refused_with_advice_on_cooling_where_the_motion_runs
         {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 42.0,
          "right.speed_command": 38.0, "carrier.torque_command": 600.0})])
 @pytest.mark.parametrize("cycle", [0.01, 1.0])
-def test_steady_heat_of_a_steady_motion_is_no_reason_to_warn(drive, values, cycle):
+def test_steady_heat_of_a_steady_motion_gives_no_warning(drive, values, cycle):
     contact = values["scene.gear_contact"]
     driven = drive({"scene.start": "steady_heat", "effects.warm_up": True, "effects.bearing_drag": True, "warm_up.cycle": cycle,
                     "effects.thrust_friction": contact != "ideal", "effects.tooth_friction": contact == "tooth", **values})
@@ -282,7 +282,7 @@ def test_steady_heat_of_a_steady_motion_is_no_reason_to_warn(drive, values, cycl
 
 
 def test_steady_heat_of_a_part_of_a_mesh_cycle_names_the_heat(drive):
-    """A mesh period of 2π/(10 teeth 0.5 rad/s) is 1.26 s; the heat of a fifth of a second depends on where in it that is."""
+    """The mesh period 2π/(10 teeth 0.5 rad/s) is 1.26 s, so the heat of a fifth of a second depends on its phase in the period."""
     length = 0.2
     values = {"scene.gear_contact": "tooth", "effects.tooth_friction": True, "effects.warm_up": True, "scene.planet_spin": "imposed",
               "spin.command": 0.5, "left.load_torque": 800.0, "right.load_torque": 800.0, "warm_up.cycle": length}
@@ -306,19 +306,19 @@ def test_a_drive_begins_with_nodes_above_the_oil(drive):
     assert [driven[f"temperature.{node}"] for node in NODES] == [330.0, 342.0, 370.0, 325.0, 310.0]
     assert driven["warm_up.stored"] == 0.0
     driven.to(50.0, 1.0)
-    # no friction: what is stored has come from ambient, and the nodes draw together
+    # without friction, the stored heat has come from ambient, and the node temperatures approach each other
     assert driven["warm_up.stored"] == pytest.approx(-driven["warm_up.given_off"], rel=1e-9)
     assert abs(driven["temperature.clutch"] - driven["temperature.oil"]) < 0.5 * 40.0
 
 
 def test_a_cooler_and_the_weather_are_inputs(drive):
-    # no friction; the case alone follows ambient, by 10 W/K and 0.1 W·s/(K·rad), and the oil what a cooler commands
+    # without friction, the case follows ambient by 10 W/K and 0.1 W·s/(K·rad), and the oil has the temperature of the cooler
     values = {"effects.warm_up": True, "scene.gear_contact": "ideal", "warm_up.sump_given": True, "warm_up.oil_to_case": 0.0,
               "oil.temperature": 340.0, "warm_up.ambient_temperature": 300.0, "carrier.speed_command": 20.0}
     driven = drive(values | {"warm_up.ambient_change": 10.0, "warm_up.sump_change": -5.0})
     assert driven["temperature.oil"] == driven["temperature.case"] == 335.0
     rate = (10.0 + 0.1 * 20.0) / 6000.0
-    # the midpoint rule is off by (rate h)² rate t/12 of the difference: a few microkelvins
+    # the midpoint rule deviates by (rate h)² rate t/12 of the difference: a few microkelvins
     driven.to(100.0, 1.0)
     assert driven["temperature.oil"] == 335.0
     case = 310.0 + 25.0 * exp(-rate * 100.0)
@@ -340,7 +340,7 @@ def test_a_sump_follows_the_slope_of_its_input(drive):
         assert driven["temperature.oil"] == pytest.approx(340.0 + 3.0 * k, rel=1e-12)
 
 
-def test_temperatures_outside_that_leave_the_range_are_kept_at_its_end_and_reported_once(drive):
+def test_outside_temperatures_beyond_the_range_are_limited_and_reported_once(drive):
     values = {"effects.warm_up": True, "scene.gear_contact": "ideal", "warm_up.sump_given": True, "warm_up.sump_change": 400.0}
     driven = drive(values).to(1.0, 0.1)
     assert driven["temperature.oil"] == 673.15

@@ -1,4 +1,4 @@
-"""Each warning of the FMU is printed once by each command, to standard error, and is a Python warning in the package."""
+"""Each command prints each warning of the FMU once, to standard error, and the package raises it as a Python warning."""
 
 import subprocess
 import sys
@@ -14,9 +14,9 @@ from bevel_differential.command import COMMANDS, main
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "design"
-# a warning of unusual gears, and one of a value that changes nothing
+# a warning about unusual gears, and one about a value that changes nothing
 WIDE, UNFELT = "geometry.face_width: ", "left.brake_torque: 200 N.m changes nothing in this scene: "
-# gears that are not the study's, with the study's stiffness
+# gears that differ from the study's but have its stiffness
 STIFFNESS = "contact.law: impact has the stiffness of the study's gears"
 SCENE = """description = "a turn"
 stop_time = 0.02
@@ -30,6 +30,7 @@ right.load_torque = 400.0
 scene.planet_spin = "imposed"
 spin.command = 20.0
 geometry.module = "4.3 mm"
+geometry.face_width = "21 mm"
 left.brake_torque = 200.0
 """
 PROBLEM = """description = "gears of a turn"
@@ -52,7 +53,7 @@ def folder(tmp_path):
     return tmp_path
 
 
-# arguments after the command's name, {} for the folder; the warnings that are printed once
+# arguments after the command's name, with {} for the folder; the warnings that are printed once
 RUNS = {
     "run": (["{}/scene.toml", "--csv", "{}/a.csv", "--plot", "{}/a.png"], [WIDE, UNFELT, STIFFNESS]),
     "plan": (["{}/scene.toml"], [WIDE, UNFELT, STIFFNESS]),
@@ -63,16 +64,17 @@ RUNS = {
     "pattern": (["{}/scene.toml", "--out", "{}/pattern"], [WIDE, UNFELT, STIFFNESS]),
     "sweep": (["--scene", "{}/scene.toml", "--vary", "left.load_torque=300, 400", "--plan", "grid", "--want", "efficiency",
                "--workers", "0"], [WIDE, UNFELT, STIFFNESS]),
-    "spectrum": (["{}/cycle.csv", "--set", "geometry.module=4.3 mm"], [WIDE, STIFFNESS]),
+    "spectrum": (["{}/cycle.csv", "--set", "geometry.module=4.3 mm", "--set", "geometry.face_width=21 mm"],
+                 [WIDE, STIFFNESS]),
     "losses": (["{}/scene.toml", "--torque", "100 N.m, 200 N.m", "--speed", "50 rad/s, 60 rad/s", "--difference", "5 rad/s, 10 rad/s",
                 "--temperature", "80 degC, 90 degC", "--bound", "100,1000", "--unseen", "0", "--workers", "0", "--set",
                 "scene.gear_contact=lumped"], [WIDE]),
 }
-# what needs more than a second is checked by what it is made of: sweeps, scenes and runs by the package
+# commands that need more than a second; their sweeps, scenes and runs are tested in the package
 ELSEWHERE = {"variables", "optimise", "tolerance", "bench", "study", "verify", "examples", "page"}
 
 
-def test_all_commands_are_here():
+def test_all_commands_are_covered():
     assert RUNS.keys() | ELSEWHERE == COMMANDS.keys()
 
 
@@ -110,7 +112,7 @@ def test_the_package_passes_on_the_same_warnings_about_the_line_that_called_it(f
 
 def test_a_car_passes_on_warnings(fmu_file):
     with pytest.warns(DifferentialWarning, match="geometry.face_width") as caught:
-        Car({"scene.gear_contact": "lumped"}, fmu=fmu_file, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
+        Car({"scene.gear_contact": "lumped", "geometry.face_width": "22 mm"}, fmu=fmu_file, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
             request=10.0, stop=0.002)
     assert {one.filename for one in caught} == {__file__}
 

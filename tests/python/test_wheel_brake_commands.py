@@ -14,12 +14,12 @@ OUTPUTS = ["left.angle", "left.speed", "left.acceleration", "left.shaft_torque",
 
 
 def ramp(driven, rate):
-    """Both brake torques change at `rate` [N·m/s] in the steps to come."""
+    """Both brake torques change at `rate` [N·m/s] in the following steps."""
     driven.set_slopes({f"{side}.brake_torque": rate for side in SIDES})
 
 
 def slowed(torque, drive, speed, time, rate):
-    """Speed, angle, and heat of both brakes while wheels slide: T = torque + rate t against a constant drive."""
+    """Speed, angle, and heat of both brakes while the wheels slide under T = torque + rate t against a constant drive."""
     t = np.polynomial.Polynomial([0.0, 1.0])
     brake = torque + rate * t
     omega = speed + ((drive - 2.0 * brake) / WHOLE).integ()
@@ -27,7 +27,7 @@ def slowed(torque, drive, speed, time, rate):
 
 
 def test_a_torque_that_is_ramped_slows_wheels_by_its_closed_form(drive):
-    """By derivatives in one step of 0.2 s, and in steps of 1 ms, each with the torque at its middle."""
+    """The ramp is one step of 0.2 s with derivatives, then steps of 1 ms, each with the torque at its middle."""
     torque, rate, speed, time = 50.0, 1500.0, 30.0, 0.2
     expected = slowed(torque, 300.0, speed, time, rate)
     base = IDEAL | EXACT | drive_torque(300.0) | {"carrier.speed_command": speed, "scene.start": "rolling"}
@@ -36,7 +36,7 @@ def test_a_torque_that_is_ramped_slows_wheels_by_its_closed_form(drive):
     once.step(time)
     assert once.read(["left.speed", "left.angle", "heat.brake"]) == pytest.approx(expected, rel=1e-9)
     assert once.residual() < 1e-9 * once["heat.brake"]
-    # held constant in each step, work and angle follow those of the step
+    # held constant in each step, work and angle follow the steps of torque
     steps, size, stepped = 200, time / 200, drive(base)
     angle = heat = 0.0
     for k in range(steps):
@@ -50,8 +50,8 @@ def test_a_torque_that_is_ramped_slows_wheels_by_its_closed_form(drive):
 
 
 @pytest.mark.parametrize("lowest", [0.0, 30.0])
-def test_wheels_that_are_held_slide_once_their_brakes_are_ramped_below_what_they_carry(drive, lowest):
-    """In one communication step, down to `lowest` and on at that."""
+def test_held_wheels_slide_once_their_brakes_are_ramped_below_the_load(drive, lowest):
+    """In one communication step the brake falls to `lowest` and remains there."""
     carried, rate = 50.0, -1000.0
     driven = drive(IDEAL | EXACT | brakes(200.0) | drive_torque(2.0 * carried) | {"scene.start": "rest"}).to(0.5, 1e-2)
     assert driven["held.wheels"] == 2.0
@@ -76,14 +76,14 @@ def test_wheels_that_are_held_slide_once_their_brakes_are_ramped_below_what_they
 
 
 def test_wheels_at_rest_are_held_by_a_torque_that_grows_from_nothing(drive):
-    """Driven from rest, they slide while T < T_e, and stop where ∫(T − T_e) dt = 0."""
+    """Driven from rest, the wheels slide while T < T_e, and stop where ∫(T − T_e) dt = 0."""
     carried, rate = 50.0, 1000.0
     driven = drive(IDEAL | EXACT | brakes(0.0) | drive_torque(2.0 * carried) | {"scene.start": "rest"})
     ramp(driven, rate)
     driven.step(0.3)
     stop = 2.0 * carried / rate
     _, turned, _ = slowed(0.0, 2.0 * carried, 0.0, stop, rate)
-    # they stop at T = 2 T_e, and the spring gives back what is beyond T_e
+    # they stop at T = 2 T_e, and the spring releases the part beyond T_e
     assert driven["held.wheels"] == 2.0
     assert driven["left.angle"] == pytest.approx(turned - carried / STIFFNESS, rel=1e-6)
     assert driven.imbalance() < 1e-6
@@ -100,7 +100,7 @@ def test_a_brake_that_is_released_while_it_holds_turns_its_spring_into_heat(driv
     assert driven["heat.brake"] - before == pytest.approx(carried**2 / STIFFNESS, rel=1e-6)
     assert driven["held.wheels"] == 0.0
     assert driven["left.speed"] == pytest.approx(2.0 * carried / WHOLE * 0.1, rel=0.01)
-    # put on again while rolling
+    # applied again while rolling
     driven.set(brakes(100.0))
     begin = wheel_angles(driven)
     driven.to(1.12, 1e-3)
@@ -110,7 +110,7 @@ def test_a_brake_that_is_released_while_it_holds_turns_its_spring_into_heat(driv
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_torques_are_read_under_the_brakes_that_were_just_set(drive, contact):
+def test_torques_are_read_with_the_brakes_that_were_just_set(drive, contact):
     driven = drive(BRAKED | drive_torque(100.0) | {"scene.gear_contact": contact, "carrier.speed_command": 20.0})
     driven.to(0.1, 1e-2)
     residual, before = driven["solver.energy_residual"], driven["left.acceleration"]
@@ -122,7 +122,7 @@ def test_torques_are_read_under_the_brakes_that_were_just_set(drive, contact):
 
 
 @pytest.mark.parametrize("value", [-1.0, -2e-9, float("nan"), float("inf"), 2e8])
-def test_a_torque_that_is_no_brake_s_is_refused_by_name_and_range(fmu, value):
+def test_an_impossible_brake_torque_is_refused_by_name_and_range(fmu, value):
     with fmu.open() as opened:
         opened.initialise({"effects.wheel_brake": True})
         for side in SIDES:
@@ -137,7 +137,7 @@ def test_a_torque_that_is_no_brake_s_is_refused_by_name_and_range(fmu, value):
 
 
 @pytest.mark.parametrize("contact", CONTACTS)
-def test_a_state_saved_while_a_wheel_is_held_goes_on_with_the_same_bits(drive, contact):
+def test_a_state_saved_while_a_wheel_is_held_continues_with_the_same_bits(drive, contact):
     values = BRAKED | brakes(750.0, 20.0) | drive_torque(100.0) | {"scene.start": "rest", "scene.gear_contact": contact}
 
     def go_on(driven):
@@ -167,7 +167,7 @@ METHODS = {"adaptive": (1e-6, 500), "radau": (1e-6, 500), "fixed_step": (2e-3, 1
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_every_method_stops_a_wheel_where_it_stops(drive, method):
+def test_every_method_stops_a_wheel_at_the_same_angle(drive, method):
     tolerance, steps = METHODS[method]
     driven = drive(STOP | {"solver.method": method, "scene.start": "rolling"}).to(1.0, 1e-2)
     slip = 0.5 * 30.0**2 * WHOLE / (2.0 * 400.0 - 300.0)
@@ -179,7 +179,7 @@ def test_every_method_stops_a_wheel_where_it_stops(drive, method):
 
 @pytest.fixture
 def exchange(through_fmpy):
-    """exchange(values, signals, stop): the speed and the angle of the left wheel under a solver of the host's."""
+    """exchange(values, signals, stop): final speed and angle of the left wheel, heat and held wheels, by a solver of the host."""
 
     def run(values, signals, stop):
         names = ["left.speed", "left.angle", "heat.brake", "held.wheels"]
@@ -191,7 +191,7 @@ def exchange(through_fmpy):
 
 
 @pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
-def test_a_solver_of_the_host_stops_a_wheel_as_the_own_one_does(drive, exchange, contact):
+def test_a_solver_of_the_host_stops_a_wheel_as_that_of_the_fmu_does(drive, exchange, contact):
     values = BRAKED | brakes(400.0, 300.0) | drive_torque(300.0) | {"scene.gear_contact": contact,
                                                                      "carrier.speed_command": 5.0}
     own = drive(values | EXACT).to(0.3, 1e-3)
@@ -203,7 +203,7 @@ def test_a_solver_of_the_host_stops_a_wheel_as_the_own_one_does(drive, exchange,
 
 
 def test_a_solver_of_the_host_follows_a_brake_that_is_ramped_up_from_nothing_and_released(exchange):
-    """Continuous inputs, whose brake begins and ends between events."""
+    """Continuous inputs whose brake begins and ends between events."""
     shape = [("time", float), ("left.brake_torque", float), ("right.brake_torque", float)]
     points = [(0.0, 0.0), (0.1, 0.0), (0.2, 400.0), (0.3, 0.0), (0.5, 0.0)]
     signals = np.array([(time, torque, torque) for time, torque in points], dtype=shape)
@@ -222,14 +222,14 @@ def test_derivatives_by_the_brake_torque_are_those_of_the_closed_form(drive):
     driven = drive(STOP | {"scene.start": "rolling"}).to(0.02, 1e-2)
     known, unknown = ([driven.fmu.variable(name).reference for name in names]
                       for names in (brakes(0.0), ("left.acceleration", "left.shaft_torque")))
-    # both wheels: −2/J of all, of which each wheel keeps 1 − 2 J_w/J
+    # both wheels: −2/J of the total inertia J; each wheel's end keeps 1 − 2 J_w/J of its brake torque
     expected = [-2.0 / WHOLE, 1.0 - 2.0 * END / WHOLE]
     assert driven.raw.getDirectionalDerivative(unknown, known, [1.0, 1.0]) == pytest.approx(expected, rel=1e-6)
     ramp(driven, -700.0)
     driven.step(0.01)
     slopes = driven.raw.getRealOutputDerivatives(unknown, [1, 1])
     assert slopes == pytest.approx([-700.0 * slope for slope in expected], rel=1e-6)
-    # a wheel that is held does not feel its brake's torque
+    # a held wheel does not depend on its brake torque
     ramp(driven, 0.0)
     driven.to(1.0, 1e-2)
     assert driven["held.wheels"] == 2.0

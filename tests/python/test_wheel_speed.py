@@ -1,4 +1,4 @@
-"""The wheels' motion: of the ends of half-shafts where they move by themselves, of the side gears otherwise."""
+"""Motion of the wheels: that of the ends of half-shafts which have inertia, otherwise that of the side gears."""
 
 import numpy as np
 import pytest
@@ -6,7 +6,7 @@ from driving import SIDES
 
 SHAFTS = {"effects.half_shaft": True, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
 UNEQUAL = {"left.load_torque": 700.0, "right.load_torque": 835.0}
-# a car of 1455 kg on ice at the left, asphalt at the right: grip of both driven wheels, stiffness of a tyre by its slip [N]
+# a car of 1455 kg on ice at the left and asphalt at the right: grip of both driven wheels, tyre stiffness by slip [N]
 RADIUS, MASS, STIFFNESS, BEGIN = 0.334, 1455.0, 2.5e4, 5.0
 GRIP = np.array([0.1, 0.9]) * MASS / 4.0 * 9.81
 CAR = SHAFTS | {"scene.carrier_drive": "torque", "carrier.torque_command": 0.0, "carrier.speed_command": BEGIN / RADIUS,
@@ -33,14 +33,14 @@ def test_a_wheel_behind_a_half_shaft_is_its_end(drive, contact):
         assert np.array_equal(wheel(driven), ends)
         assert wheel(driven, "angle") == pytest.approx(gear(driven, "angle") - twists, rel=1e-13)
         lag = max(lag, np.max(np.abs(wheel(driven) - gear(driven))))
-    # the case tells one from the other
+    # wheel and gear differ enough for the test
     assert lag > 0.1
 
 
 @pytest.mark.parametrize("without", [{}, {"effects.half_shaft": True}, {"inertia.left_end": 1.0, "inertia.right_end": 1.0}],
                          ids=["bare", "massless ends", "rigid shafts"])
 @pytest.mark.parametrize("contact", ["ideal", "tooth"])
-def test_a_wheel_without_an_end_of_its_own_is_the_side_gear(drive, contact, without):
+def test_a_wheel_without_a_separate_end_is_the_side_gear(drive, contact, without):
     driven = drive({"scene.gear_contact": contact} | without)
     for _ in range(5):
         driven.step(1e-3)
@@ -51,7 +51,7 @@ def test_a_wheel_that_is_driven_by_speed_has_the_speed_of_its_command(drive):
     driven = drive({"scene.left_drive": "speed", "left.speed_command": 52.0, "carrier.speed_command": 50.0})
     driven.step(1e-3)
     assert wheel(driven)[0] == 52.0 and wheel(driven)[1] == gear(driven)[1]
-    # at once, as the carrier follows its own command
+    # the wheel follows its command immediately, like the carrier
     driven.set({"left.speed_command": 53.0})
     assert wheel(driven)[0] == 53.0 and gear(driven)[0] != 53.0
 
@@ -93,15 +93,15 @@ def test_the_rate_of_a_wheels_angle_is_its_speed(drive, fmu):
 
 
 def speeds_for_tyres(fmu):
-    """Names of the speeds that a reader of the outputs finds for brakes and tyres, left and right."""
+    """Names of the speed outputs whose description recommends them for brakes and tyres, left and right."""
     found = [v.name for v in fmu.variables.values() if v.causality == "output" and v.unit == "rad/s"
              and "tyre" in v.description and "brake" in v.description]
     return sorted(found)
 
 
 def traction_control(fmu, names, step, torque=600.0, stop=0.6):
-    """A launch on ice: tyres by their slip, and a brake that holds the faster wheel back. Returns rows of time, tyre torques, brake
-    torque, shaft torques and wheel speeds."""
+    """Launch on ice with tyres by slip and a brake that slows the faster wheel. Returns rows of time, tyre torques, brake torque, shaft
+    torques and wheel speeds."""
     rows, speed = [], BEGIN
     with fmu.open() as opened:
         opened.initialise(CAR)
@@ -122,15 +122,15 @@ def test_a_controller_that_is_closed_on_the_wheels_speed_works(fmu, step):
     names = speeds_for_tyres(fmu)
     assert names == ["left.wheel_speed", "right.wheel_speed"]
     time, *tyres, brake, left, right, fast, slow = traction_control(fmu, names, step).T
-    # under drive no tyre drags, and the wheel on ice gives its grip
+    # under drive no tyre drags, and the wheel on ice transmits its full grip
     assert np.min(tyres) >= -1e-9 and tyres[0][-1] == pytest.approx(RADIUS * GRIP[0], rel=1e-3)
-    # the wheel on asphalt gets the torque of the brake and that of the ice: T_left = T_ice + T_brake + J ω̇ = T_right
+    # the wheel on asphalt gets the torques of the brake and of the ice: T_left = T_ice + T_brake + J ω̇ = T_right
     accelerated = np.gradient(fast, time)[-2]
     assert left[-2] == pytest.approx(tyres[0][-2] + brake[-2] + accelerated, rel=0.02)
     assert left[-1] == pytest.approx(right[-1], rel=1e-3) and 0.0 < fast[-1] - slow[-1] < 10.0
 
 
 def test_the_same_controller_on_the_side_gears_brakes_under_drive(fmu):
-    # what the outputs of wheels are for: behind a shaft the side gear is another body, and the loop through both is unstable
+    # shows the need for the wheel outputs: behind a shaft the side gear is another body, and the loop through both is unstable
     _, *tyres, _, _, _, _, _ = traction_control(fmu, ["left.speed", "right.speed"], 1e-3).T
     assert np.min(tyres) < -1000.0

@@ -1,4 +1,4 @@
-"""Files are written whole or not at all: errors, Ctrl-C, permissions, links, devices, folders of files, two processes, and one owner."""
+"""Files are written whole or not at all: errors, Ctrl-C, permissions, links, devices, folders of files, two processes, one module."""
 
 import ast
 import multiprocessing
@@ -17,7 +17,7 @@ PACKAGE = Path(writing.__file__).parent
 
 
 def content(folder):
-    """Files below a folder, with what they contain."""
+    """Files below a folder, with their contents."""
     return {file.relative_to(folder).as_posix(): file.read_text() for file in folder.rglob("*") if file.is_file()}
 
 
@@ -71,13 +71,13 @@ def test_the_longest_name_can_be_written(tmp_path):
     assert content(tmp_path) == {name: "text"}
 
 
-def test_a_folder_is_no_file(tmp_path):
+def test_a_folder_cannot_be_written_as_a_file(tmp_path):
     with pytest.raises(OutputError, match=f"^{tmp_path}: Is a directory"):
         write_whole(tmp_path, "text")
 
 
 def test_a_file_that_may_not_be_written_is_not_replaced(tmp_path, monkeypatch):
-    # root may write all files
+    # root may write to all files
     monkeypatch.setattr(writing.os, "access", lambda *_: False)
     (tmp_path / "file").write_text("old")
     with pytest.raises(OutputError, match="file: Permission denied"):
@@ -104,7 +104,7 @@ def test_a_folder_gets_all_files_or_none(tmp_path):
     assert content(out) == {"a": "new", "inner/b": "new"}
 
 
-def test_a_file_that_gets_no_name_is_told_with_those_that_have(tmp_path):
+def test_a_name_that_is_a_folder_is_reported_and_no_file_is_renamed(tmp_path):
     (tmp_path / "b").mkdir()
     (tmp_path / "c").write_text("old")
     with pytest.raises(OutputError, match=f"^{tmp_path / 'b'}: Is a directory; nothing"), in_folder(tmp_path) as stage:
@@ -113,7 +113,7 @@ def test_a_file_that_gets_no_name_is_told_with_those_that_have(tmp_path):
     assert content(tmp_path) == {"c": "old"}
 
 
-def test_a_name_that_is_refused_at_the_end_is_told_with_the_complete_files(tmp_path, monkeypatch):
+def test_a_name_that_is_refused_at_the_end_is_reported_with_the_complete_files(tmp_path, monkeypatch):
     replace = Path.replace
 
     def refused(part, final):
@@ -129,7 +129,7 @@ def test_a_name_that_is_refused_at_the_end_is_told_with_the_complete_files(tmp_p
     assert content(tmp_path) == {"a": "new"}
 
 
-def test_errors_that_are_not_of_files_pass_through_a_folder(tmp_path):
+def test_other_errors_pass_through_a_folder(tmp_path):
     for error in (DifferentialError("the scene fails"), FileNotFoundError(2, "No such file or directory", "scene.toml")):
         with pytest.raises(type(error)) as raised, in_folder(tmp_path / "out"):
             raise error
@@ -144,7 +144,7 @@ def hold(file, begun, ended):
 
 
 def holder(file):
-    """A process that has the lock of `file`, and the event that ends it."""
+    """A process that holds the lock of `file`, and the event that ends it."""
     spawn = multiprocessing.get_context("spawn")
     begun, ended = spawn.Event(), spawn.Event()
     other = spawn.Process(target=hold, args=(file, begun, ended))
@@ -153,9 +153,9 @@ def holder(file):
     return other, ended
 
 
-def test_who_wants_the_same_results_waits_and_says_so(tmp_path):
+def test_a_second_command_with_the_same_results_waits_and_says_so(tmp_path):
     other, ended = holder(tmp_path / "results")
-    # the other process ends as soon as this one has said that it waits
+    # the other process ends as soon as this process has reported that it waits
     with pytest.warns(match="results: another command writes there; waiting") as caught:
         caught_by = writing.warn
 
@@ -182,10 +182,10 @@ def test_the_lock_of_a_killed_process_is_free(tmp_path):
         assert time.monotonic() - start < 5.0
 
 
-# calls that write a file, with those of libraries
+# calls that write a file, including those of libraries
 WRITERS = {"write_text", "write_bytes", "savefig", "to_csv", "to_parquet", "to_excel", "to_json", "to_html", "savetxt", "save", "savez",
            "tofile", "write_table", "copy", "copy2", "copyfile", "copytree", "move", "replace", "rename", "touch", "export", "saveas", "dump"}
-# calls with such a name that write by the owner
+# calls with such a name that write through `writing`
 OWN = {"scene.to_csv", "scene.to_parquet", "style.save", "save", "to_csv", "copy.copy"}
 
 
@@ -198,12 +198,12 @@ def writes(call):
         return any(isinstance(mode, ast.Constant) and re.fullmatch("[rwxabt+]*[wxa+][rwxabt+]*", str(mode.value)) for mode in modes)
     if name not in WRITERS or function in OWN or not call.args:
         return False
-    # those of texts have two arguments, those of times named ones
+    # `replace` of texts has two arguments, and that of times has named arguments
     return name != "replace" or function == "os.replace" or len(call.args) == 1 and not call.keywords
 
 
 def direct(source):
-    """Calls that write a file which is not the temporary one of `whole`."""
+    """Calls that write a file other than the temporary file of `whole`."""
     tree, found = ast.parse(source), []
     memory = {node.targets[0].id for node in ast.walk(tree) if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
               and ast.unparse(node.value).startswith("io.")}
@@ -228,19 +228,19 @@ def test_a_direct_writer_is_found(line):
     assert direct(line) and direct(f"with whole(other) as part:\n    x = 1\n{line.replace('part', 'old')}")
 
 
-def test_only_the_owner_writes_files():
+def test_only_one_module_writes_files():
     found = {file.relative_to(PACKAGE).as_posix(): direct(file.read_text(encoding="utf-8")) for file in sorted(PACKAGE.rglob("*.py"))}
     assert found.pop("writing.py")
     assert {file: lines for file, lines in found.items() if lines} == {}
 
 
 RUST = [file for folder in ("fmu-build/src", "crates/answers/src", "crates/lab/src") for file in sorted((PACKAGE.parents[2] / folder).rglob("*.rs"))]
-# the owner of files, and that of locks; a folder that takes the place of another, and the files that pip and programs of tests wrote
+# modules for files and locks; a folder that replaces another, and the files that pip and programs of tests wrote
 RUST_OWNERS = {"whole_file.rs", "lock.rs"}
 RUST_OTHERS = {"fs::rename(made, &old)", "fs::rename(&wheel, &target)", "File::create(&file)"}
 
 
-def test_only_the_owner_in_rust_writes_files():
+def test_only_one_module_in_rust_writes_files():
     found = []
     for file in RUST:
         source = file.read_text(encoding="utf-8").partition("#[cfg(test)]\nmod tests")[0]

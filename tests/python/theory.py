@@ -1,4 +1,4 @@
-"""Closed forms for the default gears, written here from the formulas and not taken from the program."""
+"""Closed forms for the default gears, written from the formulas and independent of the program."""
 
 from math import asin, atan2, cos, log10, pi, radians, sin
 
@@ -20,23 +20,23 @@ MEAN_CONE = OUTER_CONE - FACE_WIDTH / 2.0
 # sine of the side gear's base angle: lever arm of the normal force per cone distance
 SIDE_LEVER = sin(asin(sin(SIDE_PITCH) * cos(PRESSURE_ANGLE)))
 
-# T/r: of all planets, referred to the side gear's outer pitch circle
+# sum T/r of all planets, at the side gear's outer pitch circle
 TANGENTIAL_FORCE = LOAD / (MODULE * SIDE_TEETH / 2.0)
 
 
 def normal_force(planets=PLANETS):
-    """Of one mesh at the mean cone distance."""
+    """Normal force of one mesh at the mean cone distance [N]."""
     return LOAD / (planets * MEAN_CONE * SIDE_LEVER)
 
 
 def side_speeds(carrier, spin):
-    """Of left and right side gear, by Willis."""
+    """Speeds of left and right side gear by Willis."""
     difference = spin * PLANET_TEETH / SIDE_TEETH
     return carrier + difference, carrier - difference
 
 
 def mesh_frequency(spin):
-    """In Hz, at planet spin in degrees per second relative to the carrier."""
+    """Mesh frequency [Hz] at a planet spin [deg/s] relative to the carrier."""
     return PLANET_TEETH * abs(spin) / 360.0
 
 
@@ -46,33 +46,33 @@ def half_play_arc():
 
 
 def half_play():
-    """Rotation of a side gear [rad] from mid-gap to the touch of the drive flanks, planets held."""
+    """Rotation of a side gear [rad] from the middle of the gap to contact of the drive flanks, with held planets."""
     return half_play_arc() / SIDE_LEVER
 
 
 def largest_wind_up():
-    """Rotation of a side gear [rad] under the load if one pair of each mesh carries it alone."""
+    """Rotation of a side gear [rad] under the load if a single pair of each mesh carries it."""
     return (normal_force() / STIFFNESS) ** (1.0 / EXPONENT) / MEAN_CONE / SIDE_LEVER
 
 
-# what the viscosity of an oil hangs on, in the order of `viscosity`
+# parameters of the viscosity of an oil, in the order of `viscosity`
 OIL = ["viscosity_40", "viscosity_100", "density", "density_fall"]
 
 
 def kinematic_viscosity(kelvin, at_40=1e-4, at_100=1.5e-5):
-    """Of an oil at a temperature [m2/s]: ASTM D341 through those at 40 and 100 degC."""
+    """Kinematic viscosity of an oil at a temperature [m2/s]: ASTM D341 through the values at 40 and 100 degC."""
     ends = [log10(log10(1e6 * of + 0.7)) for of in (at_40, at_100)]
     place = log10(kelvin / 313.15) / log10(373.15 / 313.15)
     return 1e-6 * (10.0 ** 10.0 ** (ends[0] + (ends[1] - ends[0]) * place) - 0.7)
 
 
 def viscosity(kelvin, at_40=1e-4, at_100=1.5e-5, density=870.0, fall=0.65):
-    """Dynamic viscosity of an oil at a temperature [Pa.s], with its density at 15 degC less its fall [kg/m3]."""
+    """Dynamic viscosity of an oil at a temperature [Pa.s], with its density at 15 degC and the decrease of density with temperature."""
     return kinematic_viscosity(kelvin, at_40, at_100) * (density - fall * (kelvin - 288.15))
 
 
 def churning(kinematic, speed, diameter, width, dip):
-    """Power that a smooth disc with its rim and sides churns [W], by ISO/TR 14179-1:2001 in its own units: kW, mm2/s, 1/min and mm."""
+    """Churning power of a smooth disc with its rim and sides [W] by ISO/TR 14179-1:2001, which uses kW, mm2/s, 1/min and mm."""
     nu, n, outside, length, arrangement = 1e6 * kinematic, speed * 30.0 / pi, 1e3 * diameter, 1e3 * width, 0.2
     rim = 7.37 * dip * nu * n**3 * outside**4.7 * length / (arrangement * 1e26)
     sides = 1.474 * dip * nu * n**3 * outside**5.7 / (arrangement * 1e26)

@@ -1,7 +1,7 @@
-"""Outputs that show the same thing at two places, by the formulas of docs/inside/theory.md and nothing of the program.
+"""Pairs of outputs that show the same quantity, by the formulas of docs/inside/theory.md without code of the program.
 
-Each function yields (what, one, other, scale): two values that must agree within `CLOSE` of the scale. What holds only for some
-scenes is yielded for those alone. `AtMost` in place of a value says that the other must not be below it."""
+Each function yields (what, one, other, scale): two values that must agree within `CLOSE` of the scale. A pair that agrees only in some
+scenes is yielded only for them. `AtMost` in place of a value means that the other must not be below it."""
 
 from math import atan2, cos, hypot, inf, pi, remainder, sin, sqrt, tan
 
@@ -15,14 +15,14 @@ SIDES = ["left", "right"]
 SIGMA = {"left": 1.0, "right": -1.0}
 PAIRS, ENDS = 3, ("toe", "middle", "heel")
 CLOSE = 1e-9
-# base pitches between the ends of the path and pairs whose place is compared
+# pairs closer than this to an end of the path are not compared [base pitches]
 MARGIN = 0.01
-# torque and power below which a ratio is one of roundings, of the largest
+# fraction of the largest torque and power below which a ratio consists of rounding errors
 ROUNDING = 1e-9
 MOST_BIAS = 1e6
 # sum of the shaft torques below which there is no bias [N·m]
 LEAST_TORQUE = 1e-3
-# stresses between the instants that safety sees may be higher by this
+# relative difference by which stresses between the instants of the safety factors may be higher
 BETWEEN = 1e-4
 
 
@@ -48,7 +48,7 @@ class Scene:
                     for pitch, lever in zip(self.pitch, self.lever)]
         self.outer = 0.5 * p["geometry.module"] * hypot(*teeth)
         self.inner, self.mean = self.outer - self.face, self.outer - 0.5 * self.face
-        # where the load of a line law acts
+        # cone distance at which the load of a line law acts
         self.centre = 2.0 / 3.0 * (self.outer**3 - self.inner**3) / (self.outer**2 - self.inner**2)
         self.base_pitch = 2.0 * pi * self.lever[0] / teeth[0]
         backlash = p["geometry.backlash"] if p["effects.backlash"] and self.contact != IDEAL else 0.0
@@ -56,18 +56,18 @@ class Scene:
         self.modulus = p["material.young_modulus"] / (2.0 * (1.0 - p["material.poisson_ratio"] ** 2))
         self.has_ends = [p["effects.half_shaft"] and p[f"inertia.{side}_end"] > 0.0 or p[f"scene.{side}_drive"] == SPEED
                          for side in SIDES]
-        # forces do not differ over the face, and act where the law says
+        # forces do not vary over the face, and act where the law says
         self.is_even = not any(p[f"effects.{name}"] for name in ("tooth_errors", "tooth_fault", "pin_compliance"))
         self.first, self.least = {}, {}
 
     def read(self, opened):
-        """All values of an instant, inputs included."""
+        """All values at an instant, including inputs."""
         inputs = [name for name, v in opened.fmu.variables.items() if v.causality == "input"]
         self.p.update(zip(inputs, opened.read(inputs)))
         return dict(zip(self.names, opened.read(self.names)))
 
     def constant(self, key, value, scale):
-        """(value at the first instant, value): what must not change."""
+        """(value at the first instant, value), for a value that must not change."""
         return key, self.first.setdefault(key, value), value, scale
 
 
@@ -77,7 +77,7 @@ def geometry(scene, o):
     for i, gear in enumerate(["planet", "side"]):
         yield "pitch angle", o[f"geometry.{gear}_pitch_angle"], scene.pitch[i], 1.0
         yield "base angle", sin(o[f"geometry.{gear}_base_angle"]), scene.lever[i], 1.0
-    # of the gears, whether or not the scene has their teeth
+    # lash of the gears, even if the scene does not simulate teeth
     backlash = scene.p["geometry.backlash"] if scene.p["effects.backlash"] else 0.0
     lash = backlash * cos(scene.alpha) / scene.outer
     yield "lash of a wheel", o["geometry.wheel_lash"], 2.0 * lash / scene.lever[1], 1.0
@@ -114,7 +114,7 @@ def motion(scene, o):
             arcs = scene.lever[1] * turn, SIGMA[side] * scene.lever[0] * spin
             approach = -(arcs[0] - arcs[1]) - 0.5 * scene.lash
             error = o[f"planet[{i}].{side}_transmission_error"] / scene.mean
-            # a mesh is the same a base pitch further, and errors of single teeth turn where it has its middle
+            # a mesh repeats after a base pitch, and errors of single teeth move its middle
             middle = remainder(error - approach, scene.base_pitch)
             rounding = 1.0 + sum(map(abs, arcs))
             if not p["effects.tooth_errors"]:
@@ -167,11 +167,11 @@ def loaded(o):
 
 
 def places(scene, o):
-    """Where pairs touch on the path, beside how far the planet has turned."""
+    """Places where pairs touch on the path, from the turn of the planet."""
     if scene.contact != TOOTH:
         return
     gears = [[o[f"geometry.{gear}_{angle}_angle"] for angle in ("pitch", "tip", "base")] for gear in ("planet", "side")]
-    # of the ends of the path: arcs of the tips; it ends before a base circle
+    # ends of the path by the arcs of the tips; it ends before a base circle
     ends = [atan2(sqrt(max(cos(base) ** 2 - cos(tip) ** 2, 0.0)), cos(tip)) for _, tip, base in gears]
     low, high = max(scene.arc[1] - ends[1], -scene.arc[0]), min(ends[0] - scene.arc[0], scene.arc[1])
     margin = MARGIN * scene.base_pitch
@@ -183,7 +183,7 @@ def places(scene, o):
         flank = 1.0 if pair["force"] > 0.0 else -1.0
         turned = flank * (o["planet[1].spin_angle"] + 2.0 * pi * pair["tooth"] / scene.teeth[0])
         wanted = scene.lever[0] * remainder(half_tooth + turned, 2.0 * pi)
-        # past its ends a tip corner touches elsewhere, that of the side gear by its own turn
+        # beyond the ends of the path a tip corner touches elsewhere, that of the side gear by the turn of the side gear
         error = o["planet[1].left_transmission_error"] / scene.mean
         approach = error if flank > 0.0 else -error - scene.lash
         if low + approach + margin < wanted < high - margin:
@@ -231,7 +231,7 @@ def stresses(scene, o):
     force = max(o[f"planet[{i}].{side}_normal_force"] for i in scene.planets for side in SIDES)
     grows = scene.contact == LUMPED or (scene.contact == TOOTH and p["contact.law"] != IMPACT)
     force *= factor
-    # load per width and radius grow alike under a line law, and are those of the mean cone under IMPACT
+    # under a line law load per width and radius grow together; under IMPACT they are those of the mean cone
     curve = tan(scene.arc[0]) * tan(scene.arc[1]) / (tan(scene.arc[0]) + tan(scene.arc[1]))
     pressure = sqrt(force * scene.modulus / (pi * scene.face * scene.mean * curve))
     pitch = o["stress.contact_pitch"]
@@ -252,7 +252,7 @@ def stresses(scene, o):
         yield scene.constant("rated pressure over that at the pitch point", rated / pitch, 1.0)
     limits = {"root_min": (max(planet, side), p["strength.bending_strength"]), "flank_min": (rated, p["strength.contact_strength"])}
     for safety, (stress, strength) in limits.items():
-        # steps are rated, not the start
+        # safety is rated after steps, not at the start
         if o["solver.steps"] > 0.0 and stress > 0.0 and p["strength.rate_from"] == 0.0:
             least = scene.least[safety] = min(scene.least.get(safety, inf), strength / stress)
             yield safety, AtMost(o[f"safety.{safety}"]), (1.0 + BETWEEN) * least, 1.0
@@ -262,7 +262,7 @@ CHECKS = [geometry, motion, forces, places, powers, stresses]
 
 
 def compared(scene, o):
-    """[(what, one, other)] that do not agree at an instant."""
+    """[(what, one, other, relative difference)] of the pairs that do not agree at an instant."""
     found = []
     for check in CHECKS:
         for what, one, other, scale in check(scene, o):
@@ -273,7 +273,7 @@ def compared(scene, o):
 
 
 def unbalanced(momentum, scene, o):
-    """Side gears whose acceleration is not that of the torques on them: of meshes, half-shaft and drag, unless others rub."""
+    """Side gears whose acceleration does not fit the torques of meshes, half-shaft and drag, unless other parts cause friction."""
     if scene.contact == IDEAL or scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or scene.p["lock.command"] > 0.0:
         return []
     drag = momentum.dragged(np.array([o["carrier.speed"], *(o[f"{side}.speed"] for side in SIDES)]))[1:]

@@ -42,7 +42,7 @@ fn the_exponent_matches_the_standard_and_wide_teeth_follow_the_load_closely() {
 /// A mesh under the linear law whose loads differ over the face.
 fn linear_mesh(pair: &Pair) -> Detailed {
     let spring = Built::new(pair, Kind::Line).spring;
-    Detailed::new(pair, spring, UNDAMPED, Face::cut(pair.inner_cone, pair.outer_cone), false, None)
+    Detailed::new(pair, spring, UNDAMPED, Face::linear(pair.inner_cone, pair.outer_cone), false, None)
 }
 
 /// An opening that is the same at every position.

@@ -86,7 +86,7 @@ def rows(folder):
             dumps = folder / "counts"
             shutil.rmtree(dumps, ignore_errors=True)
             dumps.mkdir()
-            callgrind(program, arguments, ["--zero-before=one_communication_step", "--dump-after=*one_communication_step*"], dumps / "count")
+            callgrind(program, arguments, ["--toggle-collect=one_communication_step", "--dump-after=one_communication_step"], dumps / "count")
             of_steps = counts(dumps, first=1)
             found.append([f"C: {name}", size, statistics.median(of_steps), max(of_steps)])
     remark = (f"C: an instance takes {told['instance'] / 2**20:.2f} MiB, of which at most {told['used'] / 2**20:.2f} are used, "

@@ -1,4 +1,4 @@
-"""Engine: torque by time and speed, which follows with a lag."""
+"""Engine: torque as a function of time and speed, with a lag."""
 
 from math import sqrt
 
@@ -6,7 +6,7 @@ from part import Part
 
 
 def ramp(t, begin, end):
-    """From 0 to 1 with three continuous derivatives."""
+    """Ramp from 0 to 1 with three continuous derivatives."""
     s = min(max((t - begin) / (end - begin), 0.0), 1.0)
     return s**4 * (35.0 - 84.0 * s + 70.0 * s**2 - 20.0 * s**3)
 
@@ -17,8 +17,8 @@ class Engine(Part):
         "high": (110.0, "Requested torque from rise on, N.m"),
         "low": (35.0, "Requested torque after fall, N.m"),
         "rise": (0.15, "Time from rest to the high torque, s"),
-        "fall": (0.35, "When the driver begins to take the foot back, s"),
-        "release": (0.1, "How long that takes, s"),
+        "fall": (0.35, "Time at which the driver begins to release the pedal, s"),
+        "release": (0.1, "Duration of the release, s"),
         "lag": (0.03, "Time constant of the torque, s"),
         "knee": (300.0, "Speed around which the torque begins to fall, rad/s"),
     }

@@ -1,8 +1,8 @@
-"""What all parts of the drivetrain that pythonfmu makes have in common.
+"""Base class of the parts of the drivetrain that pythonfmu builds.
 
-A part holds its inputs over a communication step, or follows a line where the input `der(NAME)` gives its slope
-[unit/s]: what fmi2SetRealInputDerivatives does, for a tool that does not offer it. It integrates itself with steps so
-short that its own error is negligible against that of the coupling, and its state can be saved and restored.
+A part holds its inputs over a communication step. If the input `der(NAME)` has a slope [unit/s], the part follows a line
+instead. This input replaces fmi2SetRealInputDerivatives, which pythonfmu does not offer. A part integrates with steps so
+short that its own error is negligible compared with that of the coupling. Its state can be saved and restored.
 """
 
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Real

@@ -1,4 +1,4 @@
-"""Vehicle that goes straight ahead: mass and drag."""
+"""Vehicle straight ahead: mass and drag."""
 
 from equations import resistance
 from part import Part

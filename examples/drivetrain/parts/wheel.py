@@ -1,4 +1,4 @@
-"""Wheel with a tyre that builds its slip up over a relaxation length, on a road with given friction."""
+"""Wheel with a tyre whose slip builds up over a relaxation length, on a road with given friction."""
 
 from equations import slip_rate, tyre_force
 from part import Part
@@ -15,7 +15,7 @@ class Wheel(Part):
         "shape": (1.4, "C of the magic formula"),
         "relaxation": (0.4, "Relaxation length, m"),
         "damping": (1000.0, "Damping of the tyre along the road at standstill, N.s/m"),
-        "walk": (2.5, "Speed of the vehicle at which half of that damping is left, m/s"),
+        "walk": (2.5, "Speed of the vehicle at which this damping is halved, m/s"),
     }
     states = ("speed", "slip")
     inputs = (("shaft_torque", "Torque of the half-shaft, N.m"), ("vehicle_speed", "Speed of the vehicle, m/s"))

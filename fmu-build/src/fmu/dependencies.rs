@@ -63,7 +63,7 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
             own_side.is_some_and(|(of, side)| of == side) || follows && is_followed(input)
         }),
         Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
-        Access::Output(OutputSource::Forces(_) | OutputSource::Parts(_) | OutputSource::Reading(_))
+        Access::Output(OutputSource::Forces(_) | OutputSource::Components(_) | OutputSource::Reading(_))
             if !named(&BY_POSITION) =>
         {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {

@@ -53,7 +53,7 @@ pub fn package() -> Result<PathBuf> {
 }
 
 /// Packs the FMU. Also returns remarks about missing parts and how to get them.
-fn packed() -> Result<(PathBuf, Vec<String>)> {
+pub fn packed() -> Result<(PathBuf, Vec<String>)> {
     let Libraries { built, mut left_out, ships } = libraries::build()?;
     let (fmu, (page, remark)) = (paths::fmu(), page::made()?);
     let packing = if ships { Packing::Small } else { Packing::Quick };

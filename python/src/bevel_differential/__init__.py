@@ -1,4 +1,4 @@
-"""The dynamics of a bevel gear differential, from Python.
+"""Dynamics of a bevel gear differential, from Python.
 
 >>> import numpy as np
 >>> from bevel_differential import Differential

@@ -1,6 +1,6 @@
-"""Questions to the library of answers: scenes and gears as it reads them, and what can be found out without the FMU.
+"""Questions to the library of answers: it reads scenes and gears, and calculates what needs no FMU.
 
-Each question is a dict with the key "ask"; crates/answers/src/ask of the repository has all of them."""
+Each question is a dict with the key "ask"; the repository has all questions in crates/answers/src/ask."""
 
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -14,13 +14,13 @@ from .library import reply
 from .values import DifferentialError
 from .warned import warn
 
-# told the part of the work that is done, from 0 to 1, and what is being done
+# receives the fraction of the work that is done, from 0 to 1, and a description of the current work
 Progress: TypeAlias = Callable[[float, str], None]
 
 
 def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress: Progress | None = None) -> dict[str, Any]:
-    """The answer to a question, with the `numbers` that belong to it. Ctrl-C, or any error in `progress`, stops the work. Warnings
-    about a scene or its gears are Python warnings, `DifferentialWarning`.
+    """Asks a question, with the `numbers` that belong to it, and returns the answer. Ctrl-C, or any error in `progress`, stops the
+    work. Warnings about a scene or its gears become Python warnings, `DifferentialWarning`.
 
     Raises `DifferentialError`; its `problems` are dicts with `message` and, where they are known, `variable`, `value`, `unit`,
     `range` and `hint`; its `kind` is "use" if the question makes no sense, otherwise "failed"."""
@@ -46,8 +46,8 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
 
 
 def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: Sequence[str] = ()) -> dict[str, Any]:
-    """Name of a scene in a question: a file, the name of a shipped scene, or a `Scene`; `changes`, values by name, and
-    `display_units` on top."""
+    """Scene of a question: a file, the name of a shipped scene, or a `Scene`, with `changes` (values by name) and
+    `display_units`."""
     given = {"given": scene.contents()} if hasattr(scene, "contents") else {}
     name = scene.name if given else os.fspath(scene)
     return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes),
@@ -60,7 +60,7 @@ def assignments(values: Mapping[str, Any] | None) -> list[str]:
 
 
 def scenes() -> Path:
-    """The folder of the shipped scenes: in this package, or of the repository that it is used from."""
+    """Folder of the shipped scenes: in this package, or in the repository that contains it."""
     if folder := os.environ.get("BEVEL_DIFFERENTIAL_SCENES"):
         return Path(folder)
     shipped = Path(__file__).with_name("scenes")
@@ -68,7 +68,7 @@ def scenes() -> Path:
 
 
 def _written(value):
-    """A value as a text that the reader of scenes takes: numbers read back to the same bits."""
+    """Text of a value for the reader of scenes; numbers are read back to the same bits."""
     if isinstance(value, (bool, np.bool_)):
         return str(bool(value)).lower()
     if isinstance(value, tuple):

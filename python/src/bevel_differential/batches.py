@@ -1,4 +1,4 @@
-"""Many variables in one call of the FMU."""
+"""Reads and writes many variables in one call of the FMU."""
 
 import ctypes
 from collections.abc import Callable, Sequence
@@ -12,14 +12,14 @@ from .values import Number, Variable
 # function, component, references, count, address of the first row, bytes of a row
 Rows: TypeAlias = tuple[Callable[..., int], ctypes.c_void_p | None, ctypes.c_void_p, int, int, int]
 
-# what the functions for each kind of variable are called
+# name of each kind of variable in the FMI functions
 CALLS = {"Real": "Real", "Integer": "Integer", "Enumeration": "Integer", "Boolean": "Boolean"}
 
 
 class Batches:
     """Variables in groups of their kinds, so that one call sets or gets a group. Order is kept within a kind.
 
-    Values are as the FMU takes them, and nothing but the FMU checks them. An `instance` is an `Instance`."""
+    Values have the types of the FMU, and only the FMU checks them. An `instance` is an `Instance`."""
 
     def __init__(self, variables: Sequence[Variable]):
         self.groups: list[tuple[str, list[int], np.ndarray, type[np.float64 | np.int32]]] = []
@@ -29,7 +29,7 @@ class Batches:
                 references = np.array([variables[place].reference for place in places], np.uint32)
                 dtype = np.float64 if call == "Real" else np.int32
                 self.groups.append((call, places, references, dtype))
-        # a value is read at every step of some hosts: addresses and types of buffers are not looked up each time
+        # some hosts read values at every step, so addresses and buffer types are prepared here
         self._calls = [(call, places, references.ctypes.data, (ctypes.c_double if call == "Real" else ctypes.c_int32) * len(places))
                        for call, places, references, _ in self.groups]
         self._count = len(variables)
@@ -37,21 +37,21 @@ class Batches:
     @staticmethod
     @lru_cache(256)
     def of(variables: tuple[Variable, ...]) -> "Batches":
-        """Those of these variables, kept: designs of a sweep share them."""
+        """Batches of these variables, cached because the designs of a sweep share them."""
         return Batches(variables)
 
     def set(self, instance: Any, values: Sequence[Number]) -> None:
-        """Sets all."""
+        """Sets all variables."""
         for call, places, references, dtype in self.groups:
             numbers: np.ndarray = np.array([values[place] for place in places], dtype)
             status = instance._set[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
             instance.check(status, f"setting {call} variables")
 
     def get(self, instance: Any) -> list[Number]:
-        """Gets all, as a list in the order of the variables."""
+        """Returns the values of all variables, in their order."""
         values: list[Number] = [0.0] * self._count
         for call, places, references, buffer in self._calls:
-            # of this call, as threads share the batches
+            # a separate buffer for each call, as threads share the batches
             numbers = buffer()
             status = instance._get[call](instance._component, references, len(places), numbers)
             instance.check(status, f"getting {call} variables")
@@ -60,25 +60,25 @@ class Batches:
         return values
 
     def record(self, rows: int) -> list[np.ndarray]:
-        """Room for `rows` rows of all groups, as a list of arrays (rows, variables of a kind)."""
+        """Arrays for `rows` rows of all groups, each of shape (rows, variables of a kind)."""
         return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
 
     def blocks(self, columns: Sequence[np.ndarray]) -> list[np.ndarray]:
-        """Values over time of all groups, as `record` has them; a column for each variable, in their order."""
+        """Values over time of all groups, in the form of `record`. `columns`: one for each variable, in their order."""
         return [np.ascontiguousarray(np.column_stack([columns[place] for place in places]), dtype)
                 for _, places, _, dtype in self.groups]
 
     def readers(self, instance: Any, record: Sequence[np.ndarray]) -> list[Rows]:
-        """For each group the function that gets its variables and the arguments, to which the address of a row is added: (function,
-        component, references, count, address of the first row, bytes of a row). `record` must outlive them."""
+        """Functions that read each group, with their arguments: (function, component, references, count, address of the first row,
+        bytes of a row). The last argument of a call is the address of a row. `record` must outlive them."""
         return self._rows(instance, instance._get, record)
 
     def writers(self, instance: Any, blocks: Sequence[np.ndarray]) -> list[Rows]:
-        """The same to set the variables."""
+        """Functions that set each group, in the form of `readers`."""
         return self._rows(instance, instance._set, blocks)
 
     def slope_writers(self, instance: Any, blocks: Sequence[np.ndarray]) -> list[Rows]:
-        """The same to set how much inputs, all of them Real, change in a second."""
+        """Functions that set the slopes of inputs, per second, in the form of `readers`. All inputs are Real."""
         set_derivatives, orders = instance.derivatives_setter(), np.ones(sum(block.shape[1] for block in blocks), np.int32)
 
         def write(component, references, count, address):

@@ -1,4 +1,4 @@
-"""A CSV file with a header of names and units, whose errors name file, line, column and value."""
+"""CSV file with a header of names and units; errors name file, line, column and value."""
 
 import os
 import re
@@ -14,7 +14,7 @@ _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
 
 
 class Quantity(Variable):
-    """A quantity that the FMU does not know, with its units: {unit: SI units in one}; the first one is SI."""
+    """Quantity other than the variables of the FMU. `units`: {unit: its size in SI}; the first unit is SI."""
 
     def __init__(self, name: str, units: Mapping[str, float]):
         self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
@@ -24,7 +24,7 @@ class Quantity(Variable):
 
 
 class Time(Quantity):
-    """A time."""
+    """Quantity with the units of time."""
 
     def __init__(self, name: str):
         super().__init__(name, {"s": 1.0})
@@ -32,7 +32,7 @@ class Time(Quantity):
 
 
 class Text:
-    """What a column of words has for a variable."""
+    """Stands in for the variable of a column with words."""
 
     def __init__(self, name: str):
         self.name, self.kind = name, "Text"
@@ -59,12 +59,12 @@ class Column:
 
 
 class CsvTable:
-    """The columns of a file by name, and its rows as pairs (line, {name: value in SI}); empty cells are left out."""
+    """Columns of a file by name, and its rows as pairs (line, {name: value in SI}) without empty cells."""
 
     def __init__(self, file: FileName, known: Callable[[str], Variable | Text], needed: Iterable[str] = (),
                  texts: Iterable[str] = ()):
-        """`known`: function from a name of the header to its variable; `needed`: columns that must not be missing; `texts`: columns of
-        words in which a number is none."""
+        """`known`: function from a name in the header to its variable; `needed`: columns that must exist; `texts`: columns of words, in
+        which digits are not numbers."""
         self.file = Path(file)
         (line, heads), *rows = lines_of(self.file, texts=texts)
         self._need(heads, needed)
@@ -72,19 +72,19 @@ class CsvTable:
         for place, head in enumerate(heads):
             column = self._column(line, head, place, known)
             if column.variable.name in self.columns:
-                raise self.problem(line, column.head, "it stands here twice; remove one of the columns")
+                raise self.problem(line, column.head, "it appears twice; remove one of the columns")
             self.columns[column.variable.name] = column
         if not rows:
             raise DifferentialError(f"{self.file}: there is no line below the header")
         self.rows: list[tuple[int, dict[str, Any]]] = [(line, self._row(line, cells)) for line, cells in rows]
 
     def problem(self, line: int, head: str | None = None, text: str = "", cell: str | None = None) -> DifferentialError:
-        """The error of a line, or of a cell in the column `head`."""
+        """Error about a line, or about a cell in the column `head`."""
         place = f"{self.file}, line {line}" + (f", column {head}" if head else "")
         return DifferentialError(f"{place}{'' if cell is None else f', value {chr(34)}{cell}{chr(34)}'}: {text}")
 
     def problem_at(self, line: int, name: str, text: str, cell: str | None = None) -> DifferentialError:
-        """The error of a cell, by the name of its column."""
+        """Error about a cell, by the name of its column."""
         return self.problem(line, self.columns[name].head if name in self.columns else name, text, cell)
 
     def _need(self, heads, needed):
@@ -105,7 +105,7 @@ class CsvTable:
             raise self.problem(line, head.strip(), _reason(failure)) from None
         if unit is not None:
             try:
-                # of any value, so that a wrong unit is an error of the header
+                # converts any value, so that a wrong unit is an error of the header
                 Column(head, variable, unit.strip(), place).value("0")
             except DifferentialError as failure:
                 raise self.problem(line, head.strip(), _reason(failure)) from None
@@ -124,14 +124,14 @@ class CsvTable:
 
 
 def lines_of(file: FileName, shown: str | None = None, texts: Iterable[str] = ()) -> list[tuple[int, list[str]]]:
-    """Pairs (line, cells) of a CSV file, the header first, each with as many cells; numbers have decimal points.
+    """Pairs (line, cells) of a CSV file, the header first. All lines have the same number of cells; numbers have decimal points.
 
-    Columns are separated by commas, semicolons or tabs. `shown`: name of the file in errors; `texts`: names of columns that hold
-    words. Raises `DifferentialError` with file and line if the file is ambiguous."""
+    Columns are separated by commas, semicolons or tabs. `shown`: name of the file in errors; `texts`: names of columns with words.
+    Raises `DifferentialError` with file and line if the file is ambiguous."""
     found = ask({"ask": "table", "file": os.fspath(file), "shown": shown or os.fspath(file), "texts": list(texts)})
     return [tuple(row) for row in (found["header"], *found["rows"])]
 
 
 def _reason(failure):
-    """The message of a value without the name and the value, which the place has already."""
+    """Message about a value, without the name and the value, which the caller has already named."""
     return str(failure).partition(": ")[2] or str(failure)

@@ -1,4 +1,4 @@
-"""The differential, as a user has it."""
+"""Class `Differential`: runs the FMU with given parameters."""
 
 import threading
 from collections.abc import Mapping, Sequence
@@ -20,13 +20,12 @@ if TYPE_CHECKING:
     import pandas
     from matplotlib.figure import Figure
 
-# what `run` records by default
+# outputs that `run` records by default
 DEFAULT_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque")
 
 
 class Runner(Closing):
-    """Runs the FMU with the values that have been set. An instance is kept for all runs and reset in between; each thread has its
-    own."""
+    """Runs the FMU with the values that have been set. Each thread has its own instance, which is reset between runs."""
 
     def __init__(self, fmu: FileName | Fmu | None):
         self.fmu = Fmu.of(fmu)
@@ -41,17 +40,17 @@ class Runner(Closing):
 
     @property
     def values(self) -> dict[str, Number]:
-        """What has been set, by name, as the FMU takes it: SI numbers; a choice is the number of its literal."""
+        """Values that have been set, by name, in the form of the FMU: SI numbers; a choice is the number of its literal."""
         return {variable.name: value for variable, value in self._values.items()}
 
     @property
     def warnings(self) -> list[str]:
-        """What the FMU warned of in the last run of this thread."""
+        """Warnings of the FMU in the last run of this thread."""
         return list(self._instance().messages)
 
     @property
     def unfelt(self) -> dict[str, str]:
-        """Variables whose values changed nothing in the last run of this thread, by name, with the FMU's reason."""
+        """Variables whose values had no effect in the last run of this thread, by name, with the FMU's reason."""
         return self._instance().unfelt
 
     def close(self) -> None:
@@ -61,7 +60,7 @@ class Runner(Closing):
         self._instances = threading.local()
 
     def _simulate(self, steps, signals, outputs, values=None):
-        """Starts, steps from point to point, and records."""
+        """Initialises an instance, steps from point to point, and records."""
         variables = self.fmu.named(outputs)
         if len(set(variables)) < len(variables):
             twice = next(variable.name for variable in variables if variables.count(variable) > 1)
@@ -82,12 +81,12 @@ class Runner(Closing):
 
 
 class Differential(Runner):
-    """A bevel gear differential with its parameters.
+    """Bevel gear differential with its parameters.
 
     Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
     `Differential({"geometry.module": "4.5 mm"}, contact__law="line_weber")`. Values are SI numbers, pairs (number, unit), text with
-    a unit, literals by name. What is not given has its start value. `display_units`, such as ["rpm", "kN"]: units of pictures, in place
-    of the usual ones; records stay SI."""
+    a unit, or literals by name. Parameters that are not given have their start values. `display_units`, such as ["rpm", "kN"],
+    replace the usual units of pictures; records are always in SI."""
 
     def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None,
                  display_units: Sequence[str] = (), **keywords: Value):
@@ -110,19 +109,19 @@ class Differential(Runner):
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms"). With `stop=0` the record is
         the state at the start.
 
-        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the meaning of those in scenes: steps
-        end at jumps, and between points inputs are straight. With `input_slopes=False` values are held within a step, as those of
-        parameters always are. `values`: parameters for this run alone. Returns a structured array: field "time" (s) and one of each
-        output, in SI; shape (points,). `step=None` takes one step to the end, or from corner to corner of the tables, and records these
-        points. With `frame` it is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. Warnings of the FMU
-        are Python warnings, `DifferentialWarning`; `warnings` has their texts."""
+        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the same meaning as in scenes: steps
+        end at jumps, and inputs are linear between points. With `input_slopes=False` inputs are held within a step; parameters always
+        are. `values`: parameters for this run only. Returns a structured array in SI, shape (points,), with a field "time" (s) and a
+        field for each output. `step=None` takes one step to the end, or from corner to corner of the tables, and records these points.
+        With `frame`, the result is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. Warnings of the FMU
+        become Python warnings, `DifferentialWarning`; `warnings` contains their texts."""
         record = self._record(inputs, outputs, stop, step, values, input_slopes)
         warn(self.warnings)
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
               values: Mapping[str, Value] | None = None) -> dict[str, Number]:
-        """Values of `outputs` at `stop`, in steps as long as inputs are straight: the cheapest way if only the end counts. A dict by name."""
+        """Values of `outputs` at `stop`, by name. Steps are as long as inputs are linear: the cheapest way if only the end counts."""
         last = self.run(inputs, outputs, stop, None, values)[-1]
         return {name: last[name].item() for name in outputs}
 
@@ -145,16 +144,16 @@ class Differential(Runner):
 
 
 def as_frame(record: np.ndarray) -> "pandas.DataFrame":
-    """A record as a pandas DataFrame, by time."""
+    """Record as a pandas DataFrame, by time."""
     return require("pandas", "sweep").DataFrame(record).set_index("time")
 
 
 def _advance(instance, batches, record, steps, signals):
-    """Steps through all points and records; sets what changes before each step."""
+    """Steps through all points and records. Sets changed values before each step."""
     readers = batches.readers(instance, record)
     variables = [table.variable for table in signals.tables]
     driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[place] for place in signals.straight))
-    # kept here: writers only have their addresses
+    # writers store only addresses, so the blocks must stay alive here
     blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
     writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
     made = 0
@@ -175,7 +174,7 @@ def _advance(instance, batches, record, steps, signals):
 
 
 def field(variable: Variable, asked: str, kind: Any) -> tuple:
-    """The field of a variable in a structured array. If its former name was requested, the field has both names."""
+    """Field of a variable in a structured array. If the former name was requested, the field has both names."""
     return (variable.name if asked == variable.name else (asked, variable.name), kind)
 
 

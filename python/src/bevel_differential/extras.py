@@ -1,4 +1,4 @@
-"""Packages that only some uses need, and the version of this one."""
+"""Optional packages, and the version of this package."""
 
 import importlib
 import importlib.metadata
@@ -17,13 +17,13 @@ PACKAGE = "bevel-differential"
 
 
 def install(module: str, extra: str) -> str:
-    """What to say where a package is missing."""
+    """Message about a missing package."""
     return (f"{module.partition('.')[0]} is missing; install the package with its extra {extra}: {_pip()} install "
             f"\"{_package()}[{extra}]\"")
 
 
 def require(module: str, extra: str) -> ModuleType:
-    """Imports the module, or fails and names the extra of this package that brings it."""
+    """Imports the module. If it is missing, fails with the extra of this package that contains it."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:
@@ -31,7 +31,7 @@ def require(module: str, extra: str) -> ModuleType:
 
 
 def version() -> str | None:
-    """Version of the package; sources that are not installed have none."""
+    """Version of the package, or None for sources that are not installed."""
     try:
         return importlib.metadata.version(PACKAGE)
     except importlib.metadata.PackageNotFoundError:
@@ -39,7 +39,7 @@ def version() -> str | None:
 
 
 def _pip():
-    """The pip of this interpreter."""
+    """Command of this interpreter's pip."""
     program, found = Path(sys.executable), shutil.which("pip")
     if found and Path(found).parent == program.parent:
         return "pip"
@@ -48,21 +48,21 @@ def _pip():
 
 
 def _package():
-    """Source from which pip installs this package: its folder in a clone, otherwise its name."""
+    """Source from which pip can install this package: its folder in a clone, otherwise its name."""
     folder = Path(__file__).absolute().parents[2]
     if not (folder / "pyproject.toml").is_file():
         folder = _installed_from()
     if folder is None:
         return PACKAGE
     try:
-        # from a folder of the clone, as a user of the clone writes it
+        # relative path, as a user within the clone would write it
         return f"{'/'.join(['..'] * len(Path.cwd().relative_to(folder.parent).parts)) or '.'}/{folder.name}"
     except (ValueError, OSError):
         return str(folder)
 
 
 def _installed_from():
-    """The folder that the installed package was built from (PEP 610), if it is still there."""
+    """Folder from which the installed package was built (PEP 610), if it still exists."""
     try:
         found = json.loads(importlib.metadata.distribution(PACKAGE).read_text("direct_url.json") or "{}")
     except (importlib.metadata.PackageNotFoundError, ValueError):

@@ -1,4 +1,4 @@
-"""The FMU: an extracted archive and its variables. `Fmu.of` extracts a file once per process."""
+"""Extracted archive of the FMU and its variables. `Fmu.of` extracts a file once per process."""
 
 import atexit
 import hashlib
@@ -20,7 +20,7 @@ from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, variable_suggestion
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
-# process numbers, each with a folder that this process has extracted
+# pairs of a process id and a folder that this process has extracted
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
 
@@ -28,7 +28,7 @@ NO_FMU = "{}: not an FMU ({}); name a file that ends with .fmu"
 
 
 class _ByName(dict[str, Variable]):
-    """Variables by name; former names find them, too."""
+    """Variables by name; former names also find them."""
 
     def __missing__(self, name: str) -> Variable:
         now = present(name)
@@ -41,13 +41,13 @@ class _ByName(dict[str, Variable]):
 
 
 class Fmu:
-    """An extracted FMU and its variables.
+    """Extracted FMU and its variables.
 
-    `Fmu.of(path)` returns the `Fmu` of this file that the process shares. Without a path the file is that of the environment
-    variable BEVEL_DIFFERENTIAL_FMU, else the FMU of the package. `Fmu(path)` extracts the file anew; the path may also be that of
+    `Fmu.of(path)` returns the `Fmu` of this file, which the process shares. Without a path, the file is that of the environment
+    variable BEVEL_DIFFERENTIAL_FMU, or else the FMU of the package. `Fmu(path)` always extracts the file again; the path may also be
     a folder with an extracted FMU.
 
-    Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as fmpy reads it; `display_units`,
+    Attributes: `file`, `folder`; `variables`, by name; `description`, the model description as read by fmpy; `display_units`,
     preferred units by SI unit, see `displaying`."""
 
     def __init__(self, file: FileName):
@@ -63,7 +63,7 @@ class Fmu:
 
     @classmethod
     def of(cls, file: "FileName | Fmu | None" = None) -> "Fmu":
-        """The shared `Fmu` of `file`, extracted at the first call. An `Fmu` is returned as it is."""
+        """Shared `Fmu` of `file`, extracted at the first call. An `Fmu` is returned unchanged."""
         if isinstance(file, Fmu):
             return file
         file = Path(file or usual()).resolve()
@@ -71,7 +71,7 @@ class Fmu:
         with _lock:
             if key not in _shared:
                 if file.is_dir():
-                    raise DifferentialError(f"{file}: it is a folder; name the .fmu file, or take Fmu(folder)")
+                    raise DifferentialError(f"{file}: it is a folder; name the .fmu file, or use Fmu(folder)")
                 if not file.is_file():
                     raise DifferentialError(f"{file}: there is no such FMU")
                 try:
@@ -82,27 +82,27 @@ class Fmu:
 
     @classmethod
     def by_hash(cls, file: str, sha256: str, display_units: Sequence[str] = ()) -> "Fmu":
-        """The FMU with this SHA-256: `file`, or else the default FMU of this machine. It shows values in `display_units`."""
+        """FMU with this SHA-256: `file`, or else the default FMU of this machine. It shows values in `display_units`."""
         for place in (Path(file), Path(usual())):
             if place.is_file() and cls.of(place).sha256 == sha256:
                 return cls.of(place).displaying(display_units)
-        raise DifferentialError(f"{file}: neither this file nor the default FMU of this machine, {usual()}, is the one that was asked for "
+        raise DifferentialError(f"{file}: neither this file nor the default FMU of this machine, {usual()}, is the requested one "
                                 f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines, or set BEVEL_DIFFERENTIAL_FMU")
 
     def __reduce__(self) -> tuple:
-        # another process or machine finds the FMU by its hash, as its files may be elsewhere
+        # another process or machine finds the FMU by its hash, because paths may differ there
         return Fmu.by_hash, (str(self.file), self.sha256, tuple(self.display_units.values()))
 
     def displaying(self, units: Sequence[str]) -> "Fmu":
-        """This FMU with values shown in `units`, such as ["rpm", "kN"]. Each replaces the usual unit of all variables of its
-        dimension; other variables are shown as before. Numbers that go in and come out of it stay SI."""
+        """Copy of this FMU that shows values in `units`, such as ["rpm", "kN"]. Each unit replaces the usual unit of all variables of its
+        dimension; other variables are shown as before. Numbers that are set or read stay in SI."""
         preferred = {**self.display_units, **self._preferred(units)}
         if preferred == self.display_units:
             return self
-        # shared, so that all runs in these units have the same variables
+        # cached, so that all runs in these units have the same variables
         key = tuple(preferred.values())
         if key not in self._displaying:
-            # `copy.copy` would go the way of `__reduce__`
+            # `copy.copy` would use `__reduce__`
             other = object.__new__(type(self))
             other.__dict__.update(self.__dict__, display_units=preferred, variables=_ByName(
                 (name, each.shown_in(preferred.get(each.unit or ""))) for name, each in self.variables.items()))
@@ -110,20 +110,21 @@ class Fmu:
         return self._displaying[key]
 
     def _preferred(self, units):
-        """The preferred units by the SI units of their dimensions."""
+        """Preferred units by the SI units of their dimensions."""
         if isinstance(units, str):
             raise DifferentialError(f"{units!r}: display units are a list, such as [{units!r}]")
         return ask({"ask": "display_units", "names": list(units)})["units"] if units else {}
 
     @cached_property
     def sha256(self) -> str:
-        """SHA-256 of the file. A folder has none, so that an `Fmu` of one stays in its process."""
+        """SHA-256 of the file. A folder has none, so an `Fmu` of a folder cannot be sent to other processes."""
         if self.file.is_dir():
-            raise DifferentialError(f"{self.file}: an extracted folder has no hash to be found by in another process; open the .fmu file")
+            raise DifferentialError(f"{self.file}: an extracted folder has no hash by which another process could find it; open the .fmu "
+                                    "file")
         return hashlib.sha256(self.file.read_bytes()).hexdigest()
 
     def variable(self, name: str) -> Variable:
-        """The variable `name`."""
+        """Variable `name`."""
         if not isinstance(name, str):
             raise DifferentialError(f"{name!r}: the name of a variable is text, such as \"left.speed\"")
         try:
@@ -132,27 +133,27 @@ class Fmu:
             raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, self.variables)}") from None
 
     def settable(self, name: str) -> Variable:
-        """The parameter or input `name`."""
+        """Parameter or input `name`."""
         variable = self.variable(name)
         if variable.causality not in ("parameter", "input"):
             raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
         return variable
 
     def find(self, *words: str, acting: Any = None) -> list[Variable]:
-        """The variables with all `words` in name or description, in small letters or capitals. `acting`: a scene file, the name of a
-        shipped scene or a `Scene`; only variables that take effect in it are listed."""
+        """Variables with all `words` in name or description; case does not matter. `acting`: a scene file, the name of a shipped scene or a
+        `Scene`; only variables that take effect in this scene are listed."""
         names = None if acting is None else set(ask({"ask": "acting", "of": about(acting)})["names"])
         found = self.variables.values() if names is None else (self.variables[name] for name in self.variables if name in names)
         return [each for each in found if all(word.lower() in f"{each.name}\n{each.description}".lower() for word in words)]
 
     def named(self, names: Iterable[str]) -> tuple[Variable, ...]:
-        """The variables of these names, in their order."""
+        """Variables of these names, in their order."""
         if isinstance(names, str):
             raise DifferentialError(f"{names!r}: names are a list, such as [{names!r}]")
         return tuple(self.variable(name) for name in names)
 
     def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:
-        """Pairs (variable, number) of parameters and inputs as the FMU takes them; values as in `Differential.set`."""
+        """Pairs (variable, number) of parameters and inputs in the form of the FMU; values as in `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
         for name, value in {**(values or {}), **named}.items():
@@ -164,14 +165,14 @@ class Fmu:
         return pairs
 
     def open(self, kind: str = "CoSimulation", name: str = "differential") -> Instance:
-        """A new instance, to be driven call by call; `kind` is "CoSimulation" or "ModelExchange", `name` appears in logs.
+        """New instance for single calls; `kind` is "CoSimulation" or "ModelExchange", `name` appears in logs.
 
-        A `with` statement frees the instance at its end."""
+        A `with` statement frees the instance when it ends."""
         return Instance(self, kind, name)
 
 
 def extracted(file: FileName) -> str:
-    """A new temporary folder with the contents of the archive `file`."""
+    """New temporary folder with the contents of the archive `file`."""
     folder = None
     try:
         folder = tempfile.mkdtemp()

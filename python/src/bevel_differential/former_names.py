@@ -1,5 +1,4 @@
-"""Former names of variables, as the library of answers lists them. They still find their variables, and a warning gives the present
-names."""
+"""Former names of variables, from the library of answers. They still find their variables, with a warning about the present name."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -13,7 +12,7 @@ _Of = TypeVar("_Of")
 
 
 def present(name: str) -> str:
-    """The present name of the variable that `name` names or once named, with a warning about a former name. Other texts as they are."""
+    """Present name of the variable that `name` names or formerly named; a former name causes a warning. Returns other texts unchanged."""
     found = _former().get(name)
     if found is None:
         return name
@@ -22,7 +21,7 @@ def present(name: str) -> str:
 
 
 def by_present_names(values: Mapping[str, _Of]) -> dict[str, _Of]:
-    """Values by present names. Refuses a variable that has two names here."""
+    """Values by present names. Fails if a variable is given by both names."""
     found: dict[str, _Of] = {}
     for written, value in values.items():
         name = present(written)

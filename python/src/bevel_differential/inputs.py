@@ -8,16 +8,16 @@ import numpy as np
 from .library import schedule
 from .values import DifferentialError, Number, Value, Variable, Variables
 
-# times, s, and values at them, shape (points,)
+# times, s, and values at these times, shape (points,)
 Times: TypeAlias = Sequence[float] | np.ndarray
 Values: TypeAlias = Sequence[Value] | np.ndarray
-# inputs as a user writes them, by name: values, or pairs (times, values); or a structured array with a field "time"
+# inputs in the form that users write, by name: values, or pairs (times, values); or a structured array with a field "time"
 Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 
 class Table:
-    """An input or a tunable parameter over time. Reals are interpolated linearly, others held. The value is constant before the first
-    point and after the last, or repeated after `period` (s). Two points at one time are a jump."""
+    """Input or tunable parameter over time. Real values are interpolated linearly, others are held. Before the first point and after the
+    last one the value is constant, unless the table repeats after `period` (s). Two points at the same time are a jump."""
 
     def __init__(self, variable: Variable, times: Times, values: Values, period: float | None = None):
         self.variable, self.period = variable, period
@@ -29,7 +29,7 @@ class Table:
             raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
 
     def numbers(self) -> np.ndarray:
-        """The table in a question for a schedule."""
+        """Numbers of the table in a question for a schedule."""
         return np.concatenate([[len(self.times), self.period or 0.0, self.variable.kind != "Real"], self.times, self.values])
 
     @property
@@ -39,10 +39,10 @@ class Table:
 
 
 class Signals:
-    """Inputs and tunable parameters of a run: constant, or changing with time.
+    """Inputs and tunable parameters of a run: constant or variable over time.
 
-    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], rising in time; `slopes`: True if
-    tables of inputs continue straight within steps, False if their values are held. Those of parameters are always held."""
+    `constants`: [(variable, value)]; `tables`: [Table]; `changes`: [(time, [(variable, value)])], in order of time; `slopes`: true if
+    tables of inputs are linear within steps, false if their values are held. Values of parameters are always held."""
 
     def __init__(self, constants: Iterable[tuple[Variable, Number]] = (), tables: Iterable[Table] = (),
                  changes: Iterable[tuple[float, list[tuple[Variable, Number]]]] = (), slopes: bool = True):
@@ -50,17 +50,17 @@ class Signals:
             raise DifferentialError(f"input_slopes = {slopes!r}: it is True or False")
         self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
-        # places of the tables that continue straight within steps
+        # indices of the tables that are linear within steps
         self.straight = [place for place, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
-        self._kept: Any = None, None
+        self._cache: Any = None, None
 
     def steps(self, stop: float, step: float | None) -> np.ndarray:
-        """Steps to `stop`: to multiples of `step`, to changes and to jumps of tables; without a step to changes and to points of tables.
-        See `library.schedule`. The last ones are kept: designs of a sweep share them."""
-        kept = self._kept
-        if kept[0] != (stop, step):
-            kept = self._kept = (stop, step), self._scheduled(stop, step)
-        return kept[1]
+        """Steps to `stop`. They end at multiples of `step`, at changes and at jumps of tables; without `step` at changes and at points of
+        tables. See `library.schedule`. The last steps are cached, because the designs of a sweep share them."""
+        cached = self._cache
+        if cached[0] != (stop, step):
+            cached = self._cache = (stop, step), self._scheduled(stop, step)
+        return cached[1]
 
     def _scheduled(self, stop, step):
         for place, table in enumerate(self.tables):
@@ -82,8 +82,8 @@ class Signals:
 
     @classmethod
     def of(cls, fmu: Variables, inputs: Inputs | None, slopes: bool = True) -> Self:
-        """From a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or from a
-        structured array with a field "time", as fmpy takes it. Names are those of inputs and tunable parameters."""
+        """Reads a mapping from name to a value or to a pair of arrays (times in s, values of shape (points,)), or a structured array with
+        a field "time", as fmpy accepts it. Names are those of inputs and tunable parameters."""
         constants, tables = [], []
         for name, given in _pairs(inputs):
             variable = changing_variable(fmu, name)
@@ -101,16 +101,16 @@ class Signals:
 
 
 def input_variable(fmu: Variables, name: str) -> Variable:
-    """The input `name`."""
+    """Input `name`."""
     variable = fmu.variable(name)
     if variable.causality != "input":
         article = "an" if variable.causality[0] in "aeio" else "a"
-        raise DifferentialError(f"{name}: it is no input but {article} {variable.causality}")
+        raise DifferentialError(f"{name}: it is {article} {variable.causality}, not an input")
     return variable
 
 
 def changing_variable(fmu: Variables, name: str) -> Variable:
-    """The input or tunable parameter `name`."""
+    """Input or tunable parameter `name`."""
     variable = fmu.variable(name)
     if variable.causality == "parameter" and variable.variability == "fixed":
         raise DifferentialError(f"{name}: it is a fixed parameter; give it by `set` or `values`, as only inputs and tunable "

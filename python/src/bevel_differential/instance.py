@@ -1,4 +1,4 @@
-"""An instance of the FMU. fmpy loads and instantiates; what is called in every step is called without its wrappers."""
+"""Instance of the FMU. fmpy loads and instantiates it; calls of every step bypass fmpy's wrappers."""
 
 import contextlib
 import ctypes
@@ -14,25 +14,25 @@ from .batches import CALLS, Batches
 from .port import Port
 from .values import DISCARD, DifferentialError, Number, Value, Variable
 
-# what the log is to have
+# categories of the log
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
-# what warnings about values say that the scene cannot feel
+# text in warnings about values that have no effect in the scene
 UNFELT = " changes nothing in this scene: "
-# beginning of the line that lists values which act and which nobody set
+# prefix of the line that lists values which take effect and which nobody set
 NOBODY_SET = "values of the study that nobody set act in this scene: "
-# what a log for hosts has around the words of an error: the call that failed before it, and calls that help after it
+# text in a log for hosts around the words of an error: the failed call before it, and helpful calls after it
 _CALLS = re.compile(r"^fmi[23]\w+: (?:initialisation failed:\s*)?|; continue with fmi[23]\w+ or fmi[23]\w+$")
-# beginnings of refusals that are about the call, not about a value
+# prefixes of refusals that concern the call instead of a value
 _ABOUT_CALL = ("not legal in", "this call")
 # fmpy's class and the element of the model description for each kind of instance
 KINDS = {"CoSimulation": (FMU2Slave, "coSimulation"), "ModelExchange": (FMU2Model, "modelExchange")}
 
 
 class Closing:
-    """What is freed by `close`, or at the end of a `with` statement."""
+    """Object that `close`, or the end of a `with` statement, frees."""
 
     def close(self) -> None:
-        """Frees it."""
+        """Frees the object."""
 
     def __enter__(self) -> Self:
         return self
@@ -42,13 +42,14 @@ class Closing:
 
 
 class Instance(Closing):
-    """One instance of the FMU, driven call by call; `Fmu.open` makes it. It must be used by one thread at a time.
+    """One instance of the FMU for single calls; `Fmu.open` creates it. It must be used by one thread at a time.
 
-    Values are written as in `Differential` and read in SI. What the FMU refuses is a `DifferentialError` with the FMU's message
-    and status.
+    Values are written as in `Differential` and read in SI. If the FMU refuses a call, this raises `DifferentialError` with the FMU's
+    message and status.
 
-    Attributes: `fmu`, its `Fmu`; `messages`, the warnings and errors that the FMU has logged since it was made or reset; `events`, what else
-    it has logged; `time` (s), to which `step` has come; `raw`, fmpy's object, for FMI functions that have no method here."""
+    Attributes: `fmu`, its `Fmu`; `messages`, the warnings and errors that the FMU has logged since the instance was created or reset;
+    `events`, its other log entries; `time` (s), which `step` has reached; `raw`, fmpy's object, for FMI functions without a method
+    here."""
 
     def __init__(self, fmu: Any, kind: str = "CoSimulation", name: str = "differential"):
         if kind not in KINDS:
@@ -65,13 +66,13 @@ class Instance(Closing):
         identifier = getattr(description, element).modelIdentifier
         self.raw = make(guid=description.guid, unzipDirectory=fmu.folder, instanceName=name, modelIdentifier=identifier,
                         libraryPath=machine.fmu_library(fmu.folder, identifier))
-        # kept: the library calls them as long as the instance lives
+        # the instance keeps them, because the library calls them during its lifetime
         self._callbacks = fmi2CallbackFunctions()
         self._callbacks.logger = fmi2CallbackLoggerTYPE(self._record)
         self._callbacks.allocateMemory = defaultCallbacks.allocateMemory
         self._callbacks.freeMemory = defaultCallbacks.freeMemory
         self.raw.instantiate(callbacks=self._callbacks, loggingOn=False)
-        # only what goes wrong: a quiet log
+        # a quiet log of problems only
         self.log(LOGGED)
         self._component: ctypes.c_void_p | None = ctypes.c_void_p(self.raw.component)
         pointers = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p]
@@ -85,14 +86,14 @@ class Instance(Closing):
         self._is_fresh = True
 
     def log(self, categories: Iterable[str]) -> None:
-        """Lets the FMU log these categories, as far as it has them; "logEvents" is what it simulates."""
+        """Makes the FMU log these categories, if it has them; "logEvents" describes the simulation."""
         known = {category.name for category in self.fmu.description.logCategories}
-        # a library behind fmpy's remoting cannot be told, and logs errors alone
+        # fmpy's remoting cannot pass this on; libraries behind it only log errors
         with contextlib.suppress(FMICallException):
             self.raw.setDebugLogging(True, [category for category in categories if category in known])
 
     def _function(self, name, *types):
-        # by index ctypes gives a function of its own, whose types are not those of fmpy
+        # indexing returns a separate ctypes function, whose types are independent of fmpy's
         function = self.raw.dll[name]
         function.argtypes, function.restype = types, ctypes.c_int
         return function
@@ -104,29 +105,29 @@ class Instance(Closing):
 
     @property
     def unfelt(self) -> dict[str, str]:
-        """Variables whose values change nothing in this scene, as the FMU has found so far; by name, with the FMU's words."""
+        """Variables whose values have had no effect in this scene so far, by name, with the FMU's reason."""
         found = (message.partition(": ") for message in self.messages if UNFELT in message)
         return {name: why for name, _, why in found}
 
     @property
     def nobody_set(self) -> str:
-        """The values that act and that nobody set, by effect, as the FMU lists them at the start; empty if there are none, or if what is
-        simulated ("logEvents") is not logged."""
+        """Values that take effect and that nobody set, by effect, as the FMU lists them at the start. Empty if there are none, or if
+        "logEvents" is not logged."""
         lists = (text.removeprefix(NOBODY_SET) for text in (*self.messages, *self.events) if text.startswith(NOBODY_SET))
         return next(lists, "")
 
     def check(self, status: int, doing: str, kind: str = "use") -> None:
-        """Raises the FMU's message if `status` is an error, of this kind of `DifferentialError`."""
+        """Raises `DifferentialError` of this kind with the FMU's message if `status` is an error."""
         if status >= DISCARD:
             if not self._component:
                 raise DifferentialError("the instance is closed; open another one", status)
-            # a warning from before is no reason
+            # an earlier warning is not the reason
             said, self._failure = self._failure, None
             words = without_calls(said or f"it failed with status {status}")
             raise DifferentialError(words if said and not words.startswith(_ABOUT_CALL) else f"{doing}: {words}", status, kind)
 
     def _through(self, doing, call, *arguments):
-        """Calls a method of `raw`; its error becomes that of `check`."""
+        """Calls a method of `raw`; errors are raised as by `check`."""
         try:
             return call(*arguments)
         except FMICallException as caught:
@@ -134,9 +135,9 @@ class Instance(Closing):
         self.check(failure.status, doing)
 
     def set(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> Self:
-        """Sets parameters and inputs, given as to `Differential.set`: all of them, or none if the FMU refuses one."""
+        """Sets parameters and inputs, given as to `Differential.set`. If the FMU refuses one of them, none is set."""
         pairs = self.fmu.numbers(values, **keywords)
-        # each kind has a call of its own
+        # one call for each kind
         kinds = [[pair for pair in pairs if CALLS[pair[0].kind] == call] for call in self._set]
         kinds = [kind for kind in kinds if kind]
         before: list[list[tuple[Variable, Number]]] = []
@@ -159,34 +160,34 @@ class Instance(Closing):
         Batches.of(tuple(variable for variable, _ in pairs)).set(self, [number for _, number in pairs])
 
     def set_slopes(self, slopes: Mapping[str, float]) -> None:
-        """Lets inputs change linearly in the steps to come, until they are set again.
+        """Makes inputs change linearly in the following steps, until they are set again.
 
-        `slopes`: by name the change of a Real input in a second, SI units."""
+        `slopes`: change of Real inputs per second by name, SI units."""
         references = [self.fmu.variable(name).reference for name in slopes]
         self._through("setting slopes of inputs", self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
 
     def derivatives_setter(self) -> Any:
-        """The function of the FMU that sets derivatives of inputs, without wrappers."""
+        """Function of the FMU that sets derivatives of inputs, without wrappers."""
         return self._function("fmi2SetRealInputDerivatives", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p,
                               ctypes.c_void_p)
 
     def get(self, name: str) -> Number:
-        """The value of one variable, in SI; of an enumeration its number."""
+        """Value of one variable, in SI; for an enumeration, its number."""
         return self.read((name,))[0]
 
     def read(self, names: Iterable[str]) -> list[Number]:
-        """The values of several variables, as a list in their order."""
+        """Values of several variables, as a list in their order."""
         return Batches.of(self.fmu.named(names)).get(self)
 
     def initialise(self, values: Mapping[str, Value] | None = None, stop: float | None = None) -> Self:
-        """Initialises at time 0, with `values` beside those that were set; `stop` (s): no step will go beyond it.
+        """Initialises at time 0, with `values` in addition to those that were set; `stop` (s): no step will go beyond it.
 
-        After a run the instance is reset first."""
+        After a run, the instance is reset first."""
         self.start(self.fmu.numbers(values), stop)
         return self
 
     def start(self, values: list[tuple[Variable, Number]], stop: float | None) -> None:
-        """The same with `values` as the FMU takes them: [(variable, number)]."""
+        """Initialises with `values` in the form of the FMU: [(variable, number)]. See `initialise`."""
         if not self._is_fresh:
             self.reset()
         self._is_fresh = False
@@ -196,31 +197,31 @@ class Instance(Closing):
         self.check(self._exit(self._component), "the initialisation")
 
     def reset(self) -> None:
-        """As new: all variables have their start values, nothing is logged."""
+        """Resets the instance: all variables have their start values, the log is empty."""
         self.check(self._reset(self._component), "the reset")
         self.messages.clear()
         self.events.clear()
         self._is_fresh, self.time = True, 0.0
 
     def step(self, size: float) -> None:
-        """A communication step from `time` on, s."""
+        """Advances by a communication step of `size`, s, from `time`."""
         self.do_step(self.time, size)
         self.time += size
 
     def do_step(self, time: float, size: float) -> None:
-        """A communication step from a time that the caller keeps, s."""
+        """Advances by a communication step of `size`, s, from a `time`, s, that the caller tracks."""
         status = self._do_step(self._component, time, size, 1)
         if status >= DISCARD:
             self.check(status, f"the step from {time:g} s", "failed")
 
     def port(self, inputs: Iterable[str], outputs: Iterable[str]) -> Port:
-        """The fastest way to exchange values at every step: `port.step(values, size)` sets the inputs, steps and returns the outputs.
+        """Port: the fastest way to exchange values at every step. `port.step(values, size)` sets the inputs, steps and returns the outputs.
 
         `inputs`: names of Real inputs and tunable parameters; `outputs`: names of Real variables."""
         return Port(self, inputs, outputs)
 
     def save(self) -> tuple[float, bytes]:
-        """The state as (time, bytes), for this or another instance of the same FMU, in any process."""
+        """State as (time, bytes), for this or another instance of the same FMU, in any process."""
         state = self._through("saving the state", self.raw.getFMUstate)
         try:
             return self.time, self._through("saving the state", self.raw.serializeFMUstate, state)
@@ -228,7 +229,7 @@ class Instance(Closing):
             self.raw.freeFMUstate(state)
 
     def restore(self, saved: tuple[float, bytes]) -> Self:
-        """Goes back to what `save` gave."""
+        """Restores a state that `save` returned."""
         time, kept = saved
         state = self._through("restoring a state", self.raw.deSerializeFMUstate, kept)
         try:
@@ -239,22 +240,22 @@ class Instance(Closing):
         return self
 
     def close(self) -> None:
-        """Frees the instance. The library stays loaded: loading costs more than all else."""
+        """Frees the instance. The library stays loaded, because loading costs more than everything else."""
         if self._component:
             self.raw.fmi2FreeInstance(self.raw.component)
-            # what is called after this gets no instance, and is refused
+            # later calls have no instance, so the FMU refuses them
             self._component = self.raw.component = None
 
     def forget(self) -> None:
-        """Lets go of the instance without a call, where what held it is gone, such as the server of another system's library."""
+        """Drops the instance without a call, if its host is gone, such as the server of another system's library."""
         self._component = self.raw.component = None
 
     def __del__(self) -> None:
-        # of a thread that has ended, or where nobody has closed it
+        # for instances of a thread that has ended, or that nobody has closed
         if getattr(self, "_component", None):
             self.close()
 
 
 def without_calls(message: str) -> str:
-    """An error of the FMU's log without the names of FMI functions around it, which only hosts use."""
+    """Message of the FMU's log without FMI functions around it, which only hosts use."""
     return _CALLS.sub("", message)

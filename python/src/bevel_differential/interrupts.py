@@ -1,4 +1,4 @@
-"""Ctrl-C where an exception would be lost: inside a call of a library, in a callback, or while an object is freed."""
+"""Holds Ctrl-C back where an exception would be lost: inside a library call, in a callback, or while an object is freed."""
 
 import signal
 import threading
@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 @contextmanager
 def held_back() -> Iterator[list[BaseException]]:
-    """Ctrl-C becomes an entry of the list, and is raised at the end. What waits meanwhile looks at the list."""
+    """Turns Ctrl-C into an entry of the list, which is raised at the end. Code that waits in the context must check the list."""
     noted: list[BaseException] = []
     own = threading.current_thread() is threading.main_thread() and signal.getsignal(signal.SIGINT) is signal.default_int_handler
     if own:

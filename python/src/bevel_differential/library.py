@@ -1,4 +1,4 @@
-"""The library of answers, loaded once: a question in, its reply out; and the schedules of runs."""
+"""Library of answers, loaded once: replies to questions, and the schedules of runs."""
 
 import ctypes
 import json
@@ -17,8 +17,8 @@ _PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_double, cty
 
 def reply(question: Mapping[str, Any], numbers: np.ndarray | None = None,
           on_progress: Callable[[Any, float, bytes], int] = lambda *_: 0) -> dict[str, Any]:
-    """The reply to a question: a dict with "answer", or with "problems". `on_progress(_, done, what)` returns other than 0 to stop the
-    work. Raises `OSError` if the library is missing."""
+    """Reply to a question: a dict with "answer" or "problems". `on_progress(_, done, what)` stops the work if it does not return 0.
+    Raises `OSError` if the library is missing."""
     library = _library()
     values = np.ascontiguousarray([] if numbers is None else numbers, np.float64).ravel()
     text = json.dumps(question, default=_plain).encode()
@@ -30,7 +30,7 @@ def reply(question: Mapping[str, Any], numbers: np.ndarray | None = None,
 
 
 def schedule(question: np.ndarray, tables: int) -> tuple[int, np.ndarray]:
-    """Number of rows and the rows of a run's schedule: its start, then each step; bd_answers.h describes question, rows and a number
+    """Number of rows, and the rows of a run's schedule: its start, then each step. bd_answers.h describes question, rows and a number
     below 1. Raises `OSError` if the library is missing."""
     library = _library()
     kinds = [*((name, float) for name in ("begin", "size", "end", "due")), *((name, float, tables) for name in ("values", "slopes"))]
@@ -49,7 +49,7 @@ def _library() -> ctypes.CDLL:
                                 "a wheel that has it, or name the library by the environment variable BEVEL_DIFFERENTIAL_ANSWERS")
     library = ctypes.CDLL(str(file))
     library.bd_ask.argtypes = [ctypes.c_char_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t, _PROGRESS, ctypes.c_void_p]
-    # as an address, so that it can be freed
+    # an address instead of c_char_p, so that it can be freed
     library.bd_ask.restype = ctypes.c_void_p
     library.bd_free.argtypes, library.bd_free.restype = [ctypes.c_void_p], None
     library.bd_schedule.argtypes = [ctypes.c_void_p, ctypes.c_size_t] * 2

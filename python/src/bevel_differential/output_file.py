@@ -1,4 +1,4 @@
-"""Files that are to be written, checked before the work."""
+"""Checks of files to write, before the work."""
 
 from pathlib import Path
 
@@ -6,20 +6,20 @@ from .values import DifferentialError
 from .writing import try_whole
 
 PARQUET = (".parquet", ".pq")
-# endings of the files that are written, by what they are
+# endings of the files that are written, by kind
 ENDINGS = {"table": (".csv", *PARQUET), "CSV file": (".csv",), "Parquet file": PARQUET, "picture": (".png", ".svg", ".pdf"),
            "page": (".html", ".htm"), "scene": (".toml",), "parameter set": (".ssv",), "Python script": (".py",), "MATLAB script": (".m",)}
 
 
 def checked(file, kind: str | None = None) -> Path | None:
-    """The path of a file that can be written, as a trial in its folder shows; None stays None. Its ending must be one of its kind in
+    """Path of a file that can be written, tested by a trial in its folder; None stays None. Its ending must be one of its kind in
     `ENDINGS`."""
     if file is None:
         return None
     file = Path(file)
     folder = file.absolute().parent
     if not folder.is_dir():
-        raise DifferentialError(f"{file}: there is no folder {folder}; make it first")
+        raise DifferentialError(f"{file}: there is no folder {folder}; create it first")
     if file.is_dir():
         raise DifferentialError(f"{file}: it is a folder; name a file")
     if kind is not None and file.suffix.lower() not in ENDINGS[kind]:
@@ -31,5 +31,5 @@ def checked(file, kind: str | None = None) -> Path | None:
 
 
 def is_parquet(file) -> bool:
-    """Whether a table is written as Parquet: its file's ending says so."""
+    """True if the ending of a table's file is one of Parquet."""
     return file is not None and Path(file).suffix.lower() in PARQUET

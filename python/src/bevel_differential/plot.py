@@ -18,15 +18,15 @@ if TYPE_CHECKING:
 # (unit, kind): [(name, values in this unit)]
 Panels: TypeAlias = dict[tuple[str, str], list[tuple[str, np.ndarray]]]
 
-# inches
+# heights of a panel and of everything else, inches
 PANEL, REST = 2.3, 1.2
 
 
 def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file: FileName | None = None) -> "Figure":
-    """Draws all outputs of a record (structured array with a field "time") over time, in the units that are usually shown.
+    """Draws all outputs of a record (structured array with a field "time") over time, in display units.
 
-    Writes `file` (PNG, SVG or PDF) if there is one. Returns the matplotlib figure; it is not one of pyplot's, so that nothing is
-    to be closed."""
+    Writes `file` (PNG, SVG or PDF) if it is given. Returns the matplotlib figure. It does not belong to pyplot, so it need not be
+    closed."""
     require("matplotlib", "plot")
     from . import style
 
@@ -51,7 +51,7 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
 
 
 def by_unit(fmu: Fmu, record: np.ndarray, names: Iterable[str]) -> Panels:
-    """Outputs of a record as curves, in panels of one unit and kind."""
+    """Outputs of a record as curves, grouped into panels with one unit and kind."""
     panels: Panels = {}
     for name in names:
         variable = fmu.variable(name)
@@ -61,9 +61,9 @@ def by_unit(fmu: Fmu, record: np.ndarray, names: Iterable[str]) -> Panels:
 
 
 def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: list[tuple[str, np.ndarray]]) -> None:
-    """Draws the curves of a panel, with a legend beside it."""
+    """Draws the curves of a panel, with a legend next to it."""
     for place, (name, values) in enumerate(curves):
-        # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
+        # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
         panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
                    drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
@@ -82,7 +82,7 @@ def shown_times(times: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def _quantity(names, unit):
-    """The last words that all names share, and the unit."""
+    """Last words that all names share, and the unit."""
     shared = []
     for words in zip(*(reversed(re.split(r"[._]", name)) for name in names)):
         if len(set(words)) > 1 or words[0] in ("left", "right"):

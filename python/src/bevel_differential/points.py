@@ -1,4 +1,4 @@
-"""Times as a user writes them."""
+"""Times in the form that users write."""
 
 from typing import TypeAlias
 
@@ -6,14 +6,14 @@ import numpy as np
 
 from .values import DifferentialError, split
 
-# a time as a user writes it: s, or text such as "5 ms"
+# a time in the form that users write: s, or text such as "5 ms"
 TimeValue: TypeAlias = float | str
-# how many of a unit make a second
+# size of a second in each unit
 PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
 
 def seconds(what: str, time: TimeValue) -> float:
-    """A time: seconds, or text such as "5 ms". `what` names it in errors."""
+    """Time in seconds from a number in s, or from text such as "5 ms". `what` names the time in errors."""
     if isinstance(time, str):
         number, unit = split(time)
         try:
@@ -30,7 +30,7 @@ def seconds(what: str, time: TimeValue) -> float:
 
 
 def span(what: str, time: TimeValue) -> float:
-    """A time above 0, s."""
+    """Time above 0, s."""
     time = seconds(what, time)
     if not time > 0.0:
         raise DifferentialError(f"{what} = {time!r}: it is more than 0, s")
@@ -38,7 +38,7 @@ def span(what: str, time: TimeValue) -> float:
 
 
 def duration(what: str, time: TimeValue) -> float:
-    """A time of 0 or more, s."""
+    """Time of 0 or more, s."""
     time = seconds(what, time)
     if time < 0.0:
         raise DifferentialError(f"{what} = {time!r}: it is 0 or more, s")
@@ -46,5 +46,5 @@ def duration(what: str, time: TimeValue) -> float:
 
 
 def mean_over_time(values: np.ndarray, times: np.ndarray) -> float:
-    """Mean of values between which time passes; of a run without any duration, the value at its time."""
+    """Mean of values over time, weighted by the time between them. For a run without duration, the last value."""
     return float(np.trapezoid(values, times) / (times[-1] - times[0]) if times[-1] > times[0] else values[-1])

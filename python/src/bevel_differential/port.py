@@ -11,7 +11,7 @@ import numpy as np
 from .inputs import changing_variable
 from .values import DISCARD, DifferentialError, Value, Variable
 
-# one value for each input; for one input also the value itself
+# one value for each input; a single input also accepts its value without a list
 Given: TypeAlias = Value | Sequence[Value] | np.ndarray
 
 
@@ -36,24 +36,24 @@ class Port:
         self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance.derivatives_setter()
         self._values, self._rates, self._outputs = (array("d", [0.0] * len(each)) for each in (driven, driven, shown))
         # arguments of the three functions after the component; the arrays behind the addresses live as long as the port
-        self._kept = [array("I", [variable.reference for variable in each]) for each in (driven, shown)]
-        self._kept.append(array("i", [1] * len(driven)))
-        inputs_at, outputs_at, orders_at = map(_address, self._kept)
+        self._buffers = [array("I", [variable.reference for variable in each]) for each in (driven, shown)]
+        self._buffers.append(array("i", [1] * len(driven)))
+        inputs_at, outputs_at, orders_at = map(_address, self._buffers)
         self._setting = inputs_at, len(driven), _address(self._values)
         self._sloping = inputs_at, len(driven), orders_at, _address(self._rates)
         self._getting = outputs_at, len(shown), _address(self._outputs)
 
     def step(self, values: Given, size: float, rates: Given | None = None) -> list[float]:
-        """Sets the inputs, takes a step of `size` (s) from the time of the instance on, and returns the outputs in SI, as a new list.
+        """Sets the inputs, takes a step of `size` (s) from the time of the instance, and returns the outputs in SI, as a new list.
 
-        `values`: one for each input, in their order, written as in `set`; one input also takes its value without a list. `rates`: the
-        change of each input in a second during this step, SI units; without them inputs are held."""
+        `values`: one for each input, in their order, written as in `set`; a single input also accepts its value without a list. `rates`:
+        change of each input per second during this step, SI units; without rates, inputs are held."""
         self._write(values, rates)
         self._instance.step(size)
         return self.read()
 
     def do_step(self, values: Given, time: float, size: float, rates: Given | None = None) -> list[float]:
-        """Exchanges values as `step` does, but from a time that the caller keeps, s."""
+        """Exchanges values as `step` does, but from a time, s, that the caller tracks."""
         self._write(values, rates)
         self._instance.do_step(time, size)
         return self.read()
@@ -87,7 +87,7 @@ class Port:
             given = given if isinstance(given, list) else (given,)
         if len(given) != len(buffer):
             names = ", ".join(variable.name for variable in self._inputs) or "a port without inputs"
-            raise DifferentialError(f"{names}: the number of {what} is {len(given)}, and that of inputs is {len(buffer)}; give one for "
+            raise DifferentialError(f"{names}: there are {len(given)} {what} for {len(buffer)} inputs; give one for "
                                     "each input, in this order")
         for place, item in enumerate(given):
             buffer[place] = item if isinstance(item, float) and isfinite(item) else number(self._inputs[place], item)

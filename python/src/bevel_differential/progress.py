@@ -1,4 +1,4 @@
-"""Progress of long work: a bar on the terminal, or lines for a program that shows it itself."""
+"""Progress of long work: a bar on the terminal, or lines for a program that displays the progress."""
 
 import sys
 from collections.abc import Iterator
@@ -11,7 +11,7 @@ from .answers import Progress
 
 @contextmanager
 def shown(how: str = "bar") -> Iterator[Progress]:
-    """A function that shows the part that is done, from 0 to 1, and what is being done."""
+    """Function that shows the completed fraction of the work, from 0 to 1, and a description of the current work."""
     if how == "lines":
         yield lambda done, what: print(f"progress {done:.4f} {what}", file=sys.stderr, flush=True)
         return
@@ -31,5 +31,5 @@ def silent(done: float, what: str) -> None:
 
 
 def part(progress: Progress, begin: float, end: float) -> Progress:
-    """The same for a part of the work, which goes from `begin` to `end` of the whole."""
+    """Progress of a part of the work that covers the fractions from `begin` to `end` of the whole."""
     return lambda done, what: progress(begin + done * (end - begin), what)

@@ -1,15 +1,15 @@
-"""Numbers and texts as people read them in pictures."""
+"""Numbers and texts for pictures."""
 
 import textwrap
 
 import numpy as np
 
-# units of the interface as they are printed
+# printed forms of units of the interface
 UNITS = {"N.m": "N·m", "m/s2": "m/s²"}
 
 
 def spaced(value):
-    """A large number in groups: 16 078."""
+    """Large number with grouped digits: 16 078."""
     return f"{value:,.0f}".replace(",", " ")
 
 
@@ -28,7 +28,7 @@ def time_scale(duration):
 
 
 def percent(error):
-    """A relative error in percent, short."""
+    """Short text of a relative error in percent."""
     value = 100.0 * error
     if not np.isfinite(value):
         return "–"
@@ -38,7 +38,7 @@ def percent(error):
 
 
 def with_unit(value, unit):
-    """A value with its unit, small ones in a smaller unit, and speeds [rad/s] in rpm."""
+    """Text of a value with its unit; small values have a smaller unit, and speeds in rad/s are shown in rpm."""
     if unit == 1.0:
         return f"{100.0 * value:.3g} %"
     if unit == "rad/s":
@@ -51,7 +51,7 @@ def with_unit(value, unit):
 
 
 def ratio(value):
-    """A ratio with two digits."""
+    """Text of a ratio with two digits."""
     return f"{value:.2g}" if value < 100.0 else spaced(float(f"{value:.2g}"))
 
 
@@ -59,13 +59,13 @@ def wrapped(text, width):
     return "\n".join(textwrap.wrap(text, width, break_on_hyphens=False))
 
 
-# groups of variables that name the quantity, not the body
+# groups of variables whose name is a quantity instead of a body
 QUANTITIES = ("safety", "heat", "stress", "damage", "power", "life")
 STATISTICS = {"peak_to_peak": "{}, peak to peak", "min": "least {}", "max": "largest {}"}
 
 
 def in_words(name):
-    """A variable, or a wanted figure of one, in words: "planet[1].left_force_max:mean" is "largest force, planet 1 left, mean"."""
+    """Name of a variable, or of a statistic of it, in words: "planet[1].left_force_max:mean" is "largest force, planet 1 left, mean"."""
     name, _, statistic = str(name).partition(":")
     group, _, last = name.rpartition(".")
     body = group.replace("[", " ").replace("]", "")

@@ -1,4 +1,4 @@
-"""Tables as files: CSV, comment lines with a #, then a header and rows; or Parquet."""
+"""Tables in files: CSV with comment lines that start with #, then a header and rows; or Parquet."""
 
 import csv
 from collections.abc import Iterable, Sequence
@@ -12,7 +12,7 @@ from .writing import whole
 
 
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
-    """Writes a file, by its ending as Parquet; numbers read back to the same bits."""
+    """Writes a file, as Parquet if its ending says so; numbers are read back to the same bits."""
     checked(file, "table")
     if is_parquet(file):
         pa = require("pyarrow", "sweep")
@@ -30,7 +30,7 @@ def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *c
 
 
 def read(path):
-    """Machine, which a comment of the measuring commands names, and rows; numbers as such."""
+    """Machine, from a comment of the measuring commands, and rows with numbers converted."""
     lines = path.read_text(encoding="utf-8").splitlines()
     machine = next((line.split(":", 1)[1].strip() for line in lines if line.startswith("# machine:")), "")
     rows = csv.DictReader(line for line in lines if not line.startswith("#"))

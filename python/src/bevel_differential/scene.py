@@ -1,4 +1,4 @@
-"""Scenes: what to set, what to feed in and what to record."""
+"""Scenes: settings, inputs over time, and outputs to record."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 
 class Scene(Runner):
-    """A scene, with the meaning that its TOML file has for the library itself: the same steps and the same bits.
+    """Scene with the same meaning as its TOML file has for the library: the same steps and the same bits.
 
-    `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], inputs and tunable parameters later.
-    `tables`: [(input, times, values, period or None)], straight from point to point. Without `input_slopes` values are held within
-    steps. All times in s or with a unit. Values are written as for `Differential`. `display_units`, such as ["rpm", "kN"]: units of
-    tables, pictures and files, in place of the usual ones."""
+    `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], later values of inputs and tunable
+    parameters. `tables`: [(input, times, values, period or None)], linear from point to point. Without `input_slopes`, values are held
+    within steps. All times are in s or with a unit. Values are written as for `Differential`. `display_units`, such as ["rpm", "kN"],
+    replace the usual units of tables, pictures and files."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
@@ -55,8 +55,8 @@ class Scene(Runner):
     @classmethod
     def load(cls, what: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None,
              display_units: Sequence[str] = ()) -> Self:
-        """The scene in the TOML file `what`, or the shipped one of that name; `stop`: another end, after which nothing changes any
-        more. All errors in a file are reported at once. `display_units`, and those of `fmu`, win over those of the file."""
+        """Reads the scene from the TOML file `what`, or the shipped scene of that name; `stop`: another end, after which nothing changes.
+        All errors in a file are reported together. `display_units`, and those of `fmu`, take precedence over those of the file."""
         given, fmu = read_scene(find(what), stop), Fmu.of(fmu)
         for preferred in (given.pop("display_units"), list(fmu.display_units.values()), display_units):
             fmu = fmu.displaying(preferred)
@@ -68,12 +68,12 @@ class Scene(Runner):
         return super().set(values, **keywords)
 
     def value(self, name: str) -> Number:
-        """A parameter, or an input at the start, in SI: the scene's own value, or else that of the FMU."""
+        """Value of a parameter, or of an input at the start, in SI: the scene's value, or else that of the FMU."""
         variable = self.fmu.variable(name)
         return self.values.get(variable.name, 0.0 if variable.start is None else variable.start)
 
     def check_settable(self, names: Iterable[str]) -> None:
-        """Refuses names of inputs that follow a table, as a value for them would change nothing."""
+        """Refuses names of inputs that follow a table, because a value for them would have no effect."""
         driven = {table.variable.name for table in self._signals.tables}
         for name in map(present, names):
             if name in driven:
@@ -89,43 +89,42 @@ class Scene(Runner):
 
     def run(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None,
             frame: bool = False) -> "np.ndarray | pandas.DataFrame":
-        """Simulates; `values` change parameters for this run, `stop` the end.
+        """Simulates; `values` change parameters for this run, `stop` changes the end.
 
-        Returns a structured array: field "time" (s), one of each output in SI; shape (points,). With `frame` it is a pandas
-        DataFrame, by time."""
+        Returns a structured array in SI, shape (points,), with a field "time" (s) and a field for each output. With `frame`, the result is
+        a pandas DataFrame, by time."""
         record = self._record(outputs, values, stop)
         warn(self.warnings)
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
-        """Values at the end, in as few steps as the scene allows: one, if no input follows a table."""
+        """Values at the end, in as few steps as the scene allows: one if no input follows a table."""
         found = self._final(outputs, values)
         warn(self.warnings)
         return found
 
     def says(self, values: Mapping[str, Value] | None = None) -> str:
-        """What the FMU says that it simulates at the start of the scene."""
+        """Description by the FMU of the model that it simulates at the start of the scene."""
         with self.fmu.open() as instance:
             instance.log(["logEvents"])
             self._initialise(instance, values)
             return " ".join(text for text in instance.events if not text.startswith(NOBODY_SET))
 
     def nobody_set(self, values: Mapping[str, Value] | None = None) -> str:
-        """The values that act in the scene and that nobody set, by effect, as the FMU lists them; empty if there are none."""
+        """Values that take effect in the scene and that nobody set, by effect, as the FMU lists them; empty if there are none."""
         with self.fmu.open() as instance:
             instance.log([*LOGGED, "logEvents"])
             self._initialise(instance, values)
             return instance.nobody_set
 
     def unfelt_of(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
-        """Variables whose values at the start change nothing in the scene, by name, with the FMU's words why."""
+        """Variables whose values at the start have no effect in the scene, by name, with the FMU's reason."""
         with self.fmu.open() as instance:
             self._initialise(instance, values)
             return instance.unfelt
 
     def summary(self, record: np.ndarray, display_units: Sequence[str] = ()) -> str:
-        """Least, mean over time, greatest and last value of each output of a record, in the units that are usually shown, or in
-        `display_units`."""
+        """Smallest value, mean over time, largest and last value of each output of a record, in the usual units or in `display_units`."""
         fmu = self.fmu.displaying(display_units)
         lines: list[tuple[str, ...]] = [("output", "unit", "min", "mean", "max", "end")]
         for name in _outputs(record):
@@ -135,8 +134,8 @@ class Scene(Runner):
         return "\n".join(aligned(lines))
 
     def to_csv(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
-        """Writes a record in SI, with the units in a comment; numbers read back to the same bits. With `display_units`, of this call
-        or of the scene, quantities of their dimensions have these units, and names of columns name units: "left.speed [rpm]"."""
+        """Writes a record in SI, with the units in a comment; numbers are read back to the same bits. With `display_units`, of this call or
+        of the scene, quantities of their dimensions have these units, and names of columns contain units: "left.speed [rpm]"."""
         head, units, columns = self.columns(record, display_units)
         return write(file, head, zip(*(column.tolist() for column in columns)), f"scene {self.name}: {self.description}",
                      f"units: {','.join(units)}")
@@ -150,12 +149,12 @@ class Scene(Runner):
             units.append(unit or "1")
             columns.append(values)
         names = record.dtype.names or ()
-        # columns of SI keep their plain names
+        # columns in SI keep their plain names
         head = list(names) if not fmu.display_units else [name if unit == "1" else f"{name} [{unit}]" for name, unit in zip(names, units)]
         return head, units, columns
 
     def to_parquet(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
-        """Writes a record as Parquet, in the units of `to_csv`; fields name their units."""
+        """Writes a record as Parquet, in the units of `to_csv`; the fields contain their units."""
         checked(file, "Parquet file")
         pa = require("pyarrow", "sweep")
         head, units, columns = self.columns(record, display_units)
@@ -171,7 +170,7 @@ class Scene(Runner):
         return plot(self.fmu.displaying(display_units), record, self.name, self.description, file)
 
     def contents(self, values: Mapping[str, Value] | None = None) -> dict[str, Any]:
-        """The contents of a scene file with the same meaning; `values` at the start instead of the scene's own."""
+        """Contents of a scene file with the same meaning; `values` at the start replace those of the scene."""
         def plain(values):
             return {name: self.fmu.variable(name).written(value) for name, value in values.items()}
 
@@ -193,7 +192,7 @@ class Scene(Runner):
         Scene.__init__(self, **state)
 
     def _record(self, outputs=None, values=None, stop=None, step=None):
-        """`run` without Python warnings; by steps of `step` in place of the scene's, s."""
+        """`run` without Python warnings; `step`, s, replaces the scene's step."""
         self.check_settable(values or ())
         stop = self.stop if stop is None else duration("stop", stop)
         return self._simulate(self._signals.steps(stop, step or self.step), self._signals, self._named(outputs), values)
@@ -237,5 +236,5 @@ class Scene(Runner):
 
 
 def _outputs(record: np.ndarray) -> tuple[str, ...]:
-    """What a record holds beside the time."""
+    """Names of the outputs in a record."""
     return (record.dtype.names or ())[1:]

@@ -1,4 +1,4 @@
-"""Scenes from TOML files, as the library of answers reads them; and TOML files of commands."""
+"""Scenes from TOML files, read by the library of answers, and TOML files of commands."""
 
 import tomllib
 from collections.abc import Mapping, Set
@@ -16,7 +16,7 @@ def shipped_scenes() -> list[str]:
 
 
 def find(what: FileName) -> Path:
-    """The file `what`, or that of the shipped scene of this name."""
+    """Path of the file `what`, or of the shipped scene of this name."""
     for file in (Path(what), scenes() / f"{what}.toml"):
         if file.is_file():
             return file
@@ -26,13 +26,13 @@ def find(what: FileName) -> Path:
 
 
 def find_beside(file: Path, what: str) -> Path:
-    """The scene file `what` that a file names: beside it, or as `find` finds it."""
+    """Path of the scene file `what` that `file` names: next to `file`, or from `find`."""
     near = file.parent / what
     return near if near.is_file() else find(what)
 
 
 def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
-    """The arguments of `Scene` in a file, with another end if `stop` is given. All errors are reported together."""
+    """Arguments of `Scene` in a file; `stop` replaces its end. All errors are reported together."""
     found = ask({"ask": "scene", "of": about(file, {} if stop is None else {"stop_time": stop})})
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
@@ -41,17 +41,17 @@ def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
 
 
 def read_toml(file: Path) -> dict[str, Any]:
-    """What a TOML file holds."""
+    """Contents of a TOML file."""
     try:
         return tomllib.loads(file.read_text(encoding="utf-8"))
     except UnicodeDecodeError:
-        raise DifferentialError(f"{file}: it is no text in UTF-8; name a TOML file") from None
+        raise DifferentialError(f"{file}: it is not a text in UTF-8; name a TOML file") from None
     except (OSError, tomllib.TOMLDecodeError) as error:
         raise DifferentialError(f"{file}: {error}") from None
 
 
 def flat(table: Mapping[str, Any], prefix: str = "", ends: Set[str] = frozenset()) -> dict[str, Any]:
-    """Values by their dotted names, those of variables by the present ones. A table with one of the keys `ends` is a value."""
+    """Values by dotted names; variables have their present names. A table with one of the keys `ends` is a value."""
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"

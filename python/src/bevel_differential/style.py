@@ -1,7 +1,7 @@
-"""One style for all pictures of the project: colours, fonts, widths, caption and file.
+"""Common style of all pictures of the project: colours, fonts, widths, caption and file.
 
-`apply` makes it that of the process, `styled` that of a block. Units are written the same everywhere: N·m, rpm, N/mm; a
-label is "quantity, unit". Every picture ends with a caption that says what to see.
+`apply` sets it for the process, `styled` for a block. Units are written in one way: N·m, rpm, N/mm; a label is
+"quantity, unit". Every picture ends with a caption that describes it.
 """
 
 import io
@@ -22,16 +22,16 @@ from .writing import write_whole
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
 PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
-# black of theory, text, and text of less weight
+# black for theory, text, and secondary text
 INK, TEXT, FAINT = "#111111", "#333333", "#666666"
-# in the order in which curves take them
+# colours of successive curves
 CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d98cb3"]
 MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
-# width of a picture, inches: the same for all, so that letters are the same size on a page
+# width of a picture, inches: one width for all, so that letters have one size on a page
 WIDTH = 13.0
 DPI = 130
 COLOURS = 256
-# caption: characters per inch of width, height of a line in inches, at its font size
+# caption: characters per inch of width, height of a line in inches, font size
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
 SMALL = 10
 
@@ -44,29 +44,29 @@ STYLE = {
 
 
 def apply() -> None:
-    """Makes it the style of the process, which draws into files."""
+    """Sets the style for the process, which draws into files."""
     matplotlib.use("Agg")
     matplotlib.rcParams.update(STYLE)
 
 
 def styled():
-    """The style, for pictures made within the block."""
+    """Context with the style, for pictures that are created in it."""
     return matplotlib.rc_context(STYLE)
 
 
 def figure(height):
-    """An empty picture of the common width; panels arrange themselves."""
+    """Empty picture of the common width; panels are arranged automatically."""
     return Figure(figsize=(WIDTH, height), layout="constrained")
 
 
 def panels(rows, columns, height, **options):
-    """A picture of the common width with its panels, as `Figure.subplots` returns them."""
+    """Picture of the common width with its panels, as `Figure.subplots` returns them."""
     picture = figure(height)
     return picture, picture.subplots(rows, columns, **options)
 
 
 def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
-    """Adds a caption in lines under the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
+    """Adds a caption in lines below the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
     # a number and its unit stay on one line
     text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", text)
     lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
@@ -93,15 +93,15 @@ def in_rpm(axes):
 
 
 def note(axes, x, y, text, **options):
-    """A remark at a place in shares of the panel, right-aligned."""
+    """Adds a remark, right-aligned at a position in fractions of the panel."""
     axes.text(x, y, text, transform=axes.transAxes, **{"ha": "right", "va": "center", "color": TEXT, **options})
 
 
 def save(picture, path, shaded=False):
-    """Writes the file. Lines and letters need few colours: a table of them makes a third of the file;
-    `shaded` surfaces keep all."""
+    """Writes the file. Lines and letters need few colours, so a colour table reduces the file to a third. Pictures with `shaded` surfaces
+    keep all colours."""
     checked(path, "picture")
-    # a full disk would leave libraries in the middle of their own files
+    # drawn in memory, because on a full disk libraries would leave incomplete files
     drawn, kind = io.BytesIO(), Path(path).suffix.lower().removeprefix(".")
     try:
         picture.savefig(drawn, format=kind)

@@ -1,4 +1,4 @@
-"""Values as a user writes them, and as the FMU takes them."""
+"""Values in the form that users write, and in the form of the FMU."""
 
 import copy
 import math
@@ -14,12 +14,12 @@ from .library import reply
 if TYPE_CHECKING:
     from fmpy.model_description import ScalarVariable, Unit
 
-# a value as the FMU takes it: SI, number of a literal, bool
+# value in the form of the FMU: SI, number of a literal, bool
 Number: TypeAlias = float | int | bool
-# as a user writes it: SI, text with a unit or a literal's name, or a pair (number, unit), without a unit SI
+# value in the form that users write: SI, text with a unit or a literal's name, or a pair (number, unit), in SI without a unit
 Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
 FileName: TypeAlias = str | os.PathLike[str]
-# statuses from here on are errors: fmi2Discard, fmi2Error, fmi2Fatal
+# statuses from this one on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 
 _Shown = TypeVar("_Shown", float, np.ndarray)
@@ -28,9 +28,9 @@ _Shown = TypeVar("_Shown", float, np.ndarray)
 _KINDS = {"Float64": "Real", "Int32": "Integer", "UInt64": "Integer"}
 _NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
 
-# between the middle of a band and its half
+# separator between the middle of a band and its half width
 BAND = re.compile(r"\+-|\+/-|±")
-# other ways to write units
+# alternative spellings of units
 _SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m", "1/min": "rpm"}
 
 
@@ -42,18 +42,17 @@ def spelled(unit: str) -> str:
 
 
 def split(text: str) -> tuple[str, str]:
-    """Number and unit of a text, with or without a blank between; a text that begins with no number is all number."""
+    """Number and unit of a text, with or without a blank between. If the text does not begin with a number, all of it is the number."""
     match = _NUMBER_AND_UNIT.match(text)
     return (match[1], match[2] or "") if match else (text.strip(), "")
 
 
 class DifferentialError(ValueError):
-    """A parameter, input or output that cannot be, or a simulation that fails. The message says which, why and what to do.
+    """Error of an invalid parameter, input or output, or of a failed simulation. The message names the item, the reason and a remedy.
 
-    `status`: what the FMU returned if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None. `kind`: "use" if a
-    value is wrong or the request makes no sense, "failed" if the work fails on its way, "finding" if the work is done and its result
-    is not what was wanted. `problems`: what is wrong as dicts, each with a `message` and, where they are known, `variable`, `value`,
-    `unit`, `range` and `hint`."""
+    `status`: status of the FMU if it refused: 2 (fmi2Discard), 3 (fmi2Error) or 4 (fmi2Fatal); else None. `kind`: "use" if a value is
+    wrong or the request makes no sense, "failed" if the work fails, "finding" if the work is done and its result is not as wanted.
+    `problems`: dicts, each with a `message` and, if known, `variable`, `value`, `unit`, `range` and `hint`."""
 
     def __init__(self, message: str, status: int | None = None, kind: str = "use", problems: Sequence[Mapping[str, object]] = ()):
         super().__init__(message)
@@ -61,15 +60,15 @@ class DifferentialError(ValueError):
 
 
 class DifferentialWarning(UserWarning):
-    """A warning of the FMU: an unusual value, a limit that is exceeded, or a value that changes nothing in its scene."""
+    """Warning of the FMU about an unusual value, an exceeded limit, or a value that has no effect in its scene."""
 
 
 class Variable:
-    """A variable of the FMU, with its units and literals.
+    """Variable of the FMU, with its units and literals.
 
-    Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`,
-    `unit` (SI) and `description`; `start`, `minimum` and `maximum`, as the FMU takes them, or None; `literals`, numbers by
-    name; `is_relative`, True if its values are differences, which are converted without the offset of a unit."""
+    Attributes: `name`, `kind` ("Real", "Integer", "Boolean" or "Enumeration"), `causality`, `variability`, `reference`, `unit` (SI) and
+    `description`; `start`, `minimum` and `maximum`, in the form of the FMU, or None; `literals`, numbers by name; `is_relative`, true if
+    its values are differences, which are converted without the offset of a unit."""
 
     name: str
     kind: str
@@ -98,7 +97,7 @@ class Variable:
         self.unit = described.unit or (declared.unit if declared is not None else None)
         self.literals = {item.name: int(item.value) for item in getattr(declared, "items", None) or []}
         self._usual = getattr(declared, "displayUnit", None) or described.displayUnit
-        # fmpy reads the attribute of a variable as a truth or None, and that of its type as a truth or, in older versions, as text
+        # fmpy reads this attribute of a variable as a bool or None, and that of a type as a bool or, in older versions, as text
         self.is_relative = any(getattr(each, "relativeQuantity", None) in (True, "true", "1") for each in (described, declared))
         shown = units.get(self.unit) if self.unit else None
         # a value in SI is (value in the shown unit - offset) / factor
@@ -109,7 +108,7 @@ class Variable:
         self.start, self.minimum, self.maximum = map(self._declared, (described.start, described.min, described.max))
 
     def number(self, value: Value) -> Number:
-        """`value` as the FMU takes it: SI, number of a literal, bool.
+        """`value` in the form of the FMU: SI, number of a literal, bool.
 
         `value` may be a number, a pair (number, unit), text such as "4.5 mm", or a literal's name."""
         if self.kind == "Boolean":
@@ -123,16 +122,16 @@ class Variable:
         return self._whole(self._float(value, value))
 
     def checked(self, value: Value) -> Number:
-        """`value` as the FMU takes it. A value with a unit must be within the range, as the FMU's own message guesses at the unit that
-        was meant."""
+        """`value` in the form of the FMU. A value with a unit must be within the range, because the message of the FMU would guess the
+        intended unit."""
         number = self.number(value)
         if self.has_unit(value):
             self.check_range(number, value)
         return number
 
     def differences(self) -> Self:
-        """A variable for differences between values of this one: without the offsets of units, and without a range. They are
-        shown in SI if the usual unit has an offset: 5 K between two temperatures in degC."""
+        """Variable for differences between values of this one, without the offsets of units and without a range. Differences are shown
+        in SI if the usual unit has an offset: 5 K between two temperatures in degC."""
         found = copy.copy(self)
         found.is_relative, found.start, found.minimum, found.maximum = True, None, None, None
         found.units = {name: (factor, 0.0) for name, (factor, _) in self.units.items()}
@@ -141,30 +140,31 @@ class Variable:
         return found
 
     def written(self, value: Value) -> Number | str:
-        """`value` as scene files have it: SI, bool, or a literal's name."""
+        """`value` in the form of scene files: SI, bool, or a literal's name."""
         number = self.number(value)
         return next((name for name, literal in self.literals.items() if literal == number), number)
 
     def numbers(self, parts: Sequence[str], written: str) -> tuple[Number, ...]:
-        """Values of the texts in a list, range, distribution or band, `written` as a whole. The second number of a normal distribution
-        and of a band is a difference. A unit that only some of them have is an error: in "4..5 mm" the first number would be 4 m."""
+        """Values of the texts in a list, range, distribution or band, which is `written` as a whole. The second number of a normal
+        distribution and of a band is a difference. If only some of the numbers have a unit, this is an error: in "4..5 mm" the first number
+        would be 4 m."""
         matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
         bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
         if bare and any(match and match[2] for match in matches):
-            raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit and others have one; write it at each "
+            raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit, but others have one; write it at each "
                                     "number")
         second = self.differences() if written.startswith("normal(") or BAND.search(written) else self
         return tuple((second if place == 1 else self).number(part) for place, part in enumerate(parts))
 
     def has_unit(self, value: Value) -> bool:
-        """Whether `value` is written with its unit."""
+        """True if `value` is written with its unit."""
         if self.kind != "Real":
             return False
         match = _NUMBER_AND_UNIT.match(value) if isinstance(value, str) else None
         return bool(match and match[2]) or (isinstance(value, tuple) and value[1] is not None)
 
     def check_range(self, number: Number, written: Value) -> None:
-        """Refuses an SI number outside the range of the model description, in the unit in which values are usually shown."""
+        """Refuses an SI number outside the range of the model description; the message shows values in the usual unit."""
         low, high = self.minimum, self.maximum
         if (low is None or number >= low) and (high is None or number <= high):
             return
@@ -173,26 +173,26 @@ class Variable:
         raise DifferentialError(f"{self.name}: {text} is outside [{ends[0]:.6g}, {ends[1]:.6g}] {unit}".rstrip())
 
     def shown_in(self, unit: str | None) -> Self:
-        """This variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset:
-        5 K, not 5 degC."""
+        """Copy of this variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset: 5 K,
+        not 5 degC."""
         found = copy.copy(self)
         if unit is not None and not (self.is_relative and unit in self._with_offset):
             found._usual = unit
         return found
 
     def shown(self, values: _Shown) -> tuple[str, _Shown]:
-        """Unit in which the variable is usually shown, and SI `values` in it."""
+        """Usual unit of the variable, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
         return ("" if name == "1" else name), values * factor + offset
 
     def in_files(self, values: _Shown, preferred: Mapping[str, str]) -> tuple[str, _Shown]:
-        """Unit in files, and SI `values` in it: SI, unless another unit of its dimension is `preferred`, by SI unit."""
+        """Unit in files, and SI `values` in it: SI, unless `preferred` has another unit of its dimension, by SI unit."""
         return self.shown(values) if (self.unit or "") in preferred else (self.unit or "", values)
 
     def column(self, name: str, values: Iterable[Any], preferred: Mapping[str, str]) -> tuple[str, list[Any]]:
-        """Head and cells of a column of SI `values`. With `preferred` units the head names the unit, as in "left.speed:mean [rpm]"; empty
-        cells stay empty."""
+        """Head and cells of a column of SI `values`. With `preferred` units, the head contains the unit, as in "left.speed:mean [rpm]".
+        Empty cells stay empty."""
         if not preferred or self.kind != "Real":
             return name, list(values)
         unit, _ = self.in_files(0.0, preferred)
@@ -254,7 +254,7 @@ class Variable:
         return int(number)
 
     def _declared(self, text):
-        """A value in the model description, as the FMU takes it."""
+        """Value from the model description, in the form of the FMU."""
         if text is None:
             return None
         return {"Real": float, "Boolean": "true".__eq__}.get(self.kind, int)(text)
@@ -264,19 +264,19 @@ class Variable:
 
 
 class Variables(Protocol):
-    """What finds a variable by its name: an `Fmu`, or a catalogue that knows more than its variables."""
+    """Look-up of variables by name: an `Fmu`, or a catalogue with more than its variables."""
 
     def variable(self, name: str) -> Variable:
-        """The variable `name`. Raises `DifferentialError` if there is none."""
+        """Variable `name`. Raises `DifferentialError` for an unknown name."""
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
-    """" (did you mean …?)", or nothing."""
+    """Text " (did you mean …?)", or nothing."""
     return _near(word, known)[0]
 
 
 def variable_suggestion(name: str, known: Iterable[str]) -> str:
-    """Suggestion for the name of a variable. If no name is near, it says how to find one."""
+    """Suggestion for the name of a variable. If no name is similar, it explains how to find one."""
     near, find = _near(name, known)
     return near or find
 
@@ -286,7 +286,7 @@ def _near(word, known):
     try:
         found = reply({"ask": "near", "word": word, "known": list(known)})["answer"]
     except OSError:
-        # the message is right without a suggestion
+        # the message is valid without a suggestion
         return "", ""
     near = f" (did you mean {' or '.join(found['near'])}?)" if found["near"] else ""
     return found["removed"] or near, f"; {found['find']}"

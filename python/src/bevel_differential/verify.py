@@ -53,7 +53,7 @@ class Deviation:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Verdict on a scene: "passed", "failed", or "broken" if `problem` says why nothing could be compared."""
+    """Verdict on a scene: "passed", "failed", or "broken" if nothing could be compared for the reason `problem`."""
 
     scene: str
     deviations: tuple[Deviation, ...] = ()
@@ -66,7 +66,7 @@ class Verdict:
 
     @property
     def verdict(self) -> str:
-        """The verdict in one word."""
+        """Verdict in one word."""
         return "broken" if self.worst is None else "passed" if self.worst.ratio <= 1.0 else "failed"
 
 
@@ -88,7 +88,7 @@ class Evidence:
         try:
             related = list(etree.parse(self.folder / MANIFEST).iter("Related"))
         except etree.XMLSyntaxError as error:
-            raise DifferentialError(f"{file}, {MANIFEST}: it is no valid XML ({error})") from None
+            raise DifferentialError(f"{file}, {MANIFEST}: it is not valid XML ({error})") from None
         self._files = {(each.get("role"), Path(each.get("source", "")).stem): each.get("source", "") for each in related}
         self.scenes = [name for role, name in self._files if role == "result"]
         if not self.scenes:
@@ -99,7 +99,7 @@ class Evidence:
         return start_values(self.fmu, *self._file("parameter", scene))
 
     def inputs(self, scene: str) -> np.ndarray | None:
-        """Inputs of a scene over time, None if they keep their start values."""
+        """Inputs of a scene over time; None if they keep their start values."""
         return table(self.fmu, *self._file("testcase", scene)) if ("testcase", scene) in self._files else None
 
     def result(self, scene: str) -> np.ndarray:
@@ -129,7 +129,7 @@ class Evidence:
         return allowed
 
     def _file(self, role, name):
-        """The file with a role that has the name of a scene, or another name, and its path for messages."""
+        """File with a role and a name, such as that of a scene, and its path for messages."""
         source = self._files.get((role, name))
         if source is None:
             raise DifferentialError(f"{MANIFEST}: it lists no file of {name} with the role {role}")
@@ -139,7 +139,7 @@ class Evidence:
 
 
 def _at(place, read, text):
-    """`read(text)`; its error names the place."""
+    """Returns `read(text)`; errors name the place."""
     try:
         return read(text)
     except DifferentialError as error:
@@ -151,7 +151,7 @@ def start_values(fmu: Fmu, file: Path, shown: str) -> dict[str, Number]:
     try:
         root = etree.parse(file).getroot()
     except etree.XMLSyntaxError as error:
-        raise DifferentialError(f"{shown}: it is no valid XML ({error})") from None
+        raise DifferentialError(f"{shown}: it is not valid XML ({error})") from None
     own = {(kind.get("name"), item.get("name")): int(item.get("value")) for kind in root.iter("{*}Enumeration") for item in kind}
     values = {}
     for parameter in root.iter("{*}Parameter"):
@@ -171,7 +171,7 @@ def table(fmu: Fmu, file: Path, shown: str) -> np.ndarray:
     if head[0] != "time":
         raise DifferentialError(f"{place}: the first column is {head[0]!r}; it must be time")
     if twice := [name for name in head if head.count(name) > 1]:
-        raise DifferentialError(f"{place}: the column {twice[0]} is there twice")
+        raise DifferentialError(f"{place}: the column {twice[0]} appears twice")
     variables = [Time("time"), *(_at(place, fmu.variable, name) for name in head[1:])]
     values = [tuple(_at(f"{shown}, line {line}", variable.number, cell) for variable, cell in zip(variables, cells)) for line, cells in rows]
     found = np.array(values, [(name, float) for name in head])
@@ -183,22 +183,22 @@ def table(fmu: Fmu, file: Path, shown: str) -> np.ndarray:
 
 def record(fmu: Fmu, start: dict[str, Any], inputs: np.ndarray | None, stop: float, step: float, outputs: list[str],
            warnings: list[str]) -> np.ndarray:
-    """Record of a co-simulation with fmpy; `warnings` takes the warnings of the unit."""
+    """Record of a co-simulation with fmpy; warnings of the unit are added to `warnings`."""
     said: list[str] = []
 
     def log(*words):
-        # both versions of FMI end with status, category and message; status 1 is a warning, 0 an event
+        # in both versions of FMI, the last arguments are status, category and message; status 1 is a warning, 0 an event
         if words[-3] != 0:
             text = words[-1]
             (warnings if words[-3] == 1 else said).append(text.decode("utf-8", "replace") if isinstance(text, bytes) else text)
 
     try:
-        # fmpy prints inputs that have no signal
+        # fmpy prints the names of inputs without a signal
         with redirect_stdout(io.StringIO()):
             return simulate_fmu(fmu.folder, model_description=fmu.description, start_values=start, stop_time=stop, output_interval=step,
                                 input=inputs, output=outputs, logger=log, debug_logging=True)
     except Exception as error:  # noqa: BLE001 - fmpy raises plain exceptions
-        # the log has the reason for a failure, fmpy only the name of the call
+        # the log contains the reason for a failure, fmpy reports only the name of the call
         why = said if said and isinstance(error, FMICallException) else [*said, str(error)]
         raise DifferentialError(f"the unit fails: {' '.join('; '.join(map(without_calls, why)).split())}") from None
 
@@ -206,7 +206,7 @@ def record(fmu: Fmu, start: dict[str, Any], inputs: np.ndarray | None, stop: flo
 def verify(file: FileName, progress: Progress = silent) -> list[Verdict]:
     """Simulates the scenes of an FMU's evidence and returns a verdict on each.
 
-    Raises `DifferentialError` if the file is no FMU of this model or has no evidence."""
+    Raises `DifferentialError` if the file is not an FMU of this model or has no evidence."""
     evidence, found = Evidence(file), []
     warnings: dict[str, list[str]] = {name: [] for name in evidence.scenes}
     for number, name in enumerate(evidence.scenes):

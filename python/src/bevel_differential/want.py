@@ -1,5 +1,5 @@
-"""What is wanted of a run, by which figure of a series over time, and what must hold. Figures are those of `accuracy`, from the
-same library."""
+"""Wanted results of a run: statistics of outputs over time, and conditions on them. The command `accuracy` uses the same statistics,
+from the same library."""
 
 import operator
 import re
@@ -15,18 +15,19 @@ from .points import seconds
 from .values import DifferentialError, Variable, Variables
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
-# periods of an order need so many radians between two points at most
+# largest phase between two points of an order, rad
 COARSEST = 0.5 * np.pi
-# what orders are counted by
+# angles that count orders
 ANGLES = {"mesh": "planet[1].spin_angle", "shaft": "carrier.angle"}
 
 
 @dataclass(frozen=True)
 class Statistic:
-    """A figure of a series.
+    """Statistic of a series.
 
     `word`: mean, rms, min, max, peak_to_peak, final, time_of_peak, or an order: "mesh_order_2" is the amplitude of two periods per
-    pitch of planet 1, "shaft_order_1" that of one period per turn of the carrier. `angle`: the output by which an order is counted."""
+    pitch of planet 1, "shaft_order_1" is that of one period per turn of the carrier. `angle`: the output that counts the periods of an
+    order."""
 
     word: str
     angle: str | None = None
@@ -34,24 +35,24 @@ class Statistic:
     @staticmethod
     @cache
     def parse(text: str) -> "Statistic":
-        """The statistic that a word names."""
+        """Statistic by its word."""
         found = ask({"ask": "word", "statistic": text})
         return Statistic(found["word"], ANGLES.get(found["angle"]))
 
     @property
     def is_difference(self) -> bool:
-        """True if the figure is a difference between values, so that no unit has an offset."""
+        """True if the figure is a difference between values, which is converted without the offset of a unit."""
         return self.word == "peak_to_peak" or self.angle is not None
 
     def of(self, times: np.ndarray, values: np.ndarray, phase: np.ndarray | None = None) -> float:
-        """The figure of `values` at `times` (s), shape (points,); `phase` (rad, 2π a period of order 1) for orders."""
+        """Figure of `values` at `times` (s), shape (points,); `phase` (rad, 2π for a period of order 1) for orders."""
         if self.angle is not None and phase is None:
-            raise DifferentialError(f"{self.word}: an order needs the angle that it is counted by")
+            raise DifferentialError(f"{self.word}: an order needs the angle that counts its periods")
         return figures([self.word], times, values, phase)[0]
 
 
 def figures(words: Sequence[str], times: np.ndarray, values: np.ndarray, phase: np.ndarray | None = None) -> list[float]:
-    """The figures of a series that words name; `phase` (rad) for orders."""
+    """Figures of a series by the words of their statistics; `phase` (rad) for orders."""
     series = [times, values] if phase is None else [times, values, phase]
     asked = [{"statistic": word, "series": 0, "phase": None if phase is None else 1} for word in words]
     return ask({"ask": "statistics", "points": len(times), "figures": asked}, np.array(series, float))["figures"]
@@ -59,14 +60,14 @@ def figures(words: Sequence[str], times: np.ndarray, values: np.ndarray, phase: 
 
 @dataclass(frozen=True)
 class Want:
-    """An output by a statistic."""
+    """Statistic of an output."""
 
     name: str
     statistic: Statistic
 
     @classmethod
     def parse(cls, fmu: Variables, text: str) -> "Want":
-        """Of "OUTPUT:STATISTIC"; without a statistic it is the final value."""
+        """Reads "OUTPUT:STATISTIC"; the default statistic is the final value."""
         name, _, word = text.strip().partition(":")
         variable = fmu.variable(name.strip())
         if variable.causality == "input":
@@ -77,18 +78,18 @@ class Want:
         return f"{self.name}:{self.statistic.word}"
 
     def unit(self, fmu: Variables) -> str:
-        """SI unit of the figure; "1" where it has none."""
+        """SI unit of the figure; "1" if it has none."""
         return self.quantity(fmu).unit or "1"
 
     def quantity(self, fmu: Variables) -> Variable:
-        """The variable of the figure, which reads a number with its unit and shows one."""
+        """Variable that represents the figure: it reads numbers with a unit, and shows the figure."""
         if self.statistic.word == "time_of_peak":
             return Time("time")
         variable = fmu.variable(self.name)
         return variable.differences() if self.statistic.is_difference else variable
 
     def of(self, record: np.ndarray, planet_teeth: int) -> float:
-        """The figure of a record (structured array with this output and, for orders, the angle that they are counted by)."""
+        """Figure of a record, a structured array with this output and, for orders, the angle that counts their periods."""
         angle = self.statistic.angle
         # a pitch of the planet is a period of the mesh
         teeth = planet_teeth if angle == "planet[1].spin_angle" else 1
@@ -98,7 +99,7 @@ class Want:
 
 @dataclass(frozen=True)
 class Condition:
-    """A bound of a wanted figure, in SI: "safety.root_min >= 1.2", "left.speed:max < 30 rad/s"."""
+    """Limit of a wanted figure, in SI: "safety.root_min >= 1.2", "left.speed:max < 30 rad/s"."""
 
     want: Want
     relation: str
@@ -106,7 +107,7 @@ class Condition:
 
     @classmethod
     def parse(cls, fmu: Variables, text: str) -> "Condition":
-        """Of "OUTPUT:STATISTIC RELATION LIMIT", the limit with or without a unit."""
+        """Reads "OUTPUT:STATISTIC RELATION LIMIT"; the limit may have a unit."""
         parts = re.split(r"(<=|>=|<|>)", text, maxsplit=1)
         if len(parts) != 3:
             raise DifferentialError(f"condition {text!r}: write it as \"safety.root_min >= 1.2\", with one of "
@@ -121,10 +122,10 @@ class Condition:
         return f"{self.want} {self.relation} {self.limit:g}"
 
     def holds(self, figure: float) -> bool:
-        """Whether it holds for a figure, SI."""
+        """True if a figure, SI, meets the condition."""
         return bool(RELATIONS[self.relation](figure, self.limit))
 
     def excess(self, figure: float) -> float:
-        """By how much a figure breaks it, relative to the limit; negative where it holds."""
+        """Excess of a figure over the limit, relative to the limit; negative if the condition is met."""
         scale = abs(self.limit) or 1.0
         return (figure - self.limit) / scale * (1.0 if self.relation.startswith("<") else -1.0)

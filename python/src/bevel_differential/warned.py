@@ -1,6 +1,6 @@
-"""Warnings of the FMU on their way to the user: the one place for the package and its command.
+"""Warnings of the FMU for the user, in one place for the package and its command.
 
-In Python, each is a warning of the class `DifferentialWarning` about the line that called the package. The command prints each text
+In Python, each is a warning of the class `DifferentialWarning` with the line that called the package. The command prints each text
 once, to standard error."""
 
 import sys
@@ -23,8 +23,8 @@ def warn(texts: Iterable[str]) -> None:
 
 
 def by_owner(warnings: Iterable[tuple[str, Iterable[str]]], kind: str) -> list[str]:
-    """Each text once, with the name of what it is about, or with the number of these. `warnings`: pairs (name, texts); `kind`: the
-    plural of what has the names."""
+    """Each text once, with the name of its owner, or with the number of its owners. `warnings`: pairs (name, texts); `kind`: plural noun
+    for the owners."""
     owners: dict[str, list[str]] = {}
     for name, texts in warnings:
         for text in dict.fromkeys(texts):
@@ -52,7 +52,7 @@ def printed() -> Iterator[None]:
 
 @contextmanager
 def silenced() -> Iterator[None]:
-    """Passes on nothing, for trials with values that the user did not set."""
+    """Suppresses warnings, for trials with values that the user did not set."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DifferentialWarning)
         yield

@@ -1,8 +1,8 @@
-"""All writing of files. A file gets its name when it is complete. A full disk, Ctrl-C, a crash or another command at the same time
+"""Writing of all files. A file gets its name when it is complete. A full disk, Ctrl-C, a crash or another command at the same time
 therefore leaves the old file, the new one or none.
 
-Until then, the file is `.NAME.xxxxxxxx.part` in the same folder. Only a process that is killed leaves one behind. Nothing removes it, as
-another process may still write it; it can be deleted."""
+Until then, the file is `.NAME.xxxxxxxx.part` in the same folder. Such a file remains only if the process is killed. It is not removed
+automatically, because another process may still write it; users can delete it."""
 
 import errno
 import os
@@ -23,7 +23,7 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-# characters of a name that a temporary name repeats: names have at most 255 bytes
+# number of characters of a name in its temporary name: names have at most 255 bytes
 KEPT = 50
 # time between two checks of a lock of another process, s
 PAUSE = 0.1
@@ -83,9 +83,9 @@ def try_whole(file: FileName) -> None:
 
 @contextmanager
 def in_folder(folder: FileName) -> Iterator[Path]:
-    """A temporary folder whose files become files of `folder` if the block ends without an exception: all of them or none.
+    """Temporary folder whose files become files of `folder` if the block ends without an exception: all of them or none.
 
-    `folder` is made if it does not exist. Raises `OutputError`. If a file cannot be renamed when others have been, the error names these."""
+    `folder` is created if necessary. Raises `OutputError`. If some files cannot be renamed, the error names those that were renamed."""
     folder = Path(folder)
     stage = folder / f".{secrets.token_hex(4)}.part"
     renamed: list[Path] = []
@@ -107,7 +107,7 @@ def in_folder(folder: FileName) -> Iterator[Path]:
 
 
 def write_whole(file: FileName, content: str | bytes) -> None:
-    """Writes a file whole or not at all. Raises `OutputError`."""
+    """Writes a file completely or not at all. Raises `OutputError`."""
     with whole(file) as part:
         if isinstance(content, bytes):
             part.write_bytes(content)
@@ -117,9 +117,9 @@ def write_whole(file: FileName, content: str | bytes) -> None:
 
 @contextmanager
 def locked(file: FileName) -> Iterator[None]:
-    """Lets one process at a time work on results in `file` or in this folder: others wait before the block, and warn that they do.
+    """Lets one process at a time work on results in `file` or in this folder. Others wait before the block, with a warning.
 
-    The lock is that of the file `.NAME.lock` beside it, which ends with its process."""
+    The lock is on the file `.NAME.lock` next to it, and ends with its process."""
     final = Path(file).resolve()
     lock = final.with_name(f".{final.name[:KEPT]}.lock")
     with _made(lock.parent):
@@ -139,7 +139,7 @@ def locked(file: FileName) -> Iterator[None]:
 
 
 def _opened(lock):
-    """The file, locked; None while another process has the lock."""
+    """Descriptor of the locked file; None while another process has the lock."""
     opened = os.open(lock, os.O_RDWR | os.O_CREAT, 0o666)
     try:
         if sys.platform == "win32":
@@ -147,11 +147,11 @@ def _opened(lock):
         else:
             fcntl.flock(opened, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError as error:
-        # a file system without locks has none to wait for
+        # on a file system without locks, continue without one
         if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
             os.close(opened)
             return None
-    # the process that had the lock has removed its file
+    # the last owner of the lock may have removed its file
     with suppress(FileNotFoundError):
         if os.path.samestat(os.fstat(opened), lock.stat()):
             return opened
@@ -160,12 +160,12 @@ def _opened(lock):
 
 
 def _rename_all(stage, folder, renamed):
-    """Gives the files of `stage` their names in `folder`; `renamed` gets those that have them."""
+    """Gives the files of `stage` their names in `folder`; renamed files are added to `renamed`."""
     def note(file):
         return lambda kind, *_: None if kind else renamed.append(file)
 
     with ExitStack() as opened:
-        # what is opened last is renamed first
+        # the contexts end in reverse order, so the last file is renamed first
         for file in sorted((file for file in stage.rglob("*") if file.is_file()), reverse=True):
             final = folder / file.relative_to(stage)
             opened.enter_context(_made(final.parent))
@@ -175,7 +175,7 @@ def _rename_all(stage, folder, renamed):
 
 @contextmanager
 def _made(folder):
-    """Makes `folder` with its parents. Those that are empty at the end of the block go again."""
+    """Creates `folder` with its parents. Those that are empty at the end of the block are removed."""
     new = [each for each in (folder, *folder.parents) if not each.exists()]
     try:
         with _named(folder):
@@ -189,13 +189,13 @@ def _made(folder):
 
 @contextmanager
 def _named(file):
-    """Errors of the operating system name `file` and the cause."""
+    """Context whose operating system errors name `file` and the cause."""
     try:
         yield
     except BrokenPipeError:
         raise
     except OSError as error:
-        # libraries add their own words to those of the system
+        # the text of the system, because libraries add their own words
         raise OutputError(file, os.strerror(error.errno) if error.errno else str(error)) from None
 
 

@@ -1,5 +1,5 @@
 //! The elastic body of one gear: displacement of its teeth under a load on one of them.
-//! //!
+//!
 //! Displacements of a root are work-conjugate to its loads. The compliance between two teeth, `angle` apart, is a sum
 //! over harmonics n. Entries between loads of like parity in ζ use cos(n·angle), the others sin(n·angle).
 

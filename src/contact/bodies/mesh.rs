@@ -1,5 +1,5 @@
 //! Pairs of teeth of a mesh whose gears have elastic bodies.
-//! //!
+//!
 //! A symmetric compliance C relates the loads ω_k of the pairs to their arcs p_k: p = C ω. Its diagonal q_k is the
 //! compliance of a single pair: teeth, roots and Hertzian contact. Its other entries t_kl are couplings: the load of
 //! one pair moves another through both bodies. Neighbouring teeth are one pitch apart. The pair nearer to the planet's

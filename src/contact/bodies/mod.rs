@@ -1,5 +1,5 @@
 //! Elastic bodies of both gears under their teeth, from the root cone down to the surface on which each body is held.
-//! //!
+//!
 //! Slices of a straight bevel gear are similar. Under a line load w = ωR, their motion is similar too: u = R U(φ, ζ),
 //! with the polar angle φ from the gear's axis and the azimuth ζ. A body is then a hollow cone whose displacements are
 //! Fourier series in ζ (`cone`). A tooth loads the body over the tooth's root section (`root`), as Weber's beam does.

@@ -1,5 +1,5 @@
 //! Load of a tooth on the root cone, spread over the root section as in a beam.
-//! //!
+//!
 //! Over the root section of half width a, the force across the tooth is spread as a parabola, the force along the tooth
 //! evenly, and the moment linearly, as in Weber's foundation. The section covers azimuths ±ζ_F of the root cone. All
 //! its tractions are parallel: along or across the tooth's middle.

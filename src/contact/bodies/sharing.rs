@@ -1,5 +1,5 @@
 //! Couplings of tooth pairs through the elastic bodies of their gears, while the gears turn.
-//! //!
+//!
 //! The bodies are linear elastic and the same at every tooth. A unit load on the pair at position s moves the pair at
 //! position s′ by the coupling t, and conversely. The coupling depends on s, s′ and the difference of the tooth
 //! numbers. Teeth of one gear keep their distance. Therefore s − s′ is constant on the same flank of one mesh and on

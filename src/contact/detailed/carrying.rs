@@ -1,5 +1,5 @@
 //! The loaded part of a face: its ends in closed form, and how the ends move with the load.
-//! //!
+//!
 //! The arc p at cone distance R satisfies R p = a R − E − bend R², with the approach minus the turn a and bend ≥ 0. It
 //! is therefore positive on one interval.
 

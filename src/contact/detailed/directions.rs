@@ -18,9 +18,9 @@ pub struct Directions {
 /// Direction of a unit normal: components along the axes of planet and side gear, away from the apex, and along the
 /// rotation.
 #[derive(Clone, Copy, Debug)]
-pub struct NormalParts {
+pub struct NormalComponents {
     /// Components.
-    pub parts: [f64; 3],
+    pub components: [f64; 3],
     /// Their slopes with respect to the position on the path, or to the arc Δ past its end.
     pub slopes: [f64; 3],
 }
@@ -37,7 +37,7 @@ impl Arcs {
 /// Geometry of sliding: arms cotδ_b sinψ of both gears, and ρ = 1/(cotψ_p + cotψ_s), with their slopes with respect to
 /// s.
 #[derive(Clone, Copy, Debug)]
-pub struct Arms {
+pub struct SlidingGeometry {
     /// Arms.
     pub arm: [f64; 2],
     /// Slopes of the arms.
@@ -84,15 +84,15 @@ impl Directions {
         [sin * self.cos_base[1], -cos * self.cos_base[1]]
     }
 
-    /// Arms of sliding.
+    /// Geometry of sliding.
     #[inline(always)]
-    pub fn arms(&self, arcs: &Arcs) -> Arms {
-        let mut arms = Arms { arm: [0.0; 2], arm_slope: [0.0; 2], radius: 0.0, radius_slope: 0.0 };
+    pub fn sliding_geometry(&self, arcs: &Arcs) -> SlidingGeometry {
+        let mut geometry = SlidingGeometry { arm: [0.0; 2], arm_slope: [0.0; 2], radius: 0.0, radius_slope: 0.0 };
         let (mut cot, mut cot_slope) = (0.0, 0.0);
         for (i, way) in [1.0, -1.0].into_iter().enumerate() {
             let [sin, cos] = arcs.0[i];
             let ratio = self.cos_base[i] / self.sin_base[i];
-            (arms.arm[i], arms.arm_slope[i]) = (sin * ratio, way * cos * ratio);
+            (geometry.arm[i], geometry.arm_slope[i]) = (sin * ratio, way * cos * ratio);
             if sin > MIN_TANGENT * cos {
                 cot += cos / sin;
                 cot_slope -= way / (sin * sin);
@@ -100,15 +100,15 @@ impl Directions {
                 cot += 1.0 / MIN_TANGENT;
             }
         }
-        arms.radius = 1.0 / cot;
-        arms.radius_slope = -arms.radius * arms.radius * cot_slope;
-        arms
+        geometry.radius = 1.0 / cot;
+        geometry.radius_slope = -geometry.radius * geometry.radius * cot_slope;
+        geometry
     }
 
     /// Direction of the normal of a pair at `spot`. At a corner, `delta` is the arc past the end of the path.
     #[inline(always)]
-    pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> NormalParts {
-        let (parts, slopes) = match spot {
+    pub fn normal(&self, engagement: &Engagement, spot: Spot, arcs: &Arcs, delta: f64) -> NormalComponents {
+        let (components, slopes) = match spot {
             Spot::Path => {
                 let [[sp, cp], [ss, cs]] = arcs.0;
                 let [bp, bs] = self.cos_base;
@@ -118,9 +118,12 @@ impl Directions {
             Spot::SideTip => self.at_corner(engagement, 1, delta),
         };
         // the axes of a differential are perpendicular; the remaining component is along the rotation
-        let [forward, half] = root(1.0 - parts[0] * parts[0] - parts[1] * parts[1]);
-        let forward_slope = -2.0 * half * (parts[0] * slopes[0] + parts[1] * slopes[1]);
-        NormalParts { parts: [parts[0], parts[1], forward], slopes: [slopes[0], slopes[1], forward_slope] }
+        let [forward, half] = root(1.0 - components[0] * components[0] - components[1] * components[1]);
+        let forward_slope = -2.0 * half * (components[0] * slopes[0] + components[1] * slopes[1]);
+        NormalComponents {
+            components: [components[0], components[1], forward],
+            slopes: [slopes[0], slopes[1], forward_slope],
+        }
     }
 
     /// Components of the normal along both axes at the tip corner of gear `i`, with their slopes with respect to Δ.
@@ -137,11 +140,11 @@ impl Directions {
         let [own, half] = root(own - lever * lever);
         let own_slope = -2.0 * half * lever * lever_slope;
         let [mate, half] = root(mate - other * other);
-        let (mut parts, mut slopes) = ([own, mate], [own_slope, half * mate_slope]);
+        let (mut components, mut slopes) = ([own, mate], [own_slope, half * mate_slope]);
         if i == 1 {
-            parts.swap(0, 1);
+            components.swap(0, 1);
             slopes.swap(0, 1);
         }
-        (parts, slopes)
+        (components, slopes)
     }
 }

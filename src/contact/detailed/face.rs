@@ -1,12 +1,12 @@
 //! The face of a tooth pair under load: its loaded part, and the points over which loads are summed.
-//! //!
+//!
 //! A slice at cone distance R penetrates by the arc p = A − e(R, s)/R with the opening e = E + turn R + bend R² of the
 //! flanks ([`Opening`]). R p is a polynomial of second degree and bend is not negative, so the loaded part of the face
 //! is one interval on each side of a broken tooth's edge. Its ends follow in closed form.
-//! //!
+//!
 //! Under a linear law, the energy is a polynomial of fourth degree in R, and four Gauss points on that interval are
 //! exact. The load therefore grows and falls smoothly, and force and energy are consistent to the last digit.
-//! //!
+//!
 //! Any other law uses eight points if the load is far from zero, and otherwise twelve points clustered at the ends
 //! (`points`). The ends of a loaded part move with the load, and its points move with them. The derivative of a sum
 //! includes this motion (`carrying`).
@@ -25,21 +25,21 @@ pub enum Face {
     /// A law with one resultant for the face.
     Whole(Node),
     /// A linear law that is valid at every cone distance between two ends [m], with the points of a fully loaded face.
-    Cut([f64; 2], [Node; POINTS]),
+    Linear([f64; 2], [Node; POINTS]),
     /// Any law that is valid at every cone distance between two ends [m], with the points of a face loaded well past
     /// both ends.
-    Sliced([f64; 2], [Node; EIGHT]),
+    General([f64; 2], [Node; EIGHT]),
 }
 
 impl Face {
     /// Returns a face between cone distances `inner` and `outer` [m] under a linear law.
-    pub fn cut(inner: f64, outer: f64) -> Self {
-        Self::Cut([inner, outer], nodes(&GAUSS, [inner, outer]))
+    pub fn linear(inner: f64, outer: f64) -> Self {
+        Self::Linear([inner, outer], nodes(&GAUSS, [inner, outer]))
     }
 
     /// Returns a face between cone distances `inner` and `outer` [m] under any law.
-    pub fn sliced(inner: f64, outer: f64) -> Self {
-        Self::Sliced([inner, outer], Self::gauss_points([inner, outer]))
+    pub fn general(inner: f64, outer: f64) -> Self {
+        Self::General([inner, outer], Self::gauss_points([inner, outer]))
     }
 
     /// Eight Gauss points over a whole face between two cone distances [m].
@@ -53,7 +53,7 @@ impl Face {
     }
 
     /// True if loads differ over the face.
-    pub fn is_cut(&self) -> bool {
+    pub fn is_distributed(&self) -> bool {
         self.ends().is_some()
     }
 
@@ -61,7 +61,7 @@ impl Face {
     pub fn ends(&self) -> Option<[f64; 2]> {
         match self {
             Self::Whole(_) => None,
-            Self::Cut(ends, _) | Self::Sliced(ends, _) => Some(*ends),
+            Self::Linear(ends, _) | Self::General(ends, _) => Some(*ends),
         }
     }
 
@@ -69,8 +69,8 @@ impl Face {
     pub fn nodes(&self) -> &[Node] {
         match self {
             Self::Whole(node) => std::slice::from_ref(node),
-            Self::Cut(_, nodes) => nodes,
-            Self::Sliced(_, nodes) => nodes,
+            Self::Linear(_, nodes) => nodes,
+            Self::General(_, nodes) => nodes,
         }
     }
 
@@ -78,8 +78,8 @@ impl Face {
     pub fn points(&self) -> usize {
         match self {
             Self::Whole(_) => 1,
-            Self::Cut(..) => POINTS,
-            Self::Sliced(..) => MAX_NODES,
+            Self::Linear(..) => POINTS,
+            Self::General(..) => MAX_NODES,
         }
     }
 
@@ -87,7 +87,7 @@ impl Face {
     pub fn inner(&self) -> f64 {
         match self {
             Self::Whole(node) => node.cone,
-            Self::Cut([inner, _], _) | Self::Sliced([inner, _], _) => *inner,
+            Self::Linear([inner, _], _) | Self::General([inner, _], _) => *inner,
         }
     }
 
@@ -95,7 +95,7 @@ impl Face {
     pub fn moment(&self) -> (f64, f64) {
         match self {
             Self::Whole(node) => (node.weight, node.cone),
-            Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _) => {
+            Self::Linear([inner, outer], _) | Self::General([inner, outer], _) => {
                 let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
                 (moment, moment / (0.5 * (outer * outer - inner * inner)))
             }
@@ -107,7 +107,7 @@ impl Face {
         match self {
             Self::Whole(node) => node.width,
             // a load ωR is the line load ω R_F at the resultant
-            Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _) => {
+            Self::Linear([inner, outer], _) | Self::General([inner, outer], _) => {
                 0.5 * (outer * outer - inner * inner) / self.moment().1
             }
         }
@@ -123,18 +123,18 @@ impl Face {
                 carries_at(a, even + depth, opening.bend, node.cone)
             }
             (Self::Whole(node), _) => carries_at(a, even, opening.bend, node.cone),
-            (Self::Cut(ends, _) | Self::Sliced(ends, _), None) => carries(even, *ends),
-            (Self::Cut([inner, outer], _) | Self::Sliced([inner, outer], _), Some((edge, depth))) => {
+            (Self::Linear(ends, _) | Self::General(ends, _), None) => carries(even, *ends),
+            (Self::Linear([inner, outer], _) | Self::General([inner, outer], _), Some((edge, depth))) => {
                 let edge = edge.clamp(*inner, *outer);
                 *inner < edge && carries(even, [*inner, edge]) || edge < *outer && carries(even + depth, [edge, *outer])
             }
         }
     }
 
-    /// The loaded parts at the approach `arc` [rad]: sound and broken. `cut` is storage for the points of partly loaded
+    /// The loaded parts at the approach `arc` [rad]: sound and broken. `storage` is for the points of partly loaded
     /// faces.
     #[inline(always)]
-    pub fn loaded<'a>(&'a self, arc: f64, opening: &Opening, cut: &'a mut Cut) -> [Part<'a>; 2] {
+    pub fn loaded<'a>(&'a self, arc: f64, opening: &Opening, storage: &'a mut PointStorage) -> [Part<'a>; 2] {
         let a = arc - opening.turn;
         let [even, bend] = [opening.even.v, opening.bend];
         match self {
@@ -146,13 +146,13 @@ impl Face {
                 let all: &[Node] = if carries_at(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
                 [Part { nodes: all, even, moves: None }, Part::NONE]
             }
-            Self::Cut(ends, all) => parts(*ends, opening, a, &mut cut.exact, |even, span, room| match span {
+            Self::Linear(ends, all) => parts(*ends, opening, a, &mut storage.exact, |even, span, room| match span {
                 Some(span) if span.ends == *ends => Part { nodes: all, even, moves: None },
                 // the sums are exact for any position of their points
                 Some(span) => Part { nodes: room.insert(nodes(&GAUSS, span.ends)), even, moves: None },
                 None => Part::NONE,
             }),
-            Self::Sliced(ends, all) => parts(*ends, opening, a, &mut cut.crowded, |even, span, room| {
+            Self::General(ends, all) => parts(*ends, opening, a, &mut storage.crowded, |even, span, room| {
                 let Some(span) = span else { return Part::NONE };
                 let past = CLEAR * (ends[1] - ends[0]);
                 let is_clear = |r: f64| carries_at(a, even, bend, r);
@@ -189,7 +189,7 @@ fn parts<'a, R>(
 
 /// Storage for the points of partly loaded faces.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Cut {
+pub struct PointStorage {
     exact: [Option<[Node; POINTS]>; 2],
     crowded: [Option<[Node; MAX_NODES]>; 2],
 }
@@ -248,7 +248,7 @@ mod tests {
 
     #[test]
     fn torque_and_energy_of_linear_teeth_match_a_fine_sum_for_any_loaded_part() {
-        let face = Face::cut(FACE[0], FACE[1]);
+        let face = Face::linear(FACE[0], FACE[1]);
         let mut parts = [0; 3];
         for a in [-4e-4, 2e-4, 6e-4, 1e-3] {
             for even in [-3e-5, 0.0, 1e-5, 2.5e-5] {
@@ -258,7 +258,7 @@ mod tests {
                             let o = opening(even, turn, bend, edge);
                             for n in [1, 2] {
                                 let (mut sum, mut visits) = (0.0, 0);
-                                for part in face.loaded(a, &o, &mut Cut::default()) {
+                                for part in face.loaded(a, &o, &mut PointStorage::default()) {
                                     visits += usize::from(!part.is_empty());
                                     for j in part.nodes {
                                         let p = a - turn - part.even * j.per_cone - bend * j.cone;
@@ -281,10 +281,10 @@ mod tests {
 
     #[test]
     fn the_whole_face_has_the_closed_form_of_its_moments() {
-        let face = Face::cut(FACE[0], FACE[1]);
+        let face = Face::linear(FACE[0], FACE[1]);
         let (moment, cone) = face.moment();
-        let mut cut = Cut::default();
-        let [whole, _] = face.loaded(1e-3, &opening(0.0, 0.0, 0.0, None), &mut cut);
+        let mut storage = PointStorage::default();
+        let [whole, _] = face.loaded(1e-3, &opening(0.0, 0.0, 0.0, None), &mut storage);
         let sum: f64 = whole.nodes.iter().map(|j| j.weight).sum();
         let force: f64 = whole.nodes.iter().map(|j| j.weight / j.cone).sum();
         assert!((sum / moment - 1.0).abs() < 1e-14 && (sum / force / cone - 1.0).abs() < 1e-14);

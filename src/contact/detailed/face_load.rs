@@ -1,15 +1,15 @@
 //! Face load factor: how unevenly a pair's load is distributed over its face.
-//! //!
+//!
 //! The load per width of aligned teeth is w = ωR, with the same ω at every R. If errors or displacements open the
 //! flanks by e(R), ω follows the law of a slice at the arc A − e(R)/R. The face load factor is the largest ω of the
 //! face over its mean. The mean has the weight R², like the torque:
-//! //!
+//!
 //! K_Hβ = ω_max ∫R² dR / ∫ω R² dR
-//! //!
+//!
 //! The smallest value of e/R = E/R + turn + bend R is at an end of the face, at the edge of a broken tooth, or at R² =
 //! E/bend.
 
-use super::face::Cut;
+use super::face::PointStorage;
 use super::sums::Approach;
 use super::{Detailed, Opening, SliceLoad};
 use crate::contact::AnySpring;
@@ -58,7 +58,7 @@ impl Detailed {
         let place = self.spring.place(known.s);
         let load = |arc: f64| if arc > 0.0 { self.spring.respond(&place, arc).torque } else { 0.0 };
         let mut torque = 0.0;
-        for part in self.face.loaded(approach, opening, &mut Cut::default()) {
+        for part in self.face.loaded(approach, opening, &mut PointStorage::default()) {
             for node in part.nodes {
                 let arc = approach - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
                 torque += node.weight * load(arc);

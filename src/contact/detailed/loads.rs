@@ -86,7 +86,7 @@ pub struct SliceLoad<'a> {
     /// Sliding of the flanks, if friction is modelled.
     pub sliding: Option<Sliding<f64>>,
     /// Components of the unit normal: along the planet's axis, along the side gear's axis, along the rotation.
-    pub parts: [f64; 3],
+    pub components: [f64; 3],
     /// Approach of the pair's flanks and its rates.
     pub approach: Approach,
     /// Gap or excess material between the pair's flanks.

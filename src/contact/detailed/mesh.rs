@@ -2,7 +2,7 @@
 
 use super::super::spring::with_spring;
 use super::directions::{Arcs, Directions};
-use super::face::{Cut, Face, Part};
+use super::face::{Face, Part, PointStorage};
 use super::totals::SUMS;
 use super::touching::Touching;
 use super::{DetailedLoad, DetailedState, LOCAL, Node, Opening, PairMotion, PairName, SliceLoad, Totals};
@@ -21,7 +21,7 @@ pub struct Detailed {
     pub face: Face,
     /// The face under a law that is valid at every cone distance. It is also set if `face` is one point because flanks
     /// fit: friction then still differs over the face.
-    pub(super) rubbed: Option<Face>,
+    pub(super) friction_face: Option<Face>,
     /// True if the mesh has one spring instead of tooth pairs.
     pub is_single: bool,
     /// Friction along the flanks.
@@ -81,7 +81,7 @@ impl Detailed {
             whole,
             spring,
             damping,
-            rubbed: face.is_cut().then_some(face),
+            friction_face: face.is_distributed().then_some(face),
             face,
             is_single,
             friction,
@@ -95,12 +95,12 @@ impl Detailed {
 
     /// True if the law is valid at every cone distance, so that the load of aligned teeth grows with the cone distance.
     pub fn is_over_face(&self) -> bool {
-        self.rubbed.is_some()
+        self.friction_face.is_some()
     }
 
-    /// Sums the friction of flanks that fit over every point of the face `rubbed`, over which the law is valid.
-    pub fn rub_over(&mut self, rubbed: Face) {
-        self.rubbed = Some(rubbed);
+    /// Sums the friction of flanks that fit over every point of `face`, over which the law is valid.
+    pub fn set_friction_face(&mut self, face: Face) {
+        self.friction_face = Some(face);
     }
 
     /// Replaces the damping.
@@ -186,8 +186,8 @@ impl Detailed {
             if self.has_seats {
                 opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
             }
-            let mut cut = Cut::default();
-            let parts = self.face.loaded(pair.depth, &opening, &mut cut);
+            let mut storage = PointStorage::default();
+            let parts = self.face.loaded(pair.depth, &opening, &mut storage);
             if parts.iter().all(Part::is_empty) {
                 return;
             }
@@ -252,17 +252,17 @@ impl Detailed {
         (opening, axial, arcs)
     }
 
-    /// The loaded parts of the face if the flanks approach by `depth` [rad]. `cut` is storage for the points of partly
+    /// The loaded parts of the face if the flanks approach by `depth` [rad]. `storage` is for the points of partly
     /// loaded faces.
     #[inline(always)]
     pub(super) fn loaded_parts<'a, const OPEN: bool>(
         &'a self,
         depth: f64,
         opening: &Opening,
-        cut: &'a mut Cut,
+        storage: &'a mut PointStorage,
     ) -> [Part<'a>; 2] {
         if OPEN {
-            self.face.loaded(depth, opening, cut)
+            self.face.loaded(depth, opening, storage)
         } else if depth > 0.0 {
             [Part::of(&self.whole), Part::NONE]
         } else {
@@ -281,11 +281,11 @@ impl Detailed {
         look: impl FnMut(&SliceLoad),
     ) {
         let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
-        let mut cut = Cut::default();
+        let mut storage = PointStorage::default();
         if OPEN {
             (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
         }
-        let parts = self.loaded_parts::<OPEN>(pair.depth, &opening, &mut cut);
+        let parts = self.loaded_parts::<OPEN>(pair.depth, &opening, &mut storage);
         // most nearby pairs do not touch
         if parts.iter().all(Part::is_empty) {
             return;

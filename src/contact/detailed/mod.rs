@@ -6,7 +6,7 @@
 //! Σ_k Σ_j J_j Φ(d_j/R_j, s) over tooth pairs k and points j of the face (`face`). Friction μ F along the flank has the
 //! moment arms R cosδ_b sinψ about both axes. It opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs
 //! sinψ_s), where u are the speeds of both flanks along the line of action.
-//! //!
+//!
 //! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
 //! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 
@@ -14,25 +14,25 @@ mod carrying;
 mod directions;
 mod face;
 mod face_load;
+mod largest_on_face;
 mod loads;
 mod mesh;
 mod on_bodies;
 mod pair;
 mod points;
-mod rubbed_face;
 mod sums;
 mod totals;
 mod touching;
 
-pub use directions::Arms;
+pub use directions::SlidingGeometry;
 pub use face::Face;
 pub use face_load::KnownSlice;
+pub use largest_on_face::SlidingPoint;
 pub use loads::{DetailedLoad, DetailedState, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, MeshTeeth};
 pub use on_bodies::SharedTeeth;
 pub use pair::PairMotion;
 pub use points::Node;
-pub use rubbed_face::RubbedPlace;
 pub use totals::Totals;
 
 /// Variables of a mesh: q, x, w and their rates.

@@ -6,7 +6,7 @@
 use super::super::bodies::{PairCouplings, PairPlace};
 use super::super::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use super::directions::Arcs;
-use super::face::{Cut, Part};
+use super::face::{Part, PointStorage};
 use super::loads::Look;
 use super::sums::{Approach, Sums};
 use super::totals::SUMS;
@@ -70,7 +70,7 @@ impl Detailed {
         }
         let (opening, mut sums) = (&near.opening, Sums::default());
         let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
-        for part in self.face.loaded(arc, opening, &mut Cut::default()) {
+        for part in self.face.loaded(arc, opening, &mut PointStorage::default()) {
             sums.add::<S, true, true>(&part, (spring, &near.place, &Damping::NONE), &still, opening, None, |_| {});
         }
         let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
@@ -278,8 +278,8 @@ impl Detailed {
         self.share::<S, OPEN, SLOPES>(spring, shared, states, 0.0, &mut |near, arc, share| {
             let (side, opening) = (near.pair_place.side, &near.opening);
             let pair = ToothPair { depth: share.own, ..near.pair };
-            let mut cut = Cut::default();
-            let parts = self.loaded_parts::<OPEN>(pair.depth, opening, &mut cut);
+            let mut storage = PointStorage::default();
+            let parts = self.loaded_parts::<OPEN>(pair.depth, opening, &mut storage);
             if parts.iter().all(Part::is_empty) {
                 return;
             }

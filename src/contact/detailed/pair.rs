@@ -2,7 +2,7 @@
 //! coordinates.
 
 use super::sums::{Approach, By};
-use super::{Arms, DetailedState, LOCAL, Opening};
+use super::{DetailedState, LOCAL, Opening, SlidingGeometry};
 use crate::contact::ToothPair;
 
 /// Motion of a pair. `OPEN`: its flanks may not fit. `SHARED`: other pairs move it.
@@ -102,15 +102,15 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
 
     /// Sliding speed over R, and the sum of both flanks' speeds over R [rad/s].
     #[inline(always)]
-    pub fn speeds(&self, arms: &Arms) -> [f64; 2] {
-        let ([p, s], [planet, side]) = (self.travel_rates(), arms.arm);
+    pub fn speeds(&self, geometry: &SlidingGeometry) -> [f64; 2] {
+        let ([p, s], [planet, side]) = (self.travel_rates(), geometry.arm);
         [planet * p - side * s, planet * p + side * s]
     }
 
     /// Derivatives of both speeds with respect to x, and to the rates of q and x.
     #[inline(always)]
-    pub fn speed_slopes(&self, arms: &Arms) -> [[f64; 3]; 2] {
-        let ([p, s], [planet, side], [dp, ds]) = (self.travel_rates(), arms.arm, arms.arm_slope);
+    pub fn speed_slopes(&self, geometry: &SlidingGeometry) -> [[f64; 3]; 2] {
+        let ([p, s], [planet, side], [dp, ds]) = (self.travel_rates(), geometry.arm, geometry.arm_slope);
         [
             [(dp * p - ds * s) * self.s_slope, self.sign * side, self.sign * (side - planet)],
             [(dp * p + ds * s) * self.s_slope, -self.sign * side, -self.sign * (side + planet)],

@@ -1,7 +1,7 @@
 //! Points over a loaded part of the face, over which loads are summed.
-//! //!
+//!
 //! Under a linear law, four Gauss points are exact.
-//! //!
+//!
 //! Under any other law, the load is smooth if it is not near zero, and eight Gauss points integrate it to 5·10⁻¹⁰. It
 //! is near zero if it vanishes at an end of the part, or would vanish within a quarter of the part's length past the
 //! end. There, a law such as `line_weber` behaves as x/ln(1/x). Twelve points clustered at the ends integrate such a

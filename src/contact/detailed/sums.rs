@@ -1,19 +1,19 @@
 //! Sums over the face of one tooth pair, from which its forces and their derivatives are computed.
-//! //!
+//!
 //! The arc of a slice p = A − E/R − turn − bend R depends only on the pair's approach A and opening E. The forces are
 //! therefore sums of the slices' torques T with the weights 1 and 1/R:
-//! //!
+//!
 //! Q_A = −ΣT, Q_E = ΣT/R, Q_s = −ΣU_s
-//! //!
+//!
 //! The same is true of their derivatives. T/R is the normal force of a slice.
-//! //!
+//!
 //! If the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part)
 //! and by f′(R) dR·(motion of the point). Loads vanish at moving ends, so both changes together equal the quadrature
 //! error. Including them makes the derivatives exact for the sums, to the last digit.
 
 use super::carrying::Moves;
 use super::face::Part;
-use super::{Arms, Node, Opening};
+use super::{Node, Opening, SlidingGeometry};
 use crate::contact::{Damping, Elastic, Sliding, Spring, ToothFriction};
 use crate::numeric::Dual;
 
@@ -30,11 +30,11 @@ pub struct Approach {
 
 /// Friction of a pair.
 #[derive(Clone, Copy, Debug)]
-pub struct Rubbing<'a> {
+pub struct PairFriction<'a> {
     /// The law.
     pub law: &'a ToothFriction,
-    /// Arms of sliding.
-    pub arms: Arms,
+    /// Geometry of sliding.
+    pub geometry: SlidingGeometry,
     /// Sliding speed over R, and sum of both flanks' speeds over R [rad/s].
     pub speeds: [f64; 2],
     /// Points of the whole face, if one point represents its load. Sliding, and with it the coefficient of friction,
@@ -55,15 +55,15 @@ pub struct Sums {
     /// ΣU_s [N·m].
     pub by_place: f64,
     /// Σh T with the signed coefficient of friction h [N·m].
-    pub rubbed: f64,
+    pub friction: f64,
     /// Heat of contact damping [W].
     pub heat: f64,
     /// Elastic energy [J], summed only together with derivatives.
     pub energy: f64,
-    /// Derivatives of `torque`, `normal`, `by_place` and `rubbed`.
+    /// Derivatives of `torque`, `normal`, `by_place` and `friction`.
     pub by: [By; 4],
-    /// Derivatives of `rubbed` with respect to both speeds and to the relative radius of curvature over R.
-    pub rubbed_by: [f64; 3],
+    /// Derivatives of `friction` with respect to both speeds and to the relative radius of curvature over R.
+    pub friction_by: [f64; 3],
 }
 
 /// One point of the face with its load.
@@ -90,7 +90,7 @@ impl Sums {
         (spring, place, damping): (&S, &S::Place, &Damping),
         at: &Approach,
         opening: &Opening,
-        rubbing: Option<&Rubbing>,
+        pair_friction: Option<&PairFriction>,
         mut look: impl FnMut(&LoadedNode),
     ) {
         for node in part.nodes {
@@ -135,36 +135,37 @@ impl Sums {
                 move_with(&mut self.by[2], moves, node, weight * elastic.by_place, weight * place);
                 (moves, along)
             });
-            let friction = rubbing.map(|rubbing| {
+            let friction = pair_friction.map(|pair_friction| {
                 let (mut share, mut coefficient) = (0.0, 0.0);
-                for point in rubbing.whole.unwrap_or(std::slice::from_ref(node)) {
-                    let (sliding, torque) = (rubbing.at(point, damped.total), point.weight * damped.total);
+                for point in pair_friction.whole.unwrap_or(std::slice::from_ref(node)) {
+                    let (sliding, torque) = (pair_friction.at(point, damped.total), point.weight * damped.total);
                     let h = if SLOPES {
-                        let h = rubbing.law.signed(&sliding.with_slopes());
+                        let h = pair_friction.law.signed(&sliding.with_slopes());
                         let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
                         let per_load = point.weight / (point.width * point.cone);
                         let factor = point.weight * (h.v + damped.total * by_load * per_load);
                         add::<OPEN>(&mut self.by[3], factor, per_cone, by);
                         let lever = torque * point.cone;
-                        self.rubbed_by[0] += lever * by_sliding;
-                        self.rubbed_by[1] += lever * by_sum_speed;
-                        self.rubbed_by[2] += lever * by_radius;
+                        self.friction_by[0] += lever * by_sliding;
+                        self.friction_by[1] += lever * by_sum_speed;
+                        self.friction_by[2] += lever * by_radius;
                         if let Some((moves, [along, load])) = along {
                             // sliding, rolling and radius are proportional to R, the load per width to R T
-                            let turning = by_sliding * rubbing.speeds[0] + by_sum_speed * rubbing.speeds[1];
-                            let h_along = turning + by_radius * rubbing.arms.radius + by_load * load * node.cone;
+                            let turning = by_sliding * pair_friction.speeds[0] + by_sum_speed * pair_friction.speeds[1];
+                            let h_along =
+                                turning + by_radius * pair_friction.geometry.radius + by_load * load * node.cone;
                             let by_motion = weight * along * h.v + torque * h_along;
                             move_with(&mut self.by[3], moves, node, torque * h.v, by_motion);
                         }
                         h.v
                     } else {
-                        rubbing.law.signed(&sliding)
+                        pair_friction.law.signed(&sliding)
                     };
-                    self.rubbed += torque * h;
+                    self.friction += torque * h;
                     share += point.weight;
                     coefficient += point.weight * h;
                 }
-                (coefficient / share, rubbing.at(node, damped.total))
+                (coefficient / share, pair_friction.at(node, damped.total))
             });
             look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
         }
@@ -194,7 +195,7 @@ fn move_with(to: &mut By, moves: &Moves, node: &Node, value: f64, along: f64) {
     to[1] += along * by_even[0] + value * by_even[1];
 }
 
-impl Rubbing<'_> {
+impl PairFriction<'_> {
     /// Sliding of the flanks at a point with the torque `torque` per unit of weight.
     #[inline(always)]
     fn at(&self, node: &Node, torque: f64) -> Sliding<f64> {
@@ -202,7 +203,7 @@ impl Rubbing<'_> {
             sliding: self.speeds[0] * node.cone,
             sum_speed: self.speeds[1] * node.cone,
             load: torque * node.weight / (node.cone * node.width),
-            radius: self.arms.radius * node.cone,
+            radius: self.geometry.radius * node.cone,
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Loads of a mesh, summed over its pairs, with derivatives if requested.
 
-use super::directions::NormalParts;
-use super::sums::{Rubbing, Sums};
+use super::directions::NormalComponents;
+use super::sums::{PairFriction, Sums};
 use super::{DetailedLoad, LOCAL, PairMotion};
 use crate::contact::Spot;
 use crate::numeric::Dual;
 
-/// Indices of the sums: forces conjugate to q, x and w, then the forces under which gears rub.
+/// Indices of the sums: forces conjugate to q, x and w, then the forces under which gears slide.
 const Q: usize = 0;
 const X: usize = 1;
 const W: usize = 2;
@@ -78,32 +78,32 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
 
     /// Adds friction along the flanks of a pair: −h N along the planet's flank has the lever arms R cotδ_b sinψ.
     #[inline(always)]
-    pub fn add_rubbing<const OPEN: bool, const SHARED: bool>(
+    pub fn add_friction<const OPEN: bool, const SHARED: bool>(
         &mut self,
         motion: &PairMotion<OPEN, SHARED>,
         sums: &Sums,
-        rubbing: &Rubbing,
+        pair_friction: &PairFriction,
     ) {
-        let ([planet, side], sign) = (rubbing.arms.arm, motion.sign);
+        let ([planet, side], sign) = (pair_friction.geometry.arm, motion.sign);
         let levers = [-sign * side, -sign * (side - planet)];
-        self.value[Q] += levers[0] * sums.rubbed;
-        self.value[X] += levers[1] * sums.rubbed;
-        self.heat[1] += sums.rubbed * rubbing.speeds[0];
+        self.value[Q] += levers[0] * sums.friction;
+        self.value[X] += levers[1] * sums.friction;
+        self.heat[1] += sums.friction * pair_friction.speeds[0];
         if ROWS == 0 {
             return;
         }
         let mut by = motion.slopes(&sums.by[3]);
-        let [sliding, sum_speed, radius] = sums.rubbed_by;
-        let [by_sliding, by_sum_speed] = motion.speed_slopes(&rubbing.arms);
+        let [sliding, sum_speed, radius] = sums.friction_by;
+        let [by_sliding, by_sum_speed] = motion.speed_slopes(&pair_friction.geometry);
         for (i, place) in [1, 3, 4].into_iter().enumerate() {
             by[place] += sliding * by_sliding[i] + sum_speed * by_sum_speed[i];
         }
-        by[1] += radius * rubbing.arms.radius_slope * motion.s_slope;
-        let [planet_slope, side_slope] = rubbing.arms.arm_slope.map(|slope| slope * motion.s_slope);
+        by[1] += radius * pair_friction.geometry.radius_slope * motion.s_slope;
+        let [planet_slope, side_slope] = pair_friction.geometry.arm_slope.map(|slope| slope * motion.s_slope);
         self.slope(Q, levers[0], &by);
         self.slope(X, levers[1], &by);
-        self.slopes[Q][1] -= sign * side_slope * sums.rubbed;
-        self.slopes[X][1] -= sign * (side_slope - planet_slope) * sums.rubbed;
+        self.slopes[Q][1] -= sign * side_slope * sums.friction;
+        self.slopes[X][1] -= sign * (side_slope - planet_slope) * sums.friction;
     }
 
     /// Adds the components of a pair's normal force along the axes and the rotation.
@@ -112,21 +112,21 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         &mut self,
         motion: &PairMotion<OPEN, SHARED>,
         sums: &Sums,
-        normal: &NormalParts,
+        normal: &NormalComponents,
         spot: Spot,
     ) {
-        let [planet, side, forward] = normal.parts;
-        let parts = [(PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
-        for (i, part) in parts {
-            self.value[i] += sums.normal * part;
+        let [planet, side, forward] = normal.components;
+        let components = [(PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)];
+        for (i, component) in components {
+            self.value[i] += sums.normal * component;
         }
         if ROWS == 0 {
             return;
         }
         let by = motion.slopes(&sums.by[1]);
         let moves = spot.moves(motion.sign, motion.s_slope);
-        for (i, part) in parts {
-            self.slope(i, part, &by);
+        for (i, component) in components {
+            self.slope(i, component, &by);
         }
         let [planet, side, forward] = normal.slopes;
         for (i, slope) in [(PLANET, planet), (SIDE, side), (TANGENTIAL, -motion.sign * forward)] {

@@ -2,7 +2,7 @@
 
 use super::directions::Arcs;
 use super::face::Part;
-use super::sums::{LoadedNode, Rubbing, Sums};
+use super::sums::{LoadedNode, PairFriction, Sums};
 use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
 use crate::contact::{Spring, ToothPair};
 
@@ -52,16 +52,16 @@ impl Detailed {
             }
             (law, _) => law.as_ref(),
         };
-        let rubbing = friction.map(|law| {
-            let arms = self.directions.arms(&arcs);
-            let whole = self.rubbed.as_ref().filter(|_| !OPEN || !self.face.is_cut()).map(Face::nodes);
-            Rubbing { law, speeds: motion.speeds(&arms), arms, whole }
+        let pair_friction = friction.map(|law| {
+            let geometry = self.directions.sliding_geometry(&arcs);
+            let whole = self.friction_face.as_ref().filter(|_| !OPEN || !self.face.is_distributed()).map(Face::nodes);
+            PairFriction { law, speeds: motion.speeds(&geometry), geometry, whole }
         });
         let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
         let mut see = |node: &LoadedNode| {
             let Some(normal) = &normal else { return };
             let force = node.torque * node.node.weight * node.node.per_cone;
-            let [planet, side, forward] = normal.parts;
+            let [planet, side, forward] = normal.components;
             look(&SliceLoad {
                 pair,
                 spot: pair.spot,
@@ -76,7 +76,7 @@ impl Detailed {
                 normal: force,
                 friction: node.friction.map_or(0.0, |(h, _)| -h * force),
                 sliding: node.friction.map(|(_, sliding)| sliding),
-                parts: [planet, side, -motion.sign * forward],
+                components: [planet, side, -motion.sign * forward],
                 approach: motion.approach,
                 opening,
             });
@@ -85,16 +85,16 @@ impl Detailed {
         let law = (spring, &place, &self.damping);
         let mut sums = Sums::default();
         for part in if OPEN { &parts[..] } else { &parts[..1] } {
-            let (at, rubbing) = (&motion.approach, rubbing.as_ref());
+            let (at, pair_friction) = (&motion.approach, pair_friction.as_ref());
             if const { ROWS > 0 } {
-                sums.add::<S, true, OPEN>(part, law, at, opening, rubbing, &mut see);
+                sums.add::<S, true, OPEN>(part, law, at, opening, pair_friction, &mut see);
             } else {
-                sums.add::<S, false, OPEN>(part, law, at, opening, rubbing, &mut see);
+                sums.add::<S, false, OPEN>(part, law, at, opening, pair_friction, &mut see);
             }
         }
         totals.add_teeth(&motion, &sums);
-        if let Some(rubbing) = &rubbing {
-            totals.add_rubbing(&motion, &sums, rubbing);
+        if let Some(pair_friction) = &pair_friction {
+            totals.add_friction(&motion, &sums, pair_friction);
         }
         if let Some(normal) = &normal {
             totals.add_thrust(&motion, &sums, normal, pair.spot);

@@ -89,10 +89,10 @@ impl ToothErrors {
     }
 
     /// Upper bound of a tooth pair's excess material [m] up to the cone distance `outer` [m].
-    pub fn most_excess(&self, outer: f64) -> f64 {
-        self.pitch.as_ref().map_or(0.0, |pitch| pitch.most_excess() * outer * self.per_mean_cone)
-            + self.runout.as_ref().map_or(0.0, Runout::most_excess)
-            + self.misalignment.as_ref().map_or(0.0, |misalignment| misalignment.most_excess(outer))
+    pub fn max_excess(&self, outer: f64) -> f64 {
+        self.pitch.as_ref().map_or(0.0, |pitch| pitch.max_excess() * outer * self.per_mean_cone)
+            + self.runout.as_ref().map_or(0.0, Runout::max_excess)
+            + self.misalignment.as_ref().map_or(0.0, |misalignment| misalignment.max_excess(outer))
     }
 
     /// Eccentricity of the teeth of planet (`gear` = 0) or side gear (1) number `index` [m], and its azimuth [rad]. The
@@ -112,7 +112,7 @@ impl ToothErrors {
     }
 
     /// True if all teeth of each gear are identical, so that the gaps repeat with every pitch.
-    pub fn is_alike_all_round(&self) -> bool {
+    pub fn repeats_every_pitch(&self) -> bool {
         self.pitch.is_none() && self.runout.is_none()
     }
 

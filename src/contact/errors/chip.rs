@@ -1,5 +1,5 @@
 //! Broken tooth: if material is missing, the gap is the removed depth, and nothing touches.
-//! //!
+//!
 //! Under laws that integrate over the face, the piece covers the slices beyond R_e − f b. f is the piece's fraction of
 //! the face width b, measured from the heel. The law that acts only at R_m is affected only if the piece reaches the
 //! middle, f > ½. The piece breaks off instantly and permanently, on both flanks and in every mesh of the tooth.

@@ -1,13 +1,13 @@
 //! Gap opened by small rigid displacements of the gears, to first order.
-//! //!
+//!
 //! A displacement w(x) = δ + φ × x of the planet moves its flank along the normal T by T·w. For the side gear, the sign
 //! is opposite: e = −T·w_p + T·w_s at x = R C(s) (T, C and the directions as in `normals`). The result is
-//! //!
+//!
 //! planet outward along its axis by ε_p e = ε_p (sinα sinδ_p cos s + cosδ_p sin s)
 //! side gear outward along its axis by ε_s e = ε_s (sinα sinδ_s cos s − cosδ_s sin s)
 //! planet along t by ε_t (hypoid offset) e = ∓ε_t cosα cos s (− drive, + coast)
 //! planet turned about the apex, Σ → Σ + δΣ e = R sinα δΣ
-//! //!
+//!
 //! The factors of ε_p and ε_s are the axial forces per normal force, as virtual work requires. The last gap follows
 //! from w = δΣ [(x·Q₀) P₀ − (x·P₀) Q₀], T·w = −R δΣ sinα (sin²s + cos²s). It is the same along the whole path. A
 //! rotation about the apex grows with R like the approach itself and leaves the load distribution along the face
@@ -60,7 +60,7 @@ impl Misalignment {
     }
 
     /// Upper bound of the excess material caused by displacements at cone distances up to `outer` [m].
-    pub fn most_excess(&self, outer: f64) -> f64 {
+    pub fn max_excess(&self, outer: f64) -> f64 {
         // no component of a normal is longer than 1
         let moved = self.planet.iter().map(|[axial, across]| axial.abs() + across.abs()).fold(0.0, f64::max);
         moved + self.side_axial.abs() + outer * self.tilt.abs()

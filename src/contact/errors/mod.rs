@@ -1,5 +1,5 @@
 //! Tooth errors: the gap e(R, s), which is the material that a tooth pair lacks along the line of action.
-//! //!
+//!
 //! A pair of error-free teeth penetrates by R (a − g) at cone distance R. With errors, it penetrates by d = R (a − g) −
 //! e(R, s), where e ≥ 0 means missing material. To first order, errors add up. Each has its own file: pitch deviations
 //! (`pitch`), runout (`runout`), tip relief (`relief`), lengthwise crowning (`crowning`), and misalignment

@@ -1,5 +1,5 @@
 //! Contact normal and point of contact in the directions of a mesh. Displacements of the gears are projected onto them.
-//! //!
+//!
 //! Directions of a mesh: a_p, a_s along the axes of planet and side gear from apex to heel; u ⟂ a_p and v ⟂ a_s in the
 //! plane of both axes, each toward the other axis; t = x̂ × r̂ across this plane, the direction in which a planet is
 //! carried if the carrier turns forward. P₀ is along the pitch line, and Q₀ ⟂ P₀ is in the plane of the axes, toward

@@ -170,7 +170,7 @@ impl PitchDeviations {
     }
 
     /// Upper bound of the excess material of a pair at R_m [m].
-    pub fn most_excess(&self) -> f64 {
+    pub fn max_excess(&self) -> f64 {
         let most = |gears: &[[Box<[f64]>; 2]]| {
             gears.iter().flatten().flatten().fold(0.0f64, |most, position| most.max(position.abs()))
         };

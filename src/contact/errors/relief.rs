@@ -1,9 +1,9 @@
 //! Tip relief: material removed toward the tips, so that a bent pair enters and leaves the mesh softly.
-//! //!
+//!
 //! The relief of a gear begins `length` before the end of the path at its tip and reaches its amount C_a at that end:
-//! //!
+//!
 //! e(s) = C_a h(ξ), ξ = (s − s_hi)/length + 1 (planet) or (s_lo − s)/length + 1 (side gear)
-//! //!
+//!
 //! with h = 0 for ξ < 0 and h = 1 for ξ > 1, where only the relieved corner itself can touch. Between them, h is the
 //! polynomial of least degree with two continuous derivatives at both joints, 10ξ³ − 15ξ⁴ + 6ξ⁵. Neither onset nor tip
 //! therefore disturbs the integrator. A linear or parabolic relief, as ground in practice, would cause a kink of the

@@ -9,7 +9,7 @@
 //! with v instead of u for the side gear, and the azimuth χ of ê from the plane of the axes. The gap has one period per
 //! revolution and the amplitude ε √(1 − (T·a)²) on both flanks. The phase difference between the flanks is that between
 //! their normals.
-//! //!
+//!
 //! The contact position s of a tooth determines the position of its gear. The centre of the tooth is at the azimuth
 //! ±(s/sinδ_bp − γ_p) on the planet and ±(s/sinδ_bs + γ_s) on the side gear (+ drive, − coast). ê is at a fixed angle
 //! from the tooth. Two pairs that touch at the same time therefore have nearly the same e, as a displacement of the
@@ -56,7 +56,7 @@ impl Runout {
     }
 
     /// Upper bound of the excess material of a pair [m].
-    pub fn most_excess(&self) -> f64 {
+    pub fn max_excess(&self) -> f64 {
         self.eccentricity[0].abs() + self.eccentricity[1].abs()
     }
 

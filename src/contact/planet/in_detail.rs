@@ -84,14 +84,14 @@ impl<'a> InDetail<'a> {
             depth: slice.arc * slice.cone,
             normal: slice.normal,
             friction: slice.friction,
-            parts: slice.parts,
+            components: slice.components,
             touch: None,
         }
     }
 
     fn face_load_factor_at(&self, at: &PlanetState, slice: &ToothLoad, pair: &Pair) -> f64 {
         let detailed = &self.contact.detailed;
-        if !detailed.face.is_cut() {
+        if !detailed.face.is_distributed() {
             return 1.0;
         }
         let mesh = MeshId { planet: slice.planet, side: slice.side };

@@ -1,6 +1,6 @@
 //! Contact of one planet with both side gears. It is the unit of contact, because the planet's body couples its two
 //! meshes.
-//! //!
+//!
 //! Every kind of contact implements [`PlanetContact`]: forces, derivatives, energy, kinks, and a visitor over loads.
 //! The equations of motion use only this trait. The coordinates of a mesh are q, x and the displacement of its side
 //! gear (`Q`, `X`, `W`). A kind of contact in which gears stay on their axes has no force along w.

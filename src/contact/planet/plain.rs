@@ -1,5 +1,5 @@
 //! Flanks that fit, on rigid gear bodies: the meshes are independent, and each tooth pair has one resultant.
-//! //!
+//!
 //! A pair's force F acts along the flank's normal n, tangent to the sphere. About a gear's axis it has the lever arm R
 //! ℓ. Its component along the axis is therefore F √(sin²φ − ℓ²) at the polar angle φ. On the path ℓ = sinδ_b, and the
 //! component is F cosδ_b sinψ. At s = 0 it equals the textbook's F sinα sinδ. The remaining component is tangential to
@@ -100,13 +100,13 @@ pub(super) fn load(
         depth: pair.depth * mesh.whole.cone,
         normal: force.total,
         friction: 0.0,
-        parts: visit.directions.map_or([0.0; 3], |of| parts(of, mesh, pair)),
+        components: visit.directions.map_or([0.0; 3], |of| components(of, mesh, pair)),
         touch: None,
     }
 }
 
 /// Components of the unit normal of a pair: along the planet's axis, along the side gear's axis, along the rotation.
-pub fn parts(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
+pub fn components(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     let [lever_p, lever_s] = pair.sin_base();
     let along = |polar: f64, lever: f64| sqrt((sin(polar) * sin(polar) - lever * lever).max(0.0));
     let corner = &mesh.engagement.corner;

@@ -70,7 +70,7 @@ impl PlanetContact for Solid<'_> {
                     depth: load.depth * load.slice.cone,
                     normal: load.force.total,
                     friction: 0.0,
-                    parts: load.parts(),
+                    components: load.components(),
                     touch: Some(Touch { point: load.point, polar: load.polar }),
                 };
                 see(&tooth, None);

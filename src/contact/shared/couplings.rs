@@ -5,13 +5,13 @@ use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
 /// Maximum number of pairs of a planet's two meshes that can be loaded at the same time. Flanks approach by at most
 /// half a base pitch. At this limit, a mesh with a dozen teeth has four such pairs, and a mesh with two hundred teeth
 /// has up to eighteen; at a tenth of the limit, it has six. If there are more pairs, only the deepest count.
-pub const MOST_PAIRS: usize = 16;
+pub const MAX_PAIRS: usize = 16;
 
 /// Storage for the pairs of a planet's two meshes, each with the approach of its flanks. It is large, so it is filled
 /// in place.
 pub struct Pairs<T> {
-    pairs: [Option<T>; MOST_PAIRS],
-    arc: [f64; MOST_PAIRS],
+    pairs: [Option<T>; MAX_PAIRS],
+    arc: [f64; MAX_PAIRS],
     count: usize,
 }
 
@@ -19,7 +19,7 @@ impl<T> Pairs<T> {
     /// No pairs.
     #[inline(always)]
     pub fn none() -> Self {
-        Self { pairs: std::array::from_fn(|_| None), arc: [0.0; MOST_PAIRS], count: 0 }
+        Self { pairs: std::array::from_fn(|_| None), arc: [0.0; MAX_PAIRS], count: 0 }
     }
 
     /// Adds a pair whose flanks approach by `arc` [rad]. If the storage is full, the pair replaces the shallowest pair,
@@ -27,11 +27,11 @@ impl<T> Pairs<T> {
     #[inline(always)]
     pub fn add(&mut self, arc: f64, pair: impl FnOnce() -> T) {
         let mut place = self.count;
-        if self.count < MOST_PAIRS {
+        if self.count < MAX_PAIRS {
             self.count += 1;
         } else {
-            let shallowest = (0..MOST_PAIRS).min_by(|&k, &l| self.arc[k].total_cmp(&self.arc[l]));
-            place = shallowest.filter(|&k| self.arc[k] < arc).unwrap_or(MOST_PAIRS);
+            let shallowest = (0..MAX_PAIRS).min_by(|&k, &l| self.arc[k].total_cmp(&self.arc[l]));
+            place = shallowest.filter(|&k| self.arc[k] < arc).unwrap_or(MAX_PAIRS);
         }
         if let (Some(to), Some(depth)) = (self.pairs.get_mut(place), self.arc.get_mut(place)) {
             (*to, *depth) = (Some(pair()), arc);

@@ -20,7 +20,7 @@ mod plain;
 mod sharing;
 
 pub use arcs::OwnArcs;
-pub use couplings::{CouplingCurvatures, Couplings, MOST_PAIRS, Pairs};
+pub use couplings::{CouplingCurvatures, Couplings, MAX_PAIRS, Pairs};
 pub use gradients::{Change, Gradients};
 pub use opening_by_others::OpeningByOthers;
 pub use plain::{SharedForce, SharedMeshes};

@@ -1,12 +1,12 @@
 //! Openings of pairs by the loads of other pairs, used to predict kinks of the force.
 
-use super::couplings::MOST_PAIRS;
+use super::couplings::MAX_PAIRS;
 use crate::contact::Flank;
 
 /// Arcs by which other pairs move a pair apart [rad].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpeningByOthers {
-    pairs: [Option<(usize, Flank, i64, f64)>; MOST_PAIRS],
+    pairs: [Option<(usize, Flank, i64, f64)>; MAX_PAIRS],
     count: usize,
 }
 

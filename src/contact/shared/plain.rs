@@ -1,5 +1,5 @@
 //! Error-free meshes of a planet on shared gear bodies: forces, Jacobian, energy and heat.
-//! //!
+//!
 //! One point represents the load of a face whose flanks fit, and the side gears stay on their axes.
 
 use super::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};

@@ -1,10 +1,10 @@
 //! Shares of the load: the load on each pair of a planet's two meshes, and its changes with the coordinates of both
 //! meshes.
-//! //!
+//!
 //! The solution is compiled separately for the usual numbers of pairs, because arrays of exactly that size need less
 //! clearing.
 
-use super::couplings::MOST_PAIRS;
+use super::couplings::MAX_PAIRS;
 use super::{Change, Couplings, Gradients, OwnArcs};
 use crate::contact::bodies::{PairCouplings, PairPlace};
 
@@ -54,7 +54,7 @@ impl Sharing<'_> {
             3 => self.solve_in::<3>(changes, see),
             4 => self.solve_in::<4>(changes, see),
             5..=8 => self.solve_in::<8>(changes, see),
-            _ => self.solve_in::<MOST_PAIRS>(changes, see),
+            _ => self.solve_in::<MAX_PAIRS>(changes, see),
         }
     }
 

@@ -1,10 +1,10 @@
 //! Teeth that can touch, found with overlapping boxes around pieces of both gears' flanks.
-//! //!
+//!
 //! Both gears have a tree of such boxes in their own frame, and both trees are traversed together. Flanks consist of
 //! rays through the apex. The boxes therefore enclose directions, on a sphere with a radius of one metre, in
 //! millimetres. On this sphere a piece of a flank is short, whereas a box around the piece from toe to heel would
 //! contain half a tooth.
-//! //!
+//!
 //! The mesh repeats with every base pitch. The teeth near each other are therefore searched once for each cell of
 //! positions, with boxes enlarged by the motion of the gears within a cell. A cell may contain a tooth too many, whose
 //! overlap is then negative, but never one too few.

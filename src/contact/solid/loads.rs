@@ -34,7 +34,7 @@ pub struct SolidLoad {
 impl SolidLoad {
     /// Components of the normal that load the bearings: along the planet's axis and the side gear's axis, both away
     /// from the apex, and along the rotation.
-    pub fn parts(&self) -> [f64; 3] {
+    pub fn components(&self) -> [f64; 3] {
         // the planet is pushed back, the side gear forward
         let [planet, side, across] = self.normal;
         [-planet, side, across]
@@ -78,8 +78,8 @@ impl SolidMesh {
             if let Some((placement, patch)) = self.patch(near, placed) {
                 let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
                 let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
-                let parts = |w: [f64; 3]| {
-                    let [planet, side, across] = placement.parts(w);
+                let components = |w: [f64; 3]| {
+                    let [planet, side, across] = placement.components(w);
                     [planet, side, sign * across]
                 };
                 visit(&SolidLoad {
@@ -89,9 +89,9 @@ impl SolidMesh {
                     slice: *slice,
                     depth: p.v,
                     force,
-                    point: parts(point.into()),
+                    point: components(point.into()),
                     polar: placement.polars(point, slice.cone),
-                    normal: parts(patch.normal),
+                    normal: components(patch.normal),
                 });
             }
         });

@@ -1,14 +1,14 @@
 //! A mesh of solid teeth: the potential of all overlapping pairs and sections.
-//! //!
+//!
 //! V(q, x) = Σ_k Σ_j ω_j U(R_m p_kj(q, x)), Σ_j ω_j = 1
-//! //!
+//!
 //! The sum is over pairs k and sections j across the face. p is the overlap of a section as an arc
 //! ([`super::overlap`]), and U the energy of the law of a pair (IMPACT). Slices of a straight bevel tooth are similar,
 //! so the load per width depends only on the arc. If the arc of a section changes by δp, the section yields by R_j δp
 //! at its cone distance. Its force is therefore
-//! //!
+//!
 //! F_j = ω_j R_m/R_j U′(R_m p_kj)
-//! //!
+//!
 //! This is the only force that balances the torques. If ω_j is proportional to R_j times the section's width, aligned
 //! flanks load the face evenly. The resultant then acts at R_m, and V is the potential of tooth pairs on the path of
 //! contact. On misaligned or crowned flanks, the load of every section follows from its own overlap.

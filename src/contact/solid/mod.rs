@@ -1,5 +1,5 @@
 //! Contact of solid teeth: faceted flanks pressed together, detected and measured only from geometry.
-//! //!
+//!
 //! Flanks are plane facets between rays from the apex of their gear, like those of an exported solid. Bounding boxes
 //! find the teeth that can meet ([`candidates`]). In the actual position of the gears ([`pose`]), misaligned or not,
 //! both flanks of a section are polygons ([`polygon`]). A walk along their corners ([`walk`]) measures the overlap

@@ -3,16 +3,16 @@
 //! Both sections are polygons in the plane of projection of [`super::pose`]: the planet's surface h_p(u) with material
 //! below it, and the side gear's surface h_s(u) with material above it. Their overlap at u is the distance of one
 //! surface inside the other, as an arc
-//! //!
+//!
 //! δ = (h_p − h_s) c / (1 + u² + h_p h_s), c = n_h √(1 + u² + h²), n_h the component along h of the normal.
-//! //!
+//!
 //! The overlap is negative if the flanks are apart. It is evaluated at the corners of both polygons and is linear
 //! between them. On the path of contact, both normals are the same. A tip corner is measured along the normal of the
 //! flank that it meets: c passes from the side gear's value at the planet's tip to the planet's value at the side
 //! gear's tip. The depth of a section is a soft maximum of the overlap over the patch around the maximum:
-//! //!
+//!
 //! p = ε ln( ∫ exp(δ(u)/ε) du / √(2π ρ ε) ), ∂p = ∫ w ∂δ du with the weights w ∝ exp(δ/ε), ∫ w du = 1
-//! //!
+//!
 //! Every facet under the patch transmits its share w du of the load along its own normal, so force and torque are
 //! continuous when the deepest corner changes. With only the deepest point, they would jump at each facet. The patch
 //! has the half-width √(ρ ε) between flanks of relative radius of curvature ρ (Laplace's method: for δ = p − u²/2ρ the

@@ -1,12 +1,12 @@
 //! Position of the teeth of a pair, seen along the line of action.
-//! //!
+//!
 //! Frame of a mesh: u and v away from the axes of planet and side gear in their common plane, each toward the other
 //! axis; t across this plane, in the direction in which the carrier turns forward; a_p, a_s along the axes from apex to
 //! heel. Tooth k of the planet is at θ_p = (x + k p_b)/sinδ_bp from u toward t. The tooth of the side gear that it
 //! drives is at θ_s = (q + x + k p_b)/sinδ_bs + π/z_s from v toward t. A misaligned planet leans by δΣ about the apex
 //! away from the side gear, and is displaced. A displaced side gear is treated as a planet displaced in the opposite
 //! direction.
-//! //!
+//!
 //! Both flanks are drawn in the plane that touches the unit sphere at the pitch point. In this gnomonic projection,
 //! plane facets through the apex are straight lines. h is along the line of action into the side gear, u across it
 //! toward the side gear's tip. All contacts of involutes are then at u = 0, with their normals along h.
@@ -192,7 +192,7 @@ impl Placement {
     }
 
     /// Components along a_p, a_s and t of a vector in the rows of a placement.
-    pub fn parts(&self, w: [f64; 3]) -> [f64; 3] {
+    pub fn components(&self, w: [f64; 3]) -> [f64; 3] {
         let w = Vector3::from(w);
         [0, 1, 2].map(|i| self.axes[i].dot(&w))
     }

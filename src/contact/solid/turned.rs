@@ -1,5 +1,5 @@
 //! Numbers that depend on the angles of both gears of a pair, with exact derivatives.
-//! //!
+//!
 //! A quantity of one gear depends only on the angle of that gear, so it has one slope and one curvature. A quantity of
 //! both gears has two slopes and three curvatures. Formulas are written once. `N` is the highest order of derivative
 //! that is computed; values and slopes have the same bits at any order.

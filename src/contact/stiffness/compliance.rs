@@ -1,10 +1,10 @@
 //! Compliance of a loaded tooth pair per unit of width: bending, shear, compression and root of both teeth, and
 //! Hertzian contact.
-//! //!
+//!
 //! C. Weber, K. Banaschek: Formänderung und Profilrücknahme bei gerad- und schrägverzahnten Rädern (1953), in plane
 //! strain: E' = E/(1−ν²), ν' = ν/(1−ν). s(y) is the chord of the true profile, including the fillet. The load is at an
 //! angle τ to the chord and crosses the tooth's middle at y_c, at a lever l above the root section with the chord s_F:
-//! //!
+//!
 //! q = cos²τ/E' { 12∫(y_c−y)²/s³ dy + (2.4(1+ν') + tan²τ)∫dy/s
 //! + 18/π (l/s_F)² + 2(1−ν') l/s_F + 4.8/π (1 + tan²τ/(2.4(1+ν'))) }, integrals from y₀ to y_c.
 //!

@@ -1,5 +1,5 @@
 //! A tip corner past the end of the path: the loaded points on its own tooth and on the mating tooth.
-//! //!
+//!
 //! The corner's own tooth is loaded at its tip. The mating tooth is loaded at the corner. The corner's polar angle φ
 //! about the mate's axis determines the arc ψ of the flank, cosφ = cosδ_b cosψ. On the path, the roll length on the
 //! section is the roll length at the pitch point plus R_e times the arc from the pitch point. A corner uses the same

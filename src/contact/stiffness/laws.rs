@@ -1,14 +1,14 @@
 //! Two laws of a tooth pair derived from its compliance: linear, or with a Hertz part that depends on the load.
-//! //!
+//!
 //! Slices of a straight bevel pair are similar, so with a line load w = ωR the deflection is Rp at every R. The arc is
 //! p = ω q(ω, s) with q = Q(s) − B ln(ω/ω₀), because the Hertz half-width b grows with √ω. Q is the compliance at ω₀.
 //! Both laws return the elastic response per ∫R²dR, with the energy Φ. Multiplied by (R_e³ − R_i³)/3, it is the
 //! response of the pair, with the torque ω∫R²dR.
-//! //!
+//!
 //! * [`Line`]: q at a fixed load, Φ = p²/2q.
 //! * [`LineWeber`]: with v = q/B, the load is ω = p/(Bv), where v − ln v = Q/B − ln(p/(ω₀B)) (Lambert's W₋₁), and
-//! Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, p(ω) continues along its
-//! tangent, because b exceeds half the depth to the teeth's middles and the logarithm is meaningless.
+//!   Φ = ∫ω dp = ½pω(1 − 1/(2v)), ∂²Φ/∂p² = 1/(B(v − 1)), ∂Φ/∂s = −½ω²Q′. Above ω₀, p(ω) continues along its
+//!   tangent, because b exceeds half the depth to the teeth's middles and the logarithm is meaningless.
 
 use std::sync::Arc;
 

@@ -1,10 +1,10 @@
 //! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. It is the
 //! compliance of a tip corner as far as the corner can touch, and levels off to a constant beyond.
-//! //!
+//!
 //! The corner moves up its mate's flank from a roll length ρ₀, and ρ² grows linearly with x. Near a base circle, the
 //! Hertz part curves within x ≈ ρ₀². The knots of the nearer half are therefore evenly spaced in the eighth root of x +
 //! ρ₀². In the farther half, the knots cluster quadratically at the end, because the mate's tooth is thin there.
-//! //!
+//!
 //! At the end of the path the slope jumps: the load on the corner's own tooth stays at its tip, and the load on the
 //! mate turns back. Over a short distance, a smooth step with four continuous derivatives leads from the path's
 //! parabola to the corner.

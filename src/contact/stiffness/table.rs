@@ -1,5 +1,5 @@
 //! A function of the position on the path as a cubic spline, twice continuously differentiable and read in O(1).
-//! //!
+//!
 //! Toward a clipped end of the path the Hertz part contains a logarithm, and toward a pointed tip the bending contains
 //! one. In the outer quarters the knots therefore cluster quadratically at the ends: index = n √(distance). In the
 //! middle half they are evenly spaced, and adjacent cells at the joints have equal widths. `past_end` continues past

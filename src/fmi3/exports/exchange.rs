@@ -12,7 +12,7 @@ getters! {
 }
 
 plain! {
-    fmi3EnterEventMode EnterEventMode enter_event_mode_of_any;
+    fmi3EnterEventMode EnterEventMode enter_event_mode_of_either_kind;
     fmi3EnterStepMode EnterStepMode enter_step_mode;
     fmi3EvaluateDiscreteStates EvaluateDiscreteStates evaluate_discrete_states;
 }

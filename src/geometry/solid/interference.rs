@@ -1,18 +1,18 @@
 //! Interference check of planet and side gear: penetration of their teeth while turning, and their smallest clearance.
-//! //!
+//!
 //! Both apexes coincide and the gears turn by Willis' equation. A planet turned by θ from a tooth in the plane of both
 //! axes faces a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass through the same positions,
 //! half a tooth pitch apart, and left and right are mirror images. One pair over one pitch therefore covers all meshes.
 //! The pair is examined in two stances. In the first, teeth are in the middle of their gaps, with equal backlash on
 //! both flanks. In the second, all backlash is closed on one side, as in running gears; flanks then touch, and nothing
 //! else may touch.
-//! //!
+//!
 //! *Depth* is the distance of a ray of one gear inside the other gear from the nearest face of that gear, along its
 //! normal. Rays of either gear are tested against the other gear: the rays through the nodes of its outline, including
 //! the corners of the tip. The gap between flanks that do not touch is found in the same way. All faces are cones with
 //! one apex, so depth and gap are proportional to the cone distance. They are given per cone distance [rad]; depth is
 //! largest at the heel, gap smallest at the toe.
-//! //!
+//!
 //! Facets are chords of the exact faces. Results are accurate to the *resolution*: twice the largest distance of the
 //! facets from the faces, summed over both gears, because rays of one gear also meet the other between its nodes.
 

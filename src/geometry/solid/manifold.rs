@@ -4,7 +4,7 @@
 //! the outline down to the root circle close the teeth. The plane z = R cosδ_f from the root circle to the bore closes
 //! the body; without a bore, it extends to the axis. The result is a frustum of the root cone with the teeth on it.
 //! Lengthwise crowning removes C ((R − R_m)/(b/2))² from the flanks, along their normals (ISO 21771).
-//! //!
+//!
 //! The *sector* of a tooth is cut from the gear by the planes through the axis and the middles of the gaps on both
 //! sides.
 

@@ -1,5 +1,5 @@
 //! Outline of one tooth on the unit sphere, from the middle of one gap to the middle of the next.
-//! //!
+//!
 //! It consists of root land, fillet, meridian below the base circle, involute flank, tip land, and their mirror images.
 //! Nodes of the flank are on the involute, equally spaced in the arc ψ by which the great circle rolls.
 

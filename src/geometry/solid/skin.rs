@@ -1,5 +1,5 @@
 //! Surface of the teeth of a gear for parry3d's queries: distance of a point inside or outside.
-//! //!
+//!
 //! All faces of the teeth are cones with the pitch apex as their apex. A band of these cones at the heel therefore
 //! represents them all. A length at the cone distance R is R/R_e times the length at the heel. Three neighbouring teeth
 //! suffice, because every azimuth is mapped into the middle tooth. The ends of the face are omitted: the whole gear

@@ -75,18 +75,18 @@ impl BodyEffects {
     }
 
     /// Nodes whose temperatures influence friction or the viscosity of the oil.
-    pub fn felt_nodes(&self) -> Vec<usize> {
-        let is_felt = |node: &usize| {
+    pub fn influential_nodes(&self) -> Vec<usize> {
+        let is_influential = |node: &usize| {
             let at_node = SurfaceTemperature::Node(*node);
-            let rubs_there =
+            let has_friction_there =
                 |source: &FrictionSource| source.temperature == at_node && source.sliding.varies_with_temperature();
-            *node == OIL && self.oil.is_some() || self.friction.iter().any(rubs_there)
+            *node == OIL && self.oil.is_some() || self.friction.iter().any(has_friction_there)
         };
-        (0..NODES).filter(is_felt).collect()
+        (0..NODES).filter(is_influential).collect()
     }
 
     /// True if friction, or an effect through the viscosity of the oil, depends on temperature.
-    pub fn feels_temperature(&self) -> bool {
+    pub fn depends_on_temperature(&self) -> bool {
         self.oil.is_some() || self.friction.iter().any(|source| source.sliding.varies_with_temperature())
     }
 

@@ -12,7 +12,7 @@ use crate::model::scene::{ATTACHED_COUNT, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and half-shaft ends.
-pub const MOST: usize = PLANET + 1 + ATTACHED_COUNT;
+pub const IDEAL_SIZE: usize = PLANET + 1 + ATTACHED_COUNT;
 
 /// Motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
@@ -23,9 +23,9 @@ pub struct Linear {
     /// Index of the half-shafts' heat in the ledger.
     pub heat_index: usize,
     /// Derivatives of the accelerations with respect to positions.
-    pub by_position: Matrix<MOST>,
+    pub by_position: Matrix<IDEAL_SIZE>,
     /// Derivatives of the accelerations with respect to velocities.
-    pub by_velocity: Matrix<MOST>,
+    pub by_velocity: Matrix<IDEAL_SIZE>,
 }
 
 /// Constants of an ideal differential with effects.
@@ -36,15 +36,15 @@ pub struct IdealWithEffects {
     /// Index of each degree of freedom.
     pub layout: Layout,
     /// Inertia by degree of freedom, summed over all planets [kg·m²].
-    pub inertia: [f64; MOST],
+    pub inertia: [f64; IDEAL_SIZE],
     /// Inertias of ends that are rigid on their side gears [kg·m²].
     pub rigid_end: [f64; 2],
     /// r = z_p/z_s.
     pub ratio: f64,
     /// Columns of W, which gives accelerations from forces.
-    pub mobility: [[f64; MOST]; MOST],
+    pub mobility: [[f64; IDEAL_SIZE]; IDEAL_SIZE],
     /// Columns of f for the carrier, the spin and both ends; zero if the motion is not imposed.
-    pub follow: [[f64; MOST]; IMPOSED],
+    pub follow: [[f64; IDEAL_SIZE]; IMPOSED],
     /// Constants of a scene in which only half-shafts act, apart from dry friction.
     pub linear: Option<Box<Linear>>,
     /// True if any motion is imposed.
@@ -59,7 +59,7 @@ impl IdealWithEffects {
         let plan = ideal.plan;
         let layout = plan.layout();
         let (by_freedom, rigid_end) = ideal.inertia.by_freedom(&plan);
-        let mut inertia: [f64; MOST] = std::array::from_fn(|i| by_freedom[i]);
+        let mut inertia: [f64; IDEAL_SIZE] = std::array::from_fn(|i| by_freedom[i]);
         inertia[PLANET] = ideal.inertia.planets * ideal.inertia.planet;
         let n = layout.count();
         let r = ideal.ratio;
@@ -68,8 +68,9 @@ impl IdealWithEffects {
         let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0]];
         columns.extend((0..ATTACHED_COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
-        let is_free = |k: usize, column: &[f64; MOST]| !(k < IMPOSED && imposed[k]) && *column != [0.0; MOST];
-        let free: Vec<[f64; MOST]> =
+        let is_free =
+            |k: usize, column: &[f64; IDEAL_SIZE]| !(k < IMPOSED && imposed[k]) && *column != [0.0; IDEAL_SIZE];
+        let free: Vec<[f64; IDEAL_SIZE]> =
             columns.iter().enumerate().filter(|&(k, column)| is_free(k, column)).map(|(_, column)| *column).collect();
         let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
         let m = nalgebra::DMatrix::from_fn(n, n, |i, j| if i == j { inertia[i] } else { 0.0 });
@@ -84,8 +85,8 @@ impl IdealWithEffects {
             inertia,
             rigid_end,
             ratio: r,
-            mobility: [[0.0; MOST]; MOST],
-            follow: [[0.0; MOST]; IMPOSED],
+            mobility: [[0.0; IDEAL_SIZE]; IDEAL_SIZE],
+            follow: [[0.0; IDEAL_SIZE]; IMPOSED],
             linear: None,
             is_imposed: imposed.contains(&true),
             body_effects,
@@ -108,12 +109,12 @@ impl IdealWithEffects {
 
     /// Constants of the scene if only half-shafts act, with the index of their heat.
     fn with_half_shafts(&self, heat_index: usize) -> Linear {
-        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
-        let mut imposed = [[0.0; MOST]; 2];
+        let (mut by_position, mut by_velocity) = ([[0.0; IDEAL_SIZE]; IDEAL_SIZE], [[0.0; IDEAL_SIZE]; IDEAL_SIZE]);
+        let mut imposed = [[0.0; IDEAL_SIZE]; 2];
         let mut slopes = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
         let motion = BodyMotion {
-            q: &[0.0; MOST],
-            v: &[0.0; MOST],
+            q: &[0.0; IDEAL_SIZE],
+            v: &[0.0; IDEAL_SIZE],
             layout: &self.layout,
             inputs: &Inputs::ZERO,
             input_rates: &Inputs::ZERO,
@@ -122,7 +123,7 @@ impl IdealWithEffects {
         self.body_effects.forces.iter().for_each(|effect| effect.slopes(&motion, &mut slopes));
         let [by_position, by_velocity] =
             [(by_position, imposed[0]), (by_velocity, imposed[1])].map(|(forces, imposed)| {
-                let mut product = [[0.0; MOST]; MOST];
+                let mut product = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
                 self.accelerations_by(&forces, &imposed, &mut product);
                 product
             });
@@ -131,9 +132,14 @@ impl IdealWithEffects {
 
     /// Writes the derivatives of the accelerations to `product`, from the derivatives of the forces and of the
     /// carrier's imposed acceleration.
-    pub fn accelerations_by(&self, forces: &Matrix<MOST>, imposed: &[f64; MOST], product: &mut Matrix<MOST>) {
+    pub fn accelerations_by(
+        &self,
+        forces: &Matrix<IDEAL_SIZE>,
+        imposed: &[f64; IDEAL_SIZE],
+        product: &mut Matrix<IDEAL_SIZE>,
+    ) {
         for (i, row) in product.iter_mut().enumerate() {
-            let mut sum = [0.0; MOST];
+            let mut sum = [0.0; IDEAL_SIZE];
             for (k, force) in forces.iter().enumerate() {
                 lanes::add_times(&mut sum, self.mobility[k][i], force);
             }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::FULL;
 use crate::contact::bodies::PairCouplings;
 use crate::contact::damping::{self};
-use crate::contact::detailed::{Face as CutFace, Slice};
+use crate::contact::detailed::{Face as DetailedFace, Slice};
 use crate::contact::solid::mesh::SolidMesh;
 use crate::contact::spring::{ImpactSpring, Resultant};
 use crate::contact::stiffness::PairStiffness;
@@ -28,9 +28,9 @@ pub struct Laws {
     /// Solid teeth.
     pub solid: Option<Box<SolidMesh>>,
     /// Face over which loads are summed in detail.
-    pub face: CutFace,
-    /// Face over which flanks rub, if the law is valid at every cone distance.
-    pub rubbed: Option<CutFace>,
+    pub face: DetailedFace,
+    /// Face over which friction is summed, if the law is valid at every cone distance.
+    pub friction_face: Option<DetailedFace>,
     /// Gear bodies that pairs share, if they are elastic.
     pub bodies: Option<Arc<PairCouplings>>,
 }
@@ -39,13 +39,13 @@ impl Laws {
     /// Law of the scene with the influence of effects on the teeth: elastic bodies, and loads that differ over the face
     /// if the law is valid at every cone distance.
     pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
-        let cut = tooth.sliced;
+        let distributed = tooth.distributed;
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
         // the resultant at `cone` of a load that grows with R, spread over a width that gives the line load at `cone`
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
-        let whole = |cone: f64, weight: f64| CutFace::whole(Slice { cone, weight, width: width(cone) });
+        let whole = |cone: f64, weight: f64| DetailedFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
             let per_width = if p.contact.mesh_stiffness_from_geometry {
                 cache.mesh_mean(p, pair)?
@@ -62,12 +62,12 @@ impl Laws {
             let laws = Self::of_depth(ImpactSpring { law: impact, cone: pair.mean_cone }, whole(pair.mean_cone, 1.0));
             return Ok(Self { solid: Some(Box::new(solids)), ..laws });
         }
-        let of_face = |(spring, bodies), rubbed: CutFace| Self {
+        let of_face = |(spring, bodies), face: DetailedFace| Self {
             spring,
             whole: Resultant::new(centroid, moment),
             solid: None,
-            face: if cut { rubbed } else { whole(centroid, moment) },
-            rubbed: Some(rubbed),
+            face: if distributed { face } else { whole(centroid, moment) },
+            friction_face: Some(face),
             bodies,
         };
         Ok(match p.contact.law {
@@ -77,19 +77,19 @@ impl Laws {
             }
             ContactLaw::Line => {
                 let law = of_teeth(p, pair, tooth, cache, |pairs| AnySpring::Line(pairs.line()))?;
-                of_face(law, CutFace::cut(inner, outer))
+                of_face(law, DetailedFace::linear(inner, outer))
             }
             ContactLaw::LineWeber => {
                 let law = of_teeth(p, pair, tooth, cache, |pairs| AnySpring::LineWeber(pairs.line_weber()))?;
-                of_face(law, CutFace::sliced(inner, outer))
+                of_face(law, DetailedFace::general(inner, outer))
             }
         })
     }
 
     /// Law that depends on the penetration at one cone distance.
-    fn of_depth(spring: ImpactSpring, face: CutFace) -> Self {
+    fn of_depth(spring: ImpactSpring, face: DetailedFace) -> Self {
         let whole = Resultant::new(spring.cone, 1.0);
-        Self { spring: AnySpring::Impact(spring), whole, solid: None, face, rubbed: None, bodies: None }
+        Self { spring: AnySpring::Impact(spring), whole, solid: None, face, friction_face: None, bodies: None }
     }
 
     /// Damping of a tooth pair.

@@ -49,7 +49,7 @@ pub struct Model {
     /// Representation of the gears.
     pub gears: Gears,
     /// Teeth with all planets in one group, until a tooth breaks.
-    pub together: Option<Box<Teeth>>,
+    pub merged: Option<Box<Teeth>>,
     /// Thermal network, if the scene has the effect `warm_up`.
     pub thermal: Option<Box<Network<HEATS>>>,
     /// Records of steps in addition to the ledger, if the scene needs any.
@@ -106,8 +106,8 @@ impl Model {
                 Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, body_effects), cache)))
             }
         };
-        let together = match &gears {
-            Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.together(),
+        let merged = match &gears {
+            Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.merged(),
             _ => None,
         };
         let strength = if BUILT && parameters.effects.strength {
@@ -125,7 +125,7 @@ impl Model {
             masses,
             ideal,
             gears,
-            together,
+            merged,
             watch,
             layout: plan.layout(),
             periods: plan.periods(&pair),
@@ -165,8 +165,8 @@ impl Model {
                 // a coefficient that was 0 may need the loads from now on
                 contact.detailed.needs_thrust = effect_terms.body_effects.needs_loads();
                 contact.in_detail |= contact.detailed.needs_thrust;
-                if let Some(together) = &mut self.together {
-                    together.contact.set_damping(damping);
+                if let Some(merged) = &mut self.merged {
+                    merged.contact.set_damping(damping);
                 }
             }
         }
@@ -208,8 +208,8 @@ fn teeth(
     let mut detailed =
         Detailed::new(pair, mesh.spring.clone(), damping, laws.face, single, friction.map(|friction| friction.law));
     (detailed.needs_thrust, detailed.has_seats) = (body_effects.needs_loads(), plan.has_pins);
-    if let Some(rubbed) = laws.rubbed {
-        detailed.rub_over(rubbed);
+    if let Some(face) = laws.friction_face {
+        detailed.set_friction_face(face);
     }
     let contact = Contact {
         mesh,

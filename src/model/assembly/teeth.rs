@@ -38,8 +38,8 @@ pub struct Teeth {
 impl Teeth {
     /// Returns the teeth with all planets in one group, until an event such as a broken tooth makes one planet differ.
     /// Returns `None` unless planets are in phase and their teeth are plain until then.
-    pub fn together(&self) -> Option<Box<Self>> {
-        let plan = self.plan.with_planets_together()?;
+    pub fn merged(&self) -> Option<Box<Self>> {
+        let plan = self.plan.with_merged_planets()?;
         let is_plain = !self.effect_terms.body_effects.has_effects
             && !self.effect_terms.is_watched
             && self.layout.plain() == Some(false)

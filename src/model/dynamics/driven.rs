@@ -7,7 +7,7 @@
 //! carrier.
 
 use super::shape::Shape;
-use super::{Acted, Equations};
+use super::{Equations, FrictionEquations};
 use crate::integrate::Point;
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
@@ -44,7 +44,7 @@ impl<const N: usize> Driven<N> {
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
-    /// Terms that the acting inputs add to the accelerations.
+    /// Terms that the inputs add to the accelerations.
     #[inline(never)]
     pub(super) fn driven_terms(&self, derivatives: &InputDerivatives) -> Driven<N> {
         let [first, second] = &derivatives.rates;

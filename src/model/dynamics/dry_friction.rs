@@ -2,7 +2,7 @@
 
 use super::ledger_rates::LedgerRates;
 use super::shape::{ByGroup, Shape};
-use super::{Acted, Equations, Jacobian};
+use super::{Equations, FrictionEquations, Jacobian};
 use crate::contact::detailed::{LOCAL, WITH_OTHER};
 use crate::contact::planet::{COORDINATES, LinearisedLoad, Q};
 use crate::integrate::Point;
@@ -37,25 +37,25 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
-        if self.rubs() {
-            self.rub_under(at, loads, sum, ledger_rates);
+        if self.has_dry_friction() {
+            self.add_friction_under(at, loads, sum, ledger_rates);
         }
     }
 
-    fn rub_under(
+    fn add_friction_under(
         &self,
         at: &Point<N>,
         loads: Option<&MeshLoads<S, N>>,
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
-        self.rub(at, &self.all_surface_loads(loads), sum, ledger_rates);
+        self.add_friction_torques(at, &self.all_surface_loads(loads), sum, ledger_rates);
     }
 
     /// Loads on all rubbing surfaces. `loads` are those of side gears and planets.
     fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = self.by_body(loads);
-        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(&self.acting.inputs));
+        all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(&self.applied.inputs));
         all
     }
 
@@ -67,14 +67,14 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads: Option<&MeshLoads<S, N>>,
         j: &mut Jacobian<'_, N>,
     ) {
-        if self.rubs() {
+        if self.has_dry_friction() {
             self.friction_slopes(at, &self.all_surface_loads(loads), j);
         }
     }
 
     /// Adds the torques of sliding brakes, which depend only on inputs and speeds.
     pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
-        let surface_loads = self.acting.friction().wheel_loads(&self.acting.inputs);
+        let surface_loads = self.applied.friction().wheel_loads(&self.applied.inputs);
         for s in 0..2 {
             let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
             if friction.is_on() {

@@ -10,7 +10,7 @@
 //!               tol/w. It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster
 //!               motion, a small energy may be the beginning of a large one, as at the start of an impact.
 
-use super::Acted;
+use super::FrictionEquations;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{CARRIER, Layout, MAX_DOF};
@@ -23,7 +23,7 @@ const ROUNDED_SHARE: f64 = 1e-9;
 /// motion has the relative `tolerance`. `spring_forces` are the forces on all bodies at the end, at rest and without
 /// inputs, and `kinetic_energy` is in J.
 pub fn energy_floor<const N: usize>(
-    equations: &(impl Acted<N> + SecondOrder<N>),
+    equations: &(impl FrictionEquations<N> + SecondOrder<N>),
     [start, end]: [&Point<N>; 2],
     tolerance: f64,
     residual: f64,

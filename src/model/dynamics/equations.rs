@@ -8,7 +8,7 @@
 //! Forces are computed in this order, together with their derivatives:
 //!
 //! 1. contact of each planet with both side gears (`planet_contact`),
-//! 2. forces of the contact on the bodies (`bodies`),
+//! 2. forces of the contact on the bodies (`mesh_transform`),
 //! 3. dry friction under the loads of the contact (`dry_friction`),
 //! 4. effects on bodies (`Equations::act_on_bodies`),
 //! 5. inputs and imposed motions, which have a given acceleration (`Equations::finish`).
@@ -21,8 +21,8 @@ use std::ops::Range;
 
 use super::driven::Driven;
 use super::ledger_rates::LedgerRates;
-use super::shape::{Any, ByGroup, LARGEST, Shape};
-use super::{Acted, Acting, Jacobian, State};
+use super::shape::{Any, ByGroup, MAX_SIZE, Shape};
+use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
@@ -34,7 +34,7 @@ use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, 
 pub struct Equations<'a, S, const N: usize> {
     /// Constants.
     pub teeth: &'a Teeth,
-    pub(in crate::model) acting: Acting,
+    pub(in crate::model) applied: InputsAndFriction,
     /// Terms that inputs add while they change.
     pub(super) driven: Driven<N>,
     pub(in crate::model) is_tooth_broken: bool,
@@ -46,7 +46,7 @@ pub struct Equations<'a, S, const N: usize> {
 }
 
 /// Equations with teeth in the shape that fits any scene, for computations outside the loop over the steps.
-pub type Largest<'a> = Equations<'a, Any, LARGEST>;
+pub type Largest<'a> = Equations<'a, Any, MAX_SIZE>;
 
 impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Equations under `inputs` with the wrapping of `state`.
@@ -60,13 +60,13 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
                 offset[g][s] = teeth.base_pitch * (state.whole_periods[LEFT + s] - spin) as f64;
             }
         }
-        let mut acting = Acting::without_friction(inputs, state);
+        let mut applied = InputsAndFriction::without_friction(inputs, state);
         if S::MAY_ACT {
-            acting.add(&teeth.effect_terms.body_effects, state);
+            applied.add(&teeth.effect_terms.body_effects, state);
         }
         let is_tooth_broken = state.is_tooth_broken;
         let mut these =
-            Self { teeth, acting, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };
+            Self { teeth, applied, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };
         if let Some(derivatives) = &state.input_derivatives {
             these.driven = these.driven_terms(derivatives);
         }
@@ -146,9 +146,9 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
 
     /// Returns these equations in the shape that fits any scene.
     pub(in crate::model) fn largest(&self) -> Largest<'_> {
-        let Self { teeth, acting, is_tooth_broken, offset, wrapped, .. } = *self;
-        let driven = if acting.driven { Driven::SCALES } else { Driven::NO };
-        Largest { teeth, acting, driven, is_tooth_broken, offset, wrapped, shape: PhantomData }
+        let Self { teeth, applied, is_tooth_broken, offset, wrapped, .. } = *self;
+        let driven = if applied.driven { Driven::SCALES } else { Driven::NO };
+        Largest { teeth, applied, driven, is_tooth_broken, offset, wrapped, shape: PhantomData }
     }
 
     /// Number of pitches by which planets of group `g` have been wrapped, in the direction of x of the mesh with side
@@ -178,7 +178,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         imposed: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
-        self.act_of_teeth(at, sum, ledger_rates);
+        self.add_mesh_forces(at, sum, ledger_rates);
         if S::MAY_ACT {
             self.act_on_bodies(at, sum, imposed, ledger_rates);
         }
@@ -212,7 +212,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// degree of freedom.
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
         if !self.has_ends() || !self.teeth.plan.shafts[s] {
-            return self.acting.inputs.load_torque[s];
+            return self.applied.inputs.load_torque[s];
         }
         let end = self.end(s);
         self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
@@ -229,21 +229,21 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         ledger_rates: &mut LedgerRates,
     ) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        let rates = &self.acting.input_derivatives.rates[0];
+        let rates = &self.applied.input_derivatives.rates[0];
         let mut input = 0.0;
         for s in 0..2 {
             let wheel = if S::MAY_ACT { self.wheel(s) } else { s };
             if S::MAY_ACT && plan.side_imposed[s] {
                 input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
             } else {
-                sum[wheel] -= self.acting.inputs.load_torque[s];
-                input -= self.acting.inputs.load_torque[s] * at.v[wheel];
+                sum[wheel] -= self.applied.inputs.load_torque[s];
+                input -= self.applied.inputs.load_torque[s] * at.v[wheel];
             }
         }
         let drive = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + if S::MAY_ACT { ledger_rates.drive } else { 0.0 }
+            self.applied.inputs.carrier_torque + if S::MAY_ACT { ledger_rates.drive } else { 0.0 }
         };
         input += drive * at.v[CARRIER];
         sum[CARRIER] += drive;
@@ -257,7 +257,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         if S::MAY_ACT && plan.carrier_imposed {
             sum[CARRIER] = imposed[CARRIER];
         }
-        if S::MAY_ACT && self.acting.driven {
+        if S::MAY_ACT && self.applied.driven {
             for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
                 sum[self.planet(g)] = rates.planet_spin;
             }
@@ -374,15 +374,15 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     }
 }
 
-impl<const N: usize, S: Shape<N>> Acted<N> for Equations<'_, S, N> {
+impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
     #[inline]
-    fn acting(&self) -> &Acting {
-        &self.acting
+    fn applied(&self) -> &InputsAndFriction {
+        &self.applied
     }
 
     #[inline]
-    fn acting_mut(&mut self) -> &mut Acting {
-        &mut self.acting
+    fn applied_mut(&mut self) -> &mut InputsAndFriction {
+        &mut self.applied
     }
 
     #[inline]
@@ -401,8 +401,8 @@ impl<const N: usize, S: Shape<N>> Acted<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn rubs(&self) -> bool {
-        S::MAY_ACT && self.acting.rubs
+    fn has_dry_friction(&self) -> bool {
+        S::MAY_ACT && self.applied.has_dry_friction
     }
 
     #[inline]
@@ -416,7 +416,7 @@ impl<const N: usize, S: Shape<N>> Acted<N> for Equations<'_, S, N> {
     }
 
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES] {
-        let is_pressed = self.acting.friction().depends_on_load();
+        let is_pressed = self.applied.friction().depends_on_load();
         self.by_body(if is_pressed { self.surfaces_pressed(at) } else { None }.as_ref())
     }
 

@@ -68,7 +68,7 @@ finite! {
 
 /// Options of a call that advances the motion.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Way {
+pub struct AdvanceOptions {
     /// True if the motion stops at the first event.
     pub pauses: bool,
     /// True if the call ends before the next communication point.

@@ -5,9 +5,9 @@
 //! constraint force λ_s = J_s ω̇_s − Q_s.
 
 use super::energy_floor::energy_floor;
-use super::{Acted, Acting, Jacobian, State};
+use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
-use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, Linear, MOST};
+use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, BodyMotion, FrictionSource, Slopes, SurfaceLoad};
 use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, PLANET, Plan};
@@ -29,7 +29,7 @@ pub struct IdealTorques {
 pub struct IdealEquations<'a> {
     /// Constants.
     pub ideal: &'a IdealWithEffects,
-    pub(in crate::model) acting: Acting,
+    pub(in crate::model) applied: InputsAndFriction,
 }
 
 /// Inputs at one instant, and their rates [per s].
@@ -49,16 +49,16 @@ impl<'a> IdealEquations<'a> {
     /// Equations under `inputs`, with friction and temperatures of `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
-        let mut equations = Self { ideal, acting: Acting::without_friction(inputs, state) };
-        equations.acting.add(&ideal.body_effects, state);
+        let mut equations = Self { ideal, applied: InputsAndFriction::without_friction(inputs, state) };
+        equations.applied.add(&ideal.body_effects, state);
         equations
     }
 
     /// Calls `of` with the inputs at `time` [s] after they were set.
     #[inline(always)]
     fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
-        if self.acting.driven {
-            let (inputs, derivatives) = self.acting.input_derivatives.after(time, &self.acting.inputs);
+        if self.applied.driven {
+            let (inputs, derivatives) = self.applied.input_derivatives.after(time, &self.applied.inputs);
             of((&inputs, &derivatives.rates[0]))
         } else {
             of(self.now())
@@ -68,17 +68,17 @@ impl<'a> IdealEquations<'a> {
     /// Inputs at the time at which they were set.
     #[inline(always)]
     fn now(&self) -> InputsNow<'_> {
-        (&self.acting.inputs, &self.acting.input_derivatives.rates[0])
+        (&self.applied.inputs, &self.applied.input_derivatives.rates[0])
     }
 
     /// Forces, including commanded torques except those of imposed motions, and the accelerations of imposed motions.
     fn forces(
         &self,
-        at: &Point<MOST>,
+        at: &Point<IDEAL_SIZE>,
         (inputs, rates): InputsNow,
         ledger_rates: &mut LedgerRates,
-    ) -> ([f64; MOST], [f64; IMPOSED]) {
-        let (mut sum, mut imposed) = ([0.0; MOST], rates.carrier_speed);
+    ) -> ([f64; IDEAL_SIZE], [f64; IMPOSED]) {
+        let (mut sum, mut imposed) = ([0.0; IDEAL_SIZE], rates.carrier_speed);
         let mut out = Action {
             force: &mut sum,
             imposed: &mut imposed,
@@ -89,8 +89,8 @@ impl<'a> IdealEquations<'a> {
         for effect in self.ideal.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
-        if self.rubs() {
-            self.rub(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
+        if self.has_dry_friction() {
+            self.add_friction_torques(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
         }
         for s in (0..2).filter(|_| self.has_ends()) {
             let end = self.end(s);
@@ -103,23 +103,23 @@ impl<'a> IdealEquations<'a> {
 
     /// Positions, velocities and inputs, as passed to effects.
     #[inline]
-    fn motion<'b>(&'b self, at: &'b Point<MOST>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
-        let (layout, oil_viscosity) = (&self.ideal.layout, self.acting.oil_viscosity);
+    fn motion<'b>(&'b self, at: &'b Point<IDEAL_SIZE>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
+        let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
         BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
     }
 
     /// Loads on all rubbing surfaces. Without teeth, only brakes have loads.
     fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-        all[FRICTION_WHEELS..].copy_from_slice(&self.acting.friction().wheel_loads(inputs));
+        all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(inputs));
         all
     }
 
     /// Accelerations W Q + f u̇_c.
     #[inline]
-    fn accelerations(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
+    fn accelerations(&self, sum: &[f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
         let ideal = self.ideal;
-        let mut free = [0.0; MOST];
+        let mut free = [0.0; IDEAL_SIZE];
         for (column, force) in ideal.mobility.iter().zip(sum) {
             lanes::add_times(&mut free, *force, column);
         }
@@ -128,8 +128,8 @@ impl<'a> IdealEquations<'a> {
 
     /// Accelerations W Q + f u̇_c for forces that do not act on planets, such as those of half-shafts.
     #[inline]
-    fn accelerations_by_shafts(&self, sum: &[f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
-        let mut free = [0.0; MOST];
+    fn accelerations_by_shafts(&self, sum: &[f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
+        let mut free = [0.0; IDEAL_SIZE];
         for i in [0, 1, CARRIER, PLANET + 1, PLANET + 2] {
             lanes::add_times(&mut free, sum[i], &self.ideal.mobility[i]);
         }
@@ -138,10 +138,10 @@ impl<'a> IdealEquations<'a> {
 
     /// Adds f u̇_c to the accelerations that follow from forces.
     #[inline(always)]
-    fn follow(&self, mut free: [f64; MOST], imposed: &[f64; IMPOSED]) -> [f64; MOST] {
+    fn follow(&self, mut free: [f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
         let ideal = self.ideal;
         if ideal.is_imposed {
-            let mut following = [0.0; MOST];
+            let mut following = [0.0; IDEAL_SIZE];
             for (column, acceleration) in ideal.follow.iter().zip(imposed) {
                 lanes::add_times(&mut following, *acceleration, column);
             }
@@ -153,7 +153,7 @@ impl<'a> IdealEquations<'a> {
     /// Constants of a scene in which only half-shafts act, or `None` if other effects or dry friction act.
     #[inline]
     fn linear(&self) -> Option<&'a Linear> {
-        self.ideal.linear.as_deref().filter(|_| !self.rubs())
+        self.ideal.linear.as_deref().filter(|_| !self.has_dry_friction())
     }
 
     /// Forces and imposed accelerations if only half-shafts act; [`Self::forces`] would return the same values. Calls
@@ -161,12 +161,12 @@ impl<'a> IdealEquations<'a> {
     #[inline(always)]
     fn forces_of_shafts(
         &self,
-        at: &Point<MOST>,
+        at: &Point<IDEAL_SIZE>,
         (inputs, rates): InputsNow,
         ledger_rates: &mut LedgerRates,
         mut see: impl FnMut(&mut LedgerRates, usize, f64, f64),
-    ) -> ([f64; MOST], [f64; IMPOSED]) {
-        let mut sum = [0.0; MOST];
+    ) -> ([f64; IDEAL_SIZE], [f64; IMPOSED]) {
+        let mut sum = [0.0; IDEAL_SIZE];
         for s in 0..2 {
             let end = self.end(s);
             let rate = at.v[s] - at.v[end];
@@ -183,9 +183,9 @@ impl<'a> IdealEquations<'a> {
     #[inline(always)]
     fn drive(
         &self,
-        at: &Point<MOST>,
+        at: &Point<IDEAL_SIZE>,
         (inputs, rates): InputsNow,
-        sum: &mut [f64; MOST],
+        sum: &mut [f64; IDEAL_SIZE],
         ledger_rates: &mut LedgerRates,
     ) {
         let (plan, has_ends) = (&self.ideal.plan, self.has_ends());
@@ -211,7 +211,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Accelerations under inputs.
-    fn accelerate(&self, at: &Point<MOST>, now: InputsNow) -> [f64; MOST] {
+    fn accelerate(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> [f64; IDEAL_SIZE] {
         if self.linear().is_some() {
             let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
             return self.accelerations_by_shafts(&sum, &imposed);
@@ -221,7 +221,12 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Returns accelerations under inputs and adds to the ledger rates.
-    fn evaluate_under(&self, at: &Point<MOST>, now: InputsNow, ledger_rates: &mut LedgerRates) -> [f64; MOST] {
+    fn evaluate_under(
+        &self,
+        at: &Point<IDEAL_SIZE>,
+        now: InputsNow,
+        ledger_rates: &mut LedgerRates,
+    ) -> [f64; IDEAL_SIZE] {
         let (sum, imposed) = match self.linear() {
             Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
                 ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
@@ -242,7 +247,12 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Writes the linearised equations under inputs to `lin`.
-    fn linearise_under(&self, at: &Point<MOST>, now: InputsNow, lin: &mut Linearisation<MOST, LedgerRates>) {
+    fn linearise_under(
+        &self,
+        at: &Point<IDEAL_SIZE>,
+        now: InputsNow,
+        lin: &mut Linearisation<IDEAL_SIZE, LedgerRates>,
+    ) {
         lin.ledger_rates = LedgerRates::default();
         lin.acceleration = self.evaluate_under(at, now, &mut lin.ledger_rates);
         if let Some(linear) = self.linear() {
@@ -251,15 +261,15 @@ impl<'a> IdealEquations<'a> {
             lin.by_velocity = linear.by_velocity;
             return;
         }
-        let (mut by_position, mut by_velocity) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
-        let mut imposed = [[0.0; MOST]; 2];
+        let (mut by_position, mut by_velocity) = ([[0.0; IDEAL_SIZE]; IDEAL_SIZE], [[0.0; IDEAL_SIZE]; IDEAL_SIZE]);
+        let mut imposed = [[0.0; IDEAL_SIZE]; 2];
         let mut out = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
         let motion = self.motion(at, now);
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&motion, &mut out);
         }
-        if self.rubs() {
-            let mut by_rate = [[0.0; MOST]; MOST];
+        if self.has_dry_friction() {
+            let mut by_rate = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
             let by_velocity = &mut by_velocity;
             let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity };
             self.friction_slopes(at, &self.brake_loads(now.0), j);
@@ -274,9 +284,9 @@ impl<'a> IdealEquations<'a> {
 
     /// Torques that follow from the constraint. `drive` is the torque on a carrier whose motion is not imposed.
     #[inline]
-    fn torques_of(&self, sum: &[f64; MOST], a: &[f64; MOST], drive: f64) -> IdealTorques {
+    fn torques_of(&self, sum: &[f64; IDEAL_SIZE], a: &[f64; IDEAL_SIZE], drive: f64) -> IdealTorques {
         let ideal = self.ideal;
-        let lack: [f64; MOST] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
+        let lack: [f64; IDEAL_SIZE] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
         let plan = &ideal.plan;
         IdealTorques {
             carrier: if plan.carrier_imposed { lack[0] + lack[1] + lack[CARRIER] } else { drive },
@@ -286,23 +296,23 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Torques that follow from the constraint.
-    pub fn torques(&self, at: &Point<MOST>) -> IdealTorques {
+    pub fn torques(&self, at: &Point<IDEAL_SIZE>) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
         let (sum, imposed) = self.forces(at, self.now(), &mut ledger_rates);
-        let drive = self.acting.inputs.carrier_torque + ledger_rates.drive;
+        let drive = self.applied.inputs.carrier_torque + ledger_rates.drive;
         self.torques_of(&sum, &self.accelerations(&sum, &imposed), drive)
     }
 
     /// Kinetic energy [J].
-    fn kinetic_energy(&self, at: &Point<MOST>) -> f64 {
+    fn kinetic_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
         // rows beyond the last degree of freedom have no inertia
-        0.5 * (0..MOST).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
+        0.5 * (0..IDEAL_SIZE).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
     /// Energy stored in half-shafts and stuck friction [J].
-    fn stored_energy(&self, at: &Point<MOST>) -> f64 {
+    fn stored_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
         let motion = self.motion(at, self.now());
-        if self.linear().is_some() && self.acting.is_free() {
+        if self.linear().is_some() && self.applied.is_free() {
             return self.ideal.body_effects.forces[0].energy(&motion);
         }
         let bodies: f64 = self.ideal.body_effects.forces.iter().map(|e| e.energy(&motion)).sum();
@@ -310,13 +320,13 @@ impl<'a> IdealEquations<'a> {
     }
 }
 
-impl Acted<MOST> for IdealEquations<'_> {
-    fn acting(&self) -> &Acting {
-        &self.acting
+impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
+    fn applied(&self) -> &InputsAndFriction {
+        &self.applied
     }
 
-    fn acting_mut(&mut self) -> &mut Acting {
-        &mut self.acting
+    fn applied_mut(&mut self) -> &mut InputsAndFriction {
+        &mut self.applied
     }
 
     fn friction_sources(&self) -> &[FrictionSource] {
@@ -331,8 +341,8 @@ impl Acted<MOST> for IdealEquations<'_> {
         &self.ideal.layout
     }
 
-    fn rubs(&self) -> bool {
-        self.acting.rubs
+    fn has_dry_friction(&self) -> bool {
+        self.applied.has_dry_friction
     }
 
     fn has_ends(&self) -> bool {
@@ -344,20 +354,20 @@ impl Acted<MOST> for IdealEquations<'_> {
         &[]
     }
 
-    fn mesh_loads(&self, _: &Point<MOST>) -> [SurfaceLoad; FRICTION_BODIES] {
+    fn mesh_loads(&self, _: &Point<IDEAL_SIZE>) -> [SurfaceLoad; FRICTION_BODIES] {
         [SurfaceLoad::default(); FRICTION_BODIES]
     }
 
-    fn acceleration_at(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
+    fn acceleration_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
         self.accelerate_at(at, time)
     }
 
-    fn acceleration_by_inputs(&self, at: &Point<MOST>) -> [f64; MOST] {
+    fn acceleration_by_inputs(&self, at: &Point<IDEAL_SIZE>) -> [f64; IDEAL_SIZE] {
         self.accelerate(at, self.now())
     }
 }
 
-impl SecondOrder<MOST> for IdealEquations<'_> {
+impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
     type Rates = LedgerRates;
 
     fn degrees_of_freedom(&self) -> usize {
@@ -366,10 +376,10 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     #[inline]
     fn rows(&self) -> usize {
-        MOST
+        IDEAL_SIZE
     }
 
-    fn energy(&self, at: &Point<MOST>) -> [f64; 2] {
+    fn energy(&self, at: &Point<IDEAL_SIZE>) -> [f64; 2] {
         [self.kinetic_energy(at), self.stored_energy(at)]
     }
 
@@ -377,9 +387,9 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         LedgerRates::imbalance::<true>(energies, h, ledger_rates)
     }
 
-    fn energy_floor(&self, ends: [&Point<MOST>; 2], tolerance: f64, residual: f64) -> f64 {
+    fn energy_floor(&self, ends: [&Point<IDEAL_SIZE>; 2], tolerance: f64, residual: f64) -> f64 {
         let spring_forces = || {
-            let rest = Point { q: ends[1].q, v: [0.0; MOST] };
+            let rest = Point { q: ends[1].q, v: [0.0; IDEAL_SIZE] };
             let (force, _) = self.forces(&rest, (&Inputs::ZERO, &Inputs::ZERO), &mut LedgerRates::default());
             std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
         };
@@ -387,7 +397,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     }
 
     #[inline]
-    fn rates(&self, v: &[f64; MOST]) -> [f64; MOST] {
+    fn rates(&self, v: &[f64; IDEAL_SIZE]) -> [f64; IDEAL_SIZE] {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
@@ -401,7 +411,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     }
 
     #[inline]
-    fn times_rates(&self, m: &mut Matrix<MOST>) {
+    fn times_rates(&self, m: &mut Matrix<IDEAL_SIZE>) {
         let has_ends = self.has_ends();
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
@@ -413,12 +423,12 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         }
     }
 
-    fn evaluate(&self, at: &Point<MOST>) -> ([f64; MOST], LedgerRates) {
+    fn evaluate(&self, at: &Point<IDEAL_SIZE>) -> ([f64; IDEAL_SIZE], LedgerRates) {
         let mut ledger_rates = LedgerRates::default();
         (self.evaluate_under(at, self.now(), &mut ledger_rates), ledger_rates)
     }
 
-    fn linearise(&self, at: &Point<MOST>) -> Linearisation<MOST, LedgerRates> {
+    fn linearise(&self, at: &Point<IDEAL_SIZE>) -> Linearisation<IDEAL_SIZE, LedgerRates> {
         let mut lin = Linearisation::default();
         self.linearise_under(at, self.now(), &mut lin);
         lin
@@ -426,21 +436,21 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
 
     #[inline]
     fn is_driven(&self) -> bool {
-        self.acting.driven
+        self.applied.driven
     }
 
     #[inline]
-    fn evaluate_at(&self, at: &Point<MOST>, time: f64) -> ([f64; MOST], LedgerRates) {
+    fn evaluate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> ([f64; IDEAL_SIZE], LedgerRates) {
         let mut ledger_rates = LedgerRates::default();
         (self.at_time(time, |now| self.evaluate_under(at, now, &mut ledger_rates)), ledger_rates)
     }
 
     #[inline]
-    fn accelerate_at(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
+    fn accelerate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
         self.at_time(time, |now| self.accelerate(at, now))
     }
 
-    fn linearise_at(&self, at: &Point<MOST>, time: f64) -> Linearisation<MOST, LedgerRates> {
+    fn linearise_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> Linearisation<IDEAL_SIZE, LedgerRates> {
         let mut lin = Linearisation::default();
         self.at_time(time, |now| self.linearise_under(at, now, &mut lin));
         lin
@@ -449,17 +459,17 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
     #[inline]
     fn linearise_with_energy(
         &self,
-        at: &Point<MOST>,
+        at: &Point<IDEAL_SIZE>,
         time: f64,
-        lin: &mut Linearisation<MOST, LedgerRates>,
+        lin: &mut Linearisation<IDEAL_SIZE, LedgerRates>,
     ) -> [f64; 2] {
         self.at_time(time, |now| self.linearise_under(at, now, lin));
         self.energy(at)
     }
 
-    fn drift(&self, at: &Point<MOST>, time: f64) -> [f64; MOST] {
+    fn drift(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
         let (_, InputDerivatives { rates: [first, second] }) =
-            self.acting.input_derivatives.after(time, &self.acting.inputs);
+            self.applied.input_derivatives.after(time, &self.applied.inputs);
         let with = self.accelerate(at, (&first, &second));
         let without = self.accelerate(at, (&Inputs::ZERO, &Inputs::ZERO));
         std::array::from_fn(|i| with[i] - without[i])
@@ -469,17 +479,17 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         LedgerRates::combined(of)
     }
 
-    fn take_change_back(&self, at: &Point<MOST>, ledger_rates: &mut LedgerRates) {
-        self.take_torques_back(at, ledger_rates);
+    fn undo_torque_change(&self, at: &Point<IDEAL_SIZE>, ledger_rates: &mut LedgerRates) {
+        self.undo_input_change(at, ledger_rates);
         for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
-            ledger_rates.shaft[s] = self.acting.inputs.load_torque[s] - self.acting.change[s];
+            ledger_rates.shaft[s] = self.applied.inputs.load_torque[s] - self.applied.change[s];
         }
     }
 
-    fn weights(&self, at: &Point<MOST>) -> Point<MOST> {
+    fn weights(&self, at: &Point<IDEAL_SIZE>) -> Point<IDEAL_SIZE> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
-        let mut weights = Point { q: [1.0; MOST], v: [1.0 / (carrier + at.v[PLANET].abs()); MOST] };
-        if self.rubs() {
+        let mut weights = Point { q: [1.0; IDEAL_SIZE], v: [1.0 / (carrier + at.v[PLANET].abs()); IDEAL_SIZE] };
+        if self.has_dry_friction() {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
@@ -489,7 +499,7 @@ impl SecondOrder<MOST> for IdealEquations<'_> {
         weights
     }
 
-    fn crossing(&self, start: (&Point<MOST>, f64), end: (&Point<MOST>, f64)) -> Option<f64> {
+    fn crossing(&self, start: (&Point<IDEAL_SIZE>, f64), end: (&Point<IDEAL_SIZE>, f64)) -> Option<f64> {
         self.friction_crossing(start, end)
     }
 }

@@ -1,9 +1,9 @@
 //! Equations of motion, and the state that they change. In the order of an evaluation:
 //!
 //! - `shape`: degrees of freedom of equations with teeth, and their indices;
-//! - `acting`: inputs and dry friction, with and without teeth;
-//! - `planet_contact`: loads of the meshes; `bodies`: their forces on gears, carrier, pins and seats; `dry_friction`:
-//!   friction under these loads;
+//! - `inputs_and_friction`: inputs and dry friction, with and without teeth;
+//! - `planet_contact`: loads of the meshes; `mesh_transform`: their forces on gears, carrier, pins and seats;
+//!   `dry_friction`: friction under these loads;
 //! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
 //! - `motion`: interface of the equations to an integrator;
 //! - `ideal`: equations without teeth; `ideal_course`: motion of ideal gears without effects, in closed form;
@@ -11,8 +11,6 @@
 //!   resolve;
 //! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
-pub mod acting;
-mod bodies;
 mod driven;
 #[cfg(test)]
 #[path = "tests/driven.rs"]
@@ -29,7 +27,9 @@ mod ideal_course;
 #[cfg(test)]
 #[path = "tests/ideal.rs"]
 mod ideal_tests;
+pub mod inputs_and_friction;
 pub mod ledger_rates;
+mod mesh_transform;
 mod motion;
 pub mod pending_step;
 pub mod planet_contact;
@@ -38,11 +38,11 @@ pub mod shaft_means;
 pub mod shape;
 pub mod state;
 
-pub use acting::{Acted, Acting, Jacobian};
 pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
+pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};
 pub use pending_step::Clock;
-pub use shape::LARGEST;
+pub use shape::MAX_SIZE;
 pub use state::State;
 
 /// Evaluates an expression with the equations of any model bound to `$equations`. `N` is their maximum number of
@@ -52,14 +52,14 @@ macro_rules! with_equations {
         match &$model.gears {
             $crate::model::assembly::model::Gears::Ideal(ideal) => {
                 #[allow(unused)]
-                const N: usize = $crate::model::assembly::ideal_with_effects::MOST;
+                const N: usize = $crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
                 #[allow(unused_mut)]
                 let mut $equations = $crate::model::dynamics::ideal::IdealEquations::new(ideal, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {
                 #[allow(unused)]
-                const N: usize = $crate::model::dynamics::LARGEST;
+                const N: usize = $crate::model::dynamics::MAX_SIZE;
                 #[allow(unused_mut)]
                 let mut $equations = $crate::model::dynamics::Largest::new(teeth, $inputs, $state);
                 $body

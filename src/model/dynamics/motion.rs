@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
-use super::shape::{LARGEST, Shape};
-use super::{Acted, Equations};
+use super::shape::{MAX_SIZE, Shape};
+use super::{Equations, FrictionEquations};
 use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
@@ -118,8 +118,8 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     }
 
     #[inline(never)]
-    fn take_change_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
-        self.take_torques_back(at, ledger_rates);
+    fn undo_torque_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
+        self.undo_input_change(at, ledger_rates);
     }
 
     #[inline]
@@ -188,26 +188,26 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         let spring_forces = || {
             let free = self.largest().under(&Inputs::ZERO, &InputDerivatives::ZERO);
             let rest = Point::of([&ends[1].q, &[0.0; N]]);
-            let (mut sum, mut imposed) = ([0.0; LARGEST], [0.0; LARGEST]);
+            let (mut sum, mut imposed) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE]);
             free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default());
             std::array::from_fn(|i| sum[i])
         };
         energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
-    fn reach(&self, from: &Point<N>, to: &Point<N>) -> f64 {
-        let mut part = 1.0f64;
+    fn safe_fraction(&self, from: &Point<N>, to: &Point<N>) -> f64 {
+        let mut fraction = 1.0f64;
         for g in 0..self.groups() {
             for s in 0..2 {
                 let [from, to] = [from, to].map(|at| self.mesh_state(at, g, s).position[Q]);
                 let most = self.teeth.contact.mesh.half_backlash()
                     + f64::max(FIRST_APPROACH, APPROACH_GROWTH * self.teeth.contact.mesh.approach(from));
                 if to.abs() > most {
-                    part = part.min((most.copysign(to) - from) / (to - from));
+                    fraction = fraction.min((most.copysign(to) - from) / (to - from));
                 }
             }
         }
-        part
+        fraction
     }
 
     #[inline]

@@ -85,7 +85,7 @@ impl PendingStep {
         course.extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
         let (attempt, ledger_rates, energy) = (self.attempt, self.ledger_rates, self.energy);
         course.point = start;
-        course.pending = Some(Pending { attempt, ledger_rates, energy, part: 1.0, jump: None });
+        course.pending = Some(Pending { attempt, ledger_rates, energy, accepted_fraction: 1.0, jump: None });
     }
 
     /// Copies the motion of degree of freedom `first` to degree of freedom `i`.

@@ -4,7 +4,7 @@
 use super::dry_friction::MeshLoads;
 use super::ledger_rates::LedgerRates;
 use super::shape::{ByGroup, Shape};
-use super::{Acted, Equations, Jacobian};
+use super::{Equations, FrictionEquations, Jacobian};
 use crate::contact::planet::{
     AnyContact, LinearisedLoad, MeshLoad, PlanetContact, PlanetState, Q, Visit, Visitor, with_contact,
 };
@@ -35,7 +35,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     #[inline]
     pub(super) fn contact(&self) -> AnyContact<'_> {
         if S::MAY_ACT {
-            let viscosity = self.acting.oil_viscosity.map(|oil| oil.dynamic);
+            let viscosity = self.applied.oil_viscosity.map(|oil| oil.dynamic);
             self.teeth.contact.now(self.is_tooth_broken, viscosity, S::HAS_OWN_STEPS)
         } else {
             self.teeth.contact.without_effects(S::HAS_OWN_STEPS)
@@ -54,7 +54,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
 
     /// Friction along the flanks at the present viscosity of the oil.
     pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
-        self.teeth.contact.friction(self.acting.oil_viscosity.map(|oil| oil.dynamic))
+        self.teeth.contact.friction(self.applied.oil_viscosity.map(|oil| oil.dynamic))
     }
 
     /// Returns an earlier group whose meshes have exactly the state of the meshes of group `g`, so that both have the
@@ -84,7 +84,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Adds the forces of all meshes to `sum`, which is zero, sets their heat, and adds the dry friction under them.
     /// Returns the torques of the meshes on the side gears.
     #[inline(never)]
-    pub(in crate::model) fn act_of_teeth(
+    pub(in crate::model) fn add_mesh_forces(
         &self,
         at: &Point<N>,
         sum: &mut [f64; N],
@@ -126,7 +126,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     ) -> [f64; 2] {
         self.add_loads(loads, sum, ledger_rates);
         let on_sides = [sum[0], sum[1]];
-        let surfaces = (L::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, loads));
+        let surfaces = (L::PRESSES && self.has_dry_friction()).then(|| self.mesh_surface_loads(at, loads));
         self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
         on_sides
     }
@@ -195,7 +195,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if L::COUPLED {
             self.add_block::<true>(|g, s| loads[g][s].by_other(), j.by_position);
         }
-        let surfaces = (L::PRESSES && self.rubs()).then(|| self.mesh_surface_loads(at, loads));
+        let surfaces = (L::PRESSES && self.has_dry_friction()).then(|| self.mesh_surface_loads(at, loads));
         self.add_friction(at, surfaces.as_ref(), sum, ledger_rates);
         if let Some(surfaces) = &surfaces {
             self.friction_slopes_by_loads(at, loads, surfaces, j);
@@ -335,6 +335,6 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(in crate::model) fn is_sliced(&self) -> bool {
         S::MAY_ACT
             && (self.teeth.contact.in_detail || self.is_tooth_broken)
-            && self.teeth.contact.detailed.face.is_cut()
+            && self.teeth.contact.detailed.face.is_distributed()
     }
 }

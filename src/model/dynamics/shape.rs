@@ -8,19 +8,19 @@ use std::ops::{Index, IndexMut};
 use crate::model::scene::{ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
 /// Number of degrees of freedom of plain teeth with identical planets.
-pub const LEAST: usize = 4;
+pub const PLAIN_SIZE: usize = 4;
 /// Number of degrees of freedom of plain teeth with two planets that differ.
-pub const DIFFERENT: usize = 5;
+pub const TWO_GROUPS_SIZE: usize = 5;
 /// Number of degrees of freedom with identical planets and half-shafts that twist.
-pub const WITH_ENDS: usize = 6;
+pub const ENDS_SIZE: usize = 6;
 /// Maximum number of degrees of freedom for which other shapes use small matrices. It is a multiple of any vector
 /// width.
-pub const MEDIUM: usize = 8;
+pub const MEDIUM_SIZE: usize = 8;
 /// Number of degrees of freedom that fits every scene. It is a multiple of any vector width.
-pub const LARGEST: usize = 16;
+pub const MAX_SIZE: usize = 16;
 
 // otherwise another attached body could exceed this number unnoticed
-const _: () = assert!(MAX_DOF <= LARGEST);
+const _: () = assert!(MAX_DOF <= MAX_SIZE);
 
 /// A value for each planet group.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {

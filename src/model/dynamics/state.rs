@@ -268,7 +268,7 @@ impl BodyEffects {
     /// True if more than plain teeth acts in `state`: effects of the scene, a broken tooth, a lock that is commanded or
     /// still holds.
     pub fn act_in(&self, state: &State) -> bool {
-        self.has_effects || state.is_tooth_broken || self.may_rub_in(state)
+        self.has_effects || state.is_tooth_broken || self.may_have_dry_friction(state)
     }
 
     /// True if the forces of ideal gears have a closed form in `state`: no effect acts on bodies, and inputs are
@@ -279,7 +279,7 @@ impl BodyEffects {
 
     /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that
     /// still holds.
-    pub fn may_rub_in(&self, state: &State) -> bool {
+    pub fn may_have_dry_friction(&self, state: &State) -> bool {
         self.has_friction || state.lock > 0.0 || state.friction.iter().any(|friction| friction.stiffness > 0.0)
     }
 }

@@ -82,7 +82,7 @@ impl BodyFriction {
 
     /// Returns the limit torque [N·m]. Adds `sliding` times the torque of each part to the heat of its cause; `sliding`
     /// is the slip speed times the number of bodies [rad/s].
-    pub(super) fn rub(&self, sliding: f64, by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
+    pub(super) fn limit_with_heat(&self, sliding: f64, by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
         self.parts().iter().fold(0.0, |limit, part| {
             let torque = part.at(by);
             heat[part.heat_index] += sliding * torque;

@@ -121,13 +121,17 @@ impl<'a> DryFriction<'a> {
         let direction = state.mode.direction();
         let slides = (direction * slip.speed, count * direction * slip.speed);
         direction
-            * if self.of.varies_with_slip { self.rub_at(slides, by, heat) } else { self.of.rub(slides.1, by, heat) }
+            * if self.of.varies_with_slip {
+                self.limit_with_heat_at(slides, by, heat)
+            } else {
+                self.of.limit_with_heat(slides.1, by, heat)
+            }
     }
 
     /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each part
     /// to the heat of its cause.
     #[inline(never)]
-    fn rub_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
+    fn limit_with_heat_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
         self.parts().fold(0.0, |limit, (part, source)| {
             let [torque, _] = part.sliding(source, speed, by);
             heat[part.heat_index] += sliding * torque;

@@ -109,7 +109,7 @@ impl Friction {
     /// Bit mask of the bodies with friction, by their numbers among the bodies that may stick. `planets` is the number
     /// of planet groups.
     #[inline]
-    pub fn bodies(&self, planets: usize) -> u32 {
+    pub fn mask(&self, planets: usize) -> u32 {
         let of = |bits: u32, friction: &BodyFriction| if friction.is_on() { bits } else { 0 };
         let planet_bits = ((1 << planets) - 1) << FRICTION_PLANETS;
         let sides = of((1 << FRICTION_PLANETS) - 1, &self.side) | of(planet_bits, &self.planet);

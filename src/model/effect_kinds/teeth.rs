@@ -13,7 +13,7 @@ pub struct ToothEffects {
     /// True if planets differ, so each of them must be simulated.
     pub individual: bool,
     /// True if loads differ over the face.
-    pub sliced: bool,
+    pub distributed: bool,
     /// True if the gear bodies are elastic.
     pub elastic_bodies: bool,
 }

@@ -66,7 +66,7 @@ impl Effect for PinComplianceSpec {
 
     fn on_teeth(&self, _: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         // a seat that moves along its axis changes the gap over the face
-        teeth.sliced = true;
+        teeth.distributed = true;
         Ok(())
     }
 

@@ -21,7 +21,7 @@ use crate::model::effect_kinds::{
 use crate::model::scene::GearContact;
 use crate::model::thermal::WASHERS;
 use crate::numeric::sin;
-use crate::problem::{Problem, told_apart};
+use crate::problem::{Problem, distinct_texts};
 
 /// Radius of a pin or shaft over the radius of the root circle at the toe, for gears without a bore.
 const PIN_IN_ROOT: f64 = 0.8;
@@ -197,7 +197,7 @@ impl ThrustFrictionSpec {
 
 /// Warning about a radius [m] that does not fit another one; `what` describes the misfit.
 fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Problem {
-    let [radius, other] = told_apart([radius * PER_MM, other * PER_MM], 3);
+    let [radius, other] = distinct_texts([radius * PER_MM, other * PER_MM], 3);
     problem!(name, "{radius} mm {what} {other} mm; {HINT}")
 }
 

@@ -116,9 +116,9 @@ impl Effect for ToothErrorSpec {
             errors = errors.with_teeth(given)?;
         }
         teeth.individual |= errors.is_individual();
-        teeth.sliced |= !errors.is_uniform_over_face();
+        teeth.distributed |= !errors.is_uniform_over_face();
         let mut gaps = FlankGaps::perfect(pair, count);
-        gaps.least = -errors.most_excess(pair.outer_cone);
+        gaps.least = -errors.max_excess(pair.outer_cone);
         gaps.errors = Some(errors);
         let gaps = Arc::new(gaps);
         teeth.gaps = [Some(gaps.clone()), Some(gaps)];

@@ -80,7 +80,7 @@ impl Effect for ToothFaultSpec {
         };
         broken.chip = Chip::new(self, pair, usize::try_from(count).unwrap_or(1))?;
         teeth.gaps = [sound, Some(Arc::new(broken))];
-        (teeth.individual, teeth.sliced) = (true, true);
+        (teeth.individual, teeth.distributed) = (true, true);
         Ok(())
     }
 }

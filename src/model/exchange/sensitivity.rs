@@ -9,7 +9,7 @@
 use super::states::STATES;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::Acted;
+use crate::model::dynamics::FrictionEquations;
 use crate::model::dynamics::with_equations;
 use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
@@ -142,7 +142,7 @@ impl Simulation {
     /// Forces along `direction`. If nothing moves, the meshes do not change and are left out.
     pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
         if direction.moves() {
-            self.along(direction, |displaced| displaced.forces_of_state(Extent::Parts))
+            self.along(direction, |displaced| displaced.forces_of_state(Extent::Components))
         } else {
             self.along(direction, |displaced| displaced.forces_of_state(Extent::Bodies))
         }

@@ -3,7 +3,7 @@
 
 use crate::model::assembly::Gears;
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{Acted, Largest};
+use crate::model::dynamics::{FrictionEquations, Largest};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
 

@@ -6,7 +6,7 @@
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{Acted, State};
+use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
 use crate::model::run::progress::complete;
 use crate::model::run::timeline::{breaks_tooth, next_change};
@@ -102,15 +102,15 @@ impl Simulation {
                 if outcome.is_ok() {
                     let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
                     equations.record(model, (&step, None), sums);
-                    if sums.thermal.is_to_be_felt() {
-                        sums.thermal.feel();
+                    if sums.thermal.is_update_due() {
+                        sums.thermal.use_temperatures();
                     }
                 }
-                let mut anchors = equations.acting().anchors();
+                let mut anchors = equations.applied().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);
-                equations.acting_mut().set_anchors(&anchors);
+                equations.applied_mut().set_anchors(&anchors);
                 is_due = equations.is_friction_due(&end, 0.0);
-                state.friction = equations.acting().friction_state;
+                state.friction = equations.applied().friction_state;
                 outcome
             });
             outcome.map_err(|tooth| StepFailure { time: state.time(), message: tooth.message(model) })?;
@@ -161,7 +161,7 @@ impl Simulation {
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
                 equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
-                state.friction = equations.acting().friction_state;
+                state.friction = equations.applied().friction_state;
             }
         });
         record_holds(&friction, state);

@@ -7,7 +7,7 @@ use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::dynamics::{Acted, IdealEquations, IdealTorques, LARGEST, Largest, State};
+use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, Largest, MAX_SIZE, State};
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
@@ -25,7 +25,7 @@ pub enum Extent {
     /// Normal forces of the meshes in addition.
     Loads,
     /// Spatial components of the normal forces in addition, which cost as much as all other forces.
-    Parts,
+    Components,
 }
 
 /// Forces, torques and accelerations from one evaluation of the tooth forces.
@@ -70,7 +70,7 @@ pub struct Forces {
     /// Readings of the effects that change at any instant.
     pub readings: [f64; INSTANT_READINGS],
     /// True if the spatial components of normal forces are included: thrusts, tangential and pin forces.
-    pub has_parts: bool,
+    pub has_components: bool,
 }
 
 /// Torque bias ratio and locking value of shaft torques at given speeds; 1 and 0 if the sum of the torques is below
@@ -129,7 +129,7 @@ pub struct MeshForces {
 
 impl MeshForces {
     fn add(&mut self, load: &ToothLoad) {
-        let [planet, side, forward] = load.parts;
+        let [planet, side, forward] = load.components;
         self.normal += load.normal;
         // a slice counts with its share of the face, so pairs are whole numbers if loads do not differ over the face
         self.pairs += if load.normal > 0.0 { load.share } else { 0.0 };
@@ -177,7 +177,7 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 /// Sets the readings of the effects that follow from the motion.
 fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
@@ -189,7 +189,7 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
 /// frames small.
 #[inline(never)]
-fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Acted<N>, at: &Point<N>) {
+fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl FrictionEquations<N>, at: &Point<N>) {
     each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
         if let Some(place) = places_of(source.effect, Changes::Always).next() {
             out.readings[place] = out.readings[place].max(pv);
@@ -204,13 +204,17 @@ fn lost(heat: &[f64; HEATS]) -> f64 {
 
 /// Forces of the differential with teeth, to the requested `extent`.
 pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state, extent): (&State, Extent)) -> Forces {
-    let has_parts = extent == Extent::Parts;
+    let has_components = extent == Extent::Components;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
     let ForcesAtInstant { acceleration: a, on_sides, carrier_torque, spin_torque, ledger_rates } =
         equations.instant(point);
-    let mut out =
-        Forces { carrier_acceleration: a[CARRIER], side_acceleration: [a[0], a[1]], has_parts, ..Forces::default() };
+    let mut out = Forces {
+        carrier_acceleration: a[CARRIER],
+        side_acceleration: [a[0], a[1]],
+        has_components,
+        ..Forces::default()
+    };
     (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
     let brakes = equations.brake_torques(point);
     for s in 0..2 {
@@ -242,7 +246,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
             mesh.transmission_error =
                 teeth.contact.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             let add = &mut |load: &ToothLoad| mesh.add(load);
-            if has_parts {
+            if has_components {
                 equations.tooth_loads(pair, point, g, s, add);
             } else {
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
@@ -282,7 +286,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 
 /// Accelerations and torques at an instant, from one evaluation.
 struct ForcesAtInstant {
-    acceleration: [f64; LARGEST],
+    acceleration: [f64; MAX_SIZE],
     /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],
     /// Torque of the carrier's drive [N·m].
@@ -293,17 +297,17 @@ struct ForcesAtInstant {
 }
 
 impl Largest<'_> {
-    fn instant(&self, at: &Point<LARGEST>) -> ForcesAtInstant {
+    fn instant(&self, at: &Point<MAX_SIZE>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; LARGEST], [0.0; LARGEST], LedgerRates::default());
-        let on_sides = self.act_of_teeth(at, &mut sum, &mut ledger_rates);
+        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE], LedgerRates::default());
+        let on_sides = self.add_mesh_forces(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
         let carrier_torque = if plan.carrier_imposed {
             self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
         } else {
-            self.acting.inputs.carrier_torque + ledger_rates.drive
+            self.applied.inputs.carrier_torque + ledger_rates.drive
         };
-        let inertial = self.teeth.inertia[self.planet(0)] * self.acting.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * self.applied.input_derivatives.rates[0].planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
         self.finish(at, &mut sum, &imposed, &mut ledger_rates);
@@ -348,7 +352,7 @@ fn without_teeth(
         carrier_torque,
         spin_torque,
         shaft_torque,
-        has_parts: true,
+        has_components: true,
         ..Forces::default()
     };
     read_effects(&mut out, model, inputs, state);

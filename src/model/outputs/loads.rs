@@ -7,11 +7,18 @@ use crate::contact::pair_load::PairLoad;
 use crate::contact::planet::Visit;
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 
 impl Largest<'_> {
     /// Visits every loaded tooth pair of the mesh of group `g` with side `s`.
-    pub fn tooth_loads(&self, pair: &Pair, at: &Point<LARGEST>, g: usize, s: usize, mut visit: impl FnMut(&ToothLoad)) {
+    pub fn tooth_loads(
+        &self,
+        pair: &Pair,
+        at: &Point<MAX_SIZE>,
+        g: usize,
+        s: usize,
+        mut visit: impl FnMut(&ToothLoad),
+    ) {
         self.visit_loads(at, g, &Visit { sides: s..s + 1, directions: Some(pair) }, &mut |load, _| visit(load));
     }
 
@@ -19,7 +26,7 @@ impl Largest<'_> {
     /// function that returns the load per width [N/m] at any cone distance [m].
     pub fn loads_over_the_face(
         &self,
-        at: &Point<LARGEST>,
+        at: &Point<MAX_SIZE>,
         g: usize,
         s: usize,
         mut visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>),
@@ -33,7 +40,7 @@ impl Largest<'_> {
     }
 
     /// Visits every loaded slice if loads are summed over the face. The slices of a pair follow one another.
-    pub fn slices(&self, at: &Point<LARGEST>, g: usize, s: usize, mut visit: impl FnMut(&SliceLoad)) {
+    pub fn slices(&self, at: &Point<MAX_SIZE>, g: usize, s: usize, mut visit: impl FnMut(&SliceLoad)) {
         self.visit_loads(at, g, &Visit { sides: s..s + 1, directions: None }, &mut |_, slice| {
             if let Some(slice) = slice {
                 visit(slice);
@@ -42,7 +49,7 @@ impl Largest<'_> {
     }
 
     /// Visits every loaded tooth pair of group `g` as a whole, with its side.
-    pub fn pair_loads(&self, pair: &Pair, at: &Point<LARGEST>, g: usize, mut visit: impl FnMut(usize, &PairLoad)) {
+    pub fn pair_loads(&self, pair: &Pair, at: &Point<MAX_SIZE>, g: usize, mut visit: impl FnMut(usize, &PairLoad)) {
         // the slices of a pair follow one another
         let mut open: Option<(usize, [usize; 2], PairLoad)> = None;
         let mut close = |side: usize, load: &mut PairLoad| {

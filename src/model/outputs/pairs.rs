@@ -9,11 +9,11 @@
 //! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth w is
 //! interpolated linearly between the loaded sections, and extrapolated to toe and heel down to zero.
 
-use crate::contact::shared::MOST_PAIRS;
+use crate::contact::shared::MAX_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};
 use crate::geometry::Pair;
 use crate::integrate::Point;
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::strength::LineContact;
 
 /// Number of pairs that are reported. With a contact ratio below 3, no mesh has more pairs on its path.
@@ -147,7 +147,7 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
 pub fn pair_lines(
     (pair, contact): (&Pair, &LineContact),
     equations: &Largest,
-    at: &Point<LARGEST>,
+    at: &Point<MAX_SIZE>,
     [g, s]: [usize; 2],
 ) -> PairLines {
     let mesh = &equations.teeth.contact.mesh;
@@ -155,7 +155,7 @@ pub fn pair_lines(
     if mesh.is_single {
         return lines;
     }
-    let mut gathered: [Option<Gathered>; MOST_PAIRS] = [None; MOST_PAIRS];
+    let mut gathered: [Option<Gathered>; MAX_PAIRS] = [None; MAX_PAIRS];
     equations.loads_over_the_face(at, g, s, |load, line_load| {
         if load.normal.is_nan() || load.normal <= 0.0 {
             return;

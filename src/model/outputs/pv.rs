@@ -1,13 +1,13 @@
 //! Pressure times speed of all rubbing surfaces, for readings and warnings.
 
 use crate::integrate::Point;
-use crate::model::dynamics::Acted;
+use crate::model::dynamics::FrictionEquations;
 use crate::model::effect_kinds::{FrictionSource, Pressed, Surface};
 use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS};
 
 /// Calls `see` with each surface of `sources` that slides at `at`, and its p·v [W/m²].
 pub fn each_pv<const N: usize>(
-    equations: &impl Acted<N>,
+    equations: &impl FrictionEquations<N>,
     sources: &[FrictionSource],
     at: &Point<N>,
     mut see: impl FnMut(&FrictionSource, Surface, f64),
@@ -16,7 +16,7 @@ pub fn each_pv<const N: usize>(
         let (friction, state, _) = equations.friction_on(*i);
         friction.is_on() && state.mode.direction() != 0.0
     };
-    if !equations.rubs() || !equations.bodies_that_stick().any(|i| sliding(&i)) {
+    if !equations.has_dry_friction() || !equations.bodies_that_stick().any(|i| sliding(&i)) {
         return;
     }
     let loads = equations.surface_loads(at, 0.0);

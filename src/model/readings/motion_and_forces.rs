@@ -47,17 +47,17 @@ impl Simulation {
 
     /// Forces under the present inputs, computed at the first call after a change.
     pub fn forces(&mut self) -> &Forces {
-        self.forces_with(Extent::Parts)
+        self.forces_with(Extent::Components)
     }
 
     /// Forces under the present inputs without the spatial components of normal forces, which cost as much as all other
     /// forces.
-    pub fn forces_without_parts(&mut self) -> &Forces {
+    pub fn forces_without_components(&mut self) -> &Forces {
         self.forces_with(Extent::Loads)
     }
 
     fn forces_with(&mut self, extent: Extent) -> &Forces {
-        if self.forces.as_ref().is_none_or(|forces| extent == Extent::Parts && !forces.has_parts) {
+        if self.forces.as_ref().is_none_or(|forces| extent == Extent::Components && !forces.has_components) {
             let forces = self.shown().as_ref().unwrap_or(self).forces_of_state(extent);
             self.forces = Some(forces);
         }

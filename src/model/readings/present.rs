@@ -31,7 +31,7 @@ impl Simulation {
     /// Returns the simulation with the brakes applied whose inputs change from 0 in the direction `change`, or `None`
     /// if there are none. The torque of these brakes is the smallest positive number. With a solver of the host, brakes
     /// are applied only at events.
-    pub fn with_brakes_put_on(&self, change: &Inputs) -> Option<Self> {
+    pub fn with_brakes_applied(&self, change: &Inputs) -> Option<Self> {
         let mut inputs = self.inputs;
         for (torque, change) in inputs.brake_torque.iter_mut().zip(change.brake_torque) {
             if *torque == 0.0 && change != 0.0 {

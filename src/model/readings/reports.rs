@@ -11,7 +11,7 @@ use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::outputs::pv::each_pv;
 use crate::model::run::{Simulation, effort, six_digits};
 use crate::model::scene::MAX_PLANETS;
-use crate::problem::{Problem, told_apart};
+use crate::problem::{Problem, distinct_texts};
 
 /// Effects and their limits of p·v.
 const PV_LIMITS: [(&str, &str); 3] = [
@@ -164,7 +164,7 @@ impl Simulation {
             Surface::PlanetWasher(group) => format!("{} on its washer", planet(group)),
             Surface::Wheel(s) => format!("the {} wheel", side(s)),
         };
-        let [pv, limit] = told_apart([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
+        let [pv, limit] = distinct_texts([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
         let time = state.time();
         Some(problem!(
             variable,
@@ -178,8 +178,8 @@ impl Simulation {
         if reported.start || self.model.strength().is_none() {
             return None;
         }
-        let Fatigue { utilisation, has_blow, .. } = self.completed().1.fatigue;
-        if !has_blow || utilisation.root.share == 0.0 {
+        let Fatigue { utilisation, counts_start, .. } = self.completed().1.fatigue;
+        if !counts_start || utilisation.root.share == 0.0 {
             return None;
         }
         reported.start = true;

@@ -14,7 +14,8 @@ use crate::model::scene::Inputs;
 pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64> {
     let pending_step = state.pending_step.as_ref().filter(|step| step.inputs != *inputs)?;
     let effects = model.body_effects();
-    let must_restart = state.input_derivatives.is_some() || effects.may_rub_in(state) || effects.scale_carrier_inputs();
+    let must_restart =
+        state.input_derivatives.is_some() || effects.may_have_dry_friction(state) || effects.scale_carrier_inputs();
     if must_restart { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
 }
 
@@ -22,7 +23,7 @@ pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64>
 /// change.
 fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
-    let [before, inputs] = [before, inputs].map(|inputs| acting(model, inputs));
+    let [before, inputs] = [before, inputs].map(|inputs| effective_inputs(model, inputs));
     let with_torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..before };
     if with_torques != inputs {
         return None;
@@ -32,8 +33,8 @@ fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Opt
     Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
 }
 
-/// Inputs that act in the scene. All others are set to zero, so that a value without effect changes no step.
-fn acting(model: &Model, inputs: &Inputs) -> Inputs {
+/// Inputs that have an effect in the scene. All others are set to zero, so that a value without effect changes no step.
+fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
     let (plan, parameters) = (&model.ideal.plan, &model.parameters);
     let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
     let is_warm = model.thermal.is_some();

@@ -1,7 +1,7 @@
 //! Completed steps, and the motion within them.
 
 use crate::integrate::{Extension, Point, SecondOrder, Step};
-use crate::model::dynamics::LARGEST;
+use crate::model::dynamics::MAX_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
 /// A completed step, with the dense output of its pending step and the fraction of that step that was accepted.
@@ -13,17 +13,17 @@ pub struct StepMotion {
     pub h: f64,
     /// Time at the start of the step [s].
     pub begin: f64,
-    /// Dense output of the pending step. The completed step is its first part.
-    pub extension: Extension<LARGEST>,
+    /// Dense output of the pending step. The completed step may end within it.
+    pub extension: Extension<MAX_SIZE>,
     /// Fraction of the pending step that was accepted.
-    pub part: f64,
+    pub accepted_fraction: f64,
 }
 
 impl StepMotion {
     /// Motion within a completed step whose times count from `begin` [s]. A step without dense output gets a [`cubic`].
     pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
         let without;
-        let (Extension { start, end, coefficients }, part) = match motion {
+        let (Extension { start, end, coefficients }, accepted_fraction) = match motion {
             Some(motion) => motion,
             None => {
                 without = cubic(equations, step);
@@ -33,7 +33,7 @@ impl StepMotion {
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
         let coefficients = coefficients.each_ref().map(largest);
         let extension = Extension { start: largest(start), end: largest(end), coefficients };
-        Self { h: step.h, begin: begin + step.time - step.h, extension, part }
+        Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction }
     }
 }
 

@@ -5,7 +5,7 @@ use crate::integrate::{Point, SecondOrder, Statistics};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{Acted, State};
+use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::effect_kinds::Mode;
 use crate::model::scene::{
     ATTACHED, CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout,
@@ -88,7 +88,7 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
             "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
             at.v[i],
             rates[i],
-            friction_on(state, i, |k| Acted::<N>::freedom_of(&equations, k))
+            friction_on(state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k))
         )
     })
 }
@@ -169,7 +169,7 @@ mod tests {
         assert!(text.starts_with("1002 of them were rejected because their energy ledger did not close"), "{text}");
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
         with_equations!(&model, &state, &inputs, |equations| {
-            let friction = |i: usize| friction_on(&state, i, |k| Acted::<N>::freedom_of(&equations, k));
+            let friction = |i: usize| friction_on(&state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k));
             assert_eq!(friction(1), "; the brake (effects.wheel_brake) holds it");
             assert_eq!(friction(CARRIER), "");
         });

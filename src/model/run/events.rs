@@ -5,7 +5,7 @@ use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{Acted, State};
+use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};
 use crate::model::setup::CONTACT_HEAT;
@@ -30,7 +30,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = inputs.lock;
-    if !model.body_effects().may_rub_in(state) {
+    if !model.body_effects().may_have_dry_friction(state) {
         return;
     }
     let before = state.friction;
@@ -50,13 +50,13 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
         equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
-        state.friction = equations.acting().friction_state;
+        state.friction = equations.applied().friction_state;
     });
 }
 
 /// True if brakes were applied or released since friction last switched.
 pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
     (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
 }
 

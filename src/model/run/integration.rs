@@ -18,13 +18,13 @@ use super::watching::Watched;
 use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
-use crate::model::assembly::ideal_with_effects::{IdealWithEffects, MOST};
+use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
-    Any, DIFFERENT, LEAST, MEDIUM, Plain, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds,
+    Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithEffects, WithEnds,
 };
-use crate::model::dynamics::{Clock, Equations, IdealEquations, LARGEST, State};
+use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Longest interval before positions are wrapped and the integrator's clock is reset [s].
@@ -85,20 +85,20 @@ pub fn integrate_teeth(
     let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
         match (groups, arguments.2.input_derivatives.is_some()) {
-            (1, false) => return integrate_monomorphised::<LEAST, Plain<1>>(arguments),
-            (1, true) => return integrate_monomorphised::<LEAST, PlainDriven>(arguments),
-            (2, false) => return integrate_monomorphised::<DIFFERENT, Plain<2>>(arguments),
+            (1, false) => return integrate_monomorphised::<PLAIN_SIZE, Plain<1>>(arguments),
+            (1, true) => return integrate_monomorphised::<PLAIN_SIZE, PlainDriven>(arguments),
+            (2, false) => return integrate_monomorphised::<TWO_GROUPS_SIZE, Plain<2>>(arguments),
             _ => {}
         }
     }
     match (groups, plain) {
         (1, Some(false)) if is_default || method == Method::FixedStep => {
-            integrate_monomorphised::<LEAST, WithEffects<1>>(arguments)
+            integrate_monomorphised::<PLAIN_SIZE, WithEffects<1>>(arguments)
         }
-        (2, Some(false)) if FULL && is_default => integrate_monomorphised::<DIFFERENT, WithEffects<2>>(arguments),
-        (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<WITH_ENDS, WithEnds>(arguments),
-        _ if FULL && teeth.layout.count() <= MEDIUM => integrate_through_object::<MEDIUM>(arguments),
-        _ => integrate_through_object::<LARGEST>(arguments),
+        (2, Some(false)) if FULL && is_default => integrate_monomorphised::<TWO_GROUPS_SIZE, WithEffects<2>>(arguments),
+        (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<ENDS_SIZE, WithEnds>(arguments),
+        _ if FULL && teeth.layout.count() <= MEDIUM_SIZE => integrate_through_object::<MEDIUM_SIZE>(arguments),
+        _ => integrate_through_object::<MAX_SIZE>(arguments),
     }
 }
 
@@ -109,7 +109,7 @@ type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &
 #[inline(never)]
 fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
-    integrate_equations::<MOST, WithEnds, _>(equations, model, state, integration, budget)
+    integrate_equations::<IDEAL_SIZE, WithEnds, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates ideal gears through a trait object, with a method that is not monomorphised for them.
@@ -117,9 +117,9 @@ fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWi
 fn integrate_ideal_through_object(
     (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn LedgerEquations<MEDIUM> =
+    let equations: &mut dyn LedgerEquations<MEDIUM_SIZE> =
         &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
-    integrate_equations::<MEDIUM, Any, _>(equations, model, state, integration, budget)
+    integrate_equations::<MEDIUM_SIZE, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates plain teeth, or teeth with effects and planets in one or two groups. Monomorphised for each shape.
@@ -162,7 +162,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         pending_step.resume(&mut course);
         course.end_at(clock.end);
         if let Some((time, jump)) = change {
-            equations.acting_mut().change = inputs.torques_since(&pending_step.inputs);
+            equations.applied_mut().change = inputs.torques_since(&pending_step.inputs);
             if !course.change_at(time, jump) {
                 // no part of the pending step precedes the change
                 state.control.jump(Some(jump));
@@ -173,9 +173,9 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
-    let mut anchors = equations.acting().anchors();
-    let feels_temperature = model.thermal.is_some() && model.body_effects().feels_temperature();
-    if feels_temperature {
+    let mut anchors = equations.applied().anchors();
+    let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
+    if depends_on_temperature {
         course.longest = LONGEST.min(state.thermal.longest);
     }
     while switched && outcome.is_ok() {
@@ -190,7 +190,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             equations.record(model, (&step, motion), &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
-            let is_warmer = feels_temperature && sums.thermal.is_to_be_felt();
+            let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
         // the method attempts steps until one passes `now`, or until `observe` stops it
@@ -211,19 +211,19 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 observe(step, Some(motion))
             }),
         };
-        equations.acting_mut().set_anchors(&anchors);
-        let is_warmer = feels_temperature && state.thermal.is_to_be_felt();
+        equations.applied_mut().set_anchors(&anchors);
+        let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
-            state.thermal.feel();
+            state.thermal.use_temperatures();
             course.longest = LONGEST.min(state.thermal.longest);
-            equations.acting_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.felt);
+            equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
         }
         if switched {
-            let before = equations.acting().friction_state;
+            let before = equations.applied().friction_state;
             equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
-            anchors = equations.acting().anchors();
-            let friction = [&before, &equations.acting().friction_state];
+            anchors = equations.applied().anchors();
+            let friction = [&before, &equations.applied().friction_state];
             let is_event = state.events.record_friction(friction, begin + course.time);
             if is_event && pauses && course.time < clock.now {
                 clock.now = course.time;
@@ -232,7 +232,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
     // store the result and the pending step
-    state.friction = equations.acting().friction_state;
+    state.friction = equations.applied().friction_state;
     state.set_point(&course.point);
     clock.time = course.time;
     match &course.pending {

@@ -5,12 +5,12 @@ use super::failure::ExcessiveDeflection;
 use super::watching::{Watched, watch_step};
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
-use crate::model::assembly::ideal_with_effects::MOST;
+use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::shaft_means::Cycle;
 use crate::model::dynamics::shaft_means::TorqueMeans;
 use crate::model::dynamics::shape::Shape;
-use crate::model::dynamics::{Acted, Acting, Equations, IdealEquations, LARGEST, Largest};
+use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
 use crate::model::effect_kinds::BUILT;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
@@ -34,7 +34,7 @@ pub struct LedgerSums<'a> {
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
-pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + Acted<N> {
+pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + FrictionEquations<N> {
     /// Returns the meshes whose flanks touch, one bit for each. Fails if the deflection of a tooth exceeds the limit.
     /// The error names mesh and deflection.
     fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection>;
@@ -69,36 +69,41 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
 
 /// Warms the thermal nodes with the heat of a step, if the scene has such nodes.
 #[inline]
-fn warm_up<const N: usize>(model: &Model, acting: &Acting, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
+fn warm_up<const N: usize>(
+    model: &Model,
+    applied: &InputsAndFriction,
+    step: &Step<N, LedgerRates>,
+    sums: &mut LedgerSums,
+) {
     if let Some(network) = &model.thermal {
         let around = [step.time - 0.5 * step.h, step.time].map(|time| {
-            let later = acting.driven.then(|| acting.input_derivatives.after(time, &acting.inputs).0);
-            network.around.changed(later.unwrap_or(acting.inputs).changes_outside())
+            let later = applied.driven.then(|| applied.input_derivatives.after(time, &applied.inputs).0);
+            network.around.changed(later.unwrap_or(applied.inputs).changes_outside())
         });
         let turned = (step.end.q[CARRIER] - step.start.q[CARRIER]).abs();
         network.advance(sums.thermal, sums.heat, step.h, (turned / step.h, around));
     }
 }
 
-impl LedgerEquations<MOST> for IdealEquations<'_> {
-    fn check_deflection(&self, _: &Point<MOST>) -> Result<u8, ExcessiveDeflection> {
+impl LedgerEquations<IDEAL_SIZE> for IdealEquations<'_> {
+    fn check_deflection(&self, _: &Point<IDEAL_SIZE>) -> Result<u8, ExcessiveDeflection> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, (step, _): CompletedStep<MOST>, sums: &mut LedgerSums) {
-        record_without_teeth(model, self.acting(), step, sums);
+    fn record(&self, model: &Model, (step, _): CompletedStep<IDEAL_SIZE>, sums: &mut LedgerSums) {
+        record_without_teeth(model, self.applied(), step, sums);
     }
 }
 
 /// Records a completed step of ideal gears.
 pub fn record_without_teeth<const N: usize>(
     model: &Model,
-    acting: &Acting,
+    applied: &InputsAndFriction,
     step: &Step<N, LedgerRates>,
     sums: &mut LedgerSums,
 ) {
     add_to_ledger(step, sums.work, sums.heat, true);
-    warm_up(model, acting, step, sums);
+    warm_up(model, applied, step, sums);
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
@@ -111,7 +116,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             sums.heat[CONTACT_HEAT] -= self.largest().energy_of_jumps(ends.each_ref());
         }
         if BUILT {
-            warm_up(model, &self.acting, step, sums);
+            warm_up(model, &self.applied, step, sums);
         }
         if let (true, Some(watch)) = (BUILT, &model.watch) {
             let completed = StepMotion::new(self, (step, motion), sums.begin);
@@ -124,7 +129,7 @@ impl Largest<'_> {
     /// Elastic energy that deflected pairs gain or lose in a step when they enter or leave contact abruptly, without
     /// corner contact [J].
     #[inline(never)]
-    fn energy_of_jumps(&self, [start, end]: [&Point<LARGEST>; 2]) -> f64 {
+    fn energy_of_jumps(&self, [start, end]: [&Point<MAX_SIZE>; 2]) -> f64 {
         let between = |t: f64| Point {
             q: std::array::from_fn(|i| start.q[i] + t * (end.q[i] - start.q[i])),
             v: std::array::from_fn(|i| start.v[i] + t * (end.v[i] - start.v[i])),

@@ -10,7 +10,7 @@ use super::timeline::{self, Stop};
 use super::watching::Watched;
 use super::{StepFailure, change, imposed};
 use crate::model::assembly::{Gears, Model};
-use crate::model::dynamics::event::{Pause, Way};
+use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
@@ -57,12 +57,12 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     wrap_and_constrain(model, state);
 }
 
-/// Integrates to `until` [s], or to the first event if `way.pauses`; the state then contains a pause. `jump` is the
+/// Integrates to `until` [s], or to the first event if `options.pauses`; the state then contains a pause. `jump` is the
 /// jump of the accelerations at the present [rad/s²] if only torques have changed within the pending step.
 pub fn integrate(
     model: &Model,
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
-    (until, way, mut jump): (f64, Way, Option<f64>),
+    (until, options, mut jump): (f64, AdvanceOptions, Option<f64>),
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
@@ -71,7 +71,7 @@ pub fn integrate(
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             step_to_stop(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            step_past_stop(model, inputs, (state, watched), (stop, way, jump.take()), &mut budget)
+            step_past_stop(model, inputs, (state, watched), (stop, options, jump.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
@@ -81,10 +81,10 @@ pub fn integrate(
         }
         break_tooth(model, inputs, state);
         let pauses = if state.time() < until {
-            way.pauses && state.events.count() != events
+            options.pauses && state.events.count() != events
         } else {
             // without a pending step, the equations end here, and the next part starts a new clock
-            way.is_part && state.pending_step.is_none()
+            options.is_part && state.pending_step.is_none()
         };
         if pauses {
             let now = state.pending_step.as_ref().map_or(0.0, |step| step.clock.now);
@@ -119,7 +119,7 @@ fn step_past_stop(
     model: &Model,
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
-    (stop, way, jump): (Stop, Way, Option<f64>),
+    (stop, options, jump): (Stop, AdvanceOptions, Option<f64>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
@@ -130,7 +130,7 @@ fn step_past_stop(
     clock.now = wanted;
     // one turn per interval of the clock
     loop {
-        let at = (&mut clock, begin, way.pauses, change.take());
+        let at = (&mut clock, begin, options.pauses, change.take());
         let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
@@ -147,7 +147,7 @@ fn step_past_stop(
         // the pending step contains the stop, the equations end there, or a step has failed
         if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             let arrived = arrive(state, stop, begin + reached, outcome);
-            if way.is_part && state.pending_step.is_some() {
+            if options.is_part && state.pending_step.is_some() {
                 state.pause = Some(Pause { now: shown, time, inputs: *inputs });
             }
             return arrived;
@@ -177,7 +177,7 @@ fn integrate_interval(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched };
-    if let Some(teeth) = model.together.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
+    if let Some(teeth) = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);
         return outcome;

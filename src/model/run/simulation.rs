@@ -11,7 +11,7 @@ use super::watching::Watched;
 use super::{StepFailure, change, timeline};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::State;
-use crate::model::dynamics::event::{Events, Pause, Way};
+use crate::model::dynamics::event::{AdvanceOptions, Events, Pause};
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};
@@ -115,7 +115,7 @@ impl Simulation {
     /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the state is that of the last good
     /// time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
-        self.advance_by(until, Way::default())
+        self.advance_by(until, AdvanceOptions::default())
     }
 
     /// Time [s].
@@ -160,10 +160,10 @@ impl Simulation {
         if state.events.count() == count { Beginning::Silent } else { Beginning::Event }
     }
 
-    /// Integrates to `until` [s], or to the first event if `way.pauses`. If `way.is_part`, `until` precedes the next
-    /// communication point. The next call continues with the same bits as without the stop. An event at the start (see
-    /// [`Self::begin`]) does not pause the motion.
-    pub fn advance_by(&mut self, until: f64, way: Way) -> Result<(), StepFailure> {
+    /// Integrates to `until` [s], or to the first event if `options.pauses`. If `options.is_part`, `until` precedes the
+    /// next communication point. The next call continues with the same bits as without the stop. An event at the start
+    /// (see [`Self::begin`]) does not pause the motion.
+    pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
         let Self { model, state, watched, inputs, .. } = self;
@@ -171,7 +171,7 @@ impl Simulation {
         let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
         // the pending step may already contain the requested time
         let continues = state.pending_step.is_some() && jump.is_none();
-        if continues && timeline::move_within(model, state, (until, way)) {
+        if continues && timeline::move_within(model, state, (until, options)) {
             progress::wrap_and_constrain(model, state);
             return Ok(());
         }
@@ -207,12 +207,12 @@ impl Simulation {
         let before = (*inputs, *state);
         // a scene without fatigue and mesh history has nothing to restore
         let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
-        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, way, jump));
+        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, options, jump));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // the pending step cannot be completed: restart at the present, from where another step may succeed
             restore((inputs, state, watched), &before, &saved);
             restart(model, inputs, (state, watched));
-            outcome = progress::integrate(model, (inputs, state, watched), (until, way, None));
+            outcome = progress::integrate(model, (inputs, state, watched), (until, options, None));
         }
         if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
@@ -241,7 +241,7 @@ impl Simulation {
         // advancing by the smallest distinguishable time starts the step
         let time = self.state.time();
         let until = time.next_up().max(time + 2.0 * RESOLUTION);
-        self.advance_by(until, Way { is_part: true, ..Way::default() })?;
+        self.advance_by(until, AdvanceOptions { is_part: true, ..AdvanceOptions::default() })?;
         Ok(end(&self.state))
     }
 

@@ -12,7 +12,7 @@
 use super::StepFailure;
 use super::integration::LONGEST_INTERVAL;
 use crate::model::assembly::Model;
-use crate::model::dynamics::event::{Pause, Way};
+use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
@@ -69,9 +69,9 @@ pub fn next_stop(model: &Model, state: &State, until: f64) -> Stop {
 /// Moves the state to `until` [s] if the pending step contains this time and the equations change only later. Returns
 /// true if the state moved.
 #[inline]
-pub fn move_within(model: &Model, state: &mut State, (until, way): (f64, Way)) -> bool {
+pub fn move_within(model: &Model, state: &mut State, (until, options): (f64, AdvanceOptions)) -> bool {
     // the pause refers to the state before the move
-    let pause = if way.is_part {
+    let pause = if options.is_part {
         state.pending_step.as_ref().map(|step| {
             let [now, time] = last_communication_point(state, &step.clock);
             Pause { now, time, inputs: step.inputs }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::completed_step::StepMotion;
 use crate::integrate::{Curve, Extension, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, Rated, RatedStep, Rolled, Sample};
 use crate::model::scene::layout::LEFT;
@@ -29,7 +29,7 @@ pub struct Watched {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LastLoads {
     /// Point at the end of the step.
-    pub at: Point<LARGEST>,
+    pub at: Point<MAX_SIZE>,
     /// Number of planet groups, and true if a tooth is broken. Together with the point, both determine the loads.
     pub teeth: (usize, bool),
     /// Loads at this point.
@@ -66,17 +66,17 @@ pub fn count_fatigue(
     step: &StepMotion,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
-    let StepMotion { h, begin, extension, part } = step;
+    let StepMotion { h, begin, extension, accepted_fraction } = step;
     let layout = &equations.teeth.layout;
     let groups = layout.groups;
     let first = layout.planet(0);
-    let rolled = |q: &[f64; LARGEST]| {
+    let rolled = |q: &[f64; MAX_SIZE]| {
         let mut rolled = Rolled::default();
         rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
         rolled
     };
     let mut sample = |fraction: f64, sample: &mut Sample| {
-        let at = extension.at(fraction * part);
+        let at = extension.at(fraction * accepted_fraction);
         (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
         sample.mesh[..groups].fill(Default::default());
         for g in 0..groups {
@@ -86,7 +86,11 @@ pub fn count_fatigue(
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
     let members = &layout.members[..groups];
     if from > 0.0 {
-        strength.roll(fatigue, members, [&rolled(&extension.start.q), &rolled(&extension.at(from * part).q)]);
+        strength.roll(
+            fatigue,
+            members,
+            [&rolled(&extension.start.q), &rolled(&extension.at(from * accepted_fraction).q)],
+        );
     }
     if from < 1.0 {
         let teeth = (groups, equations.is_tooth_broken);
@@ -95,7 +99,7 @@ pub fn count_fatigue(
         let last = last.get_or_insert_default();
         let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
         strength.count(fatigue, &mut rated, &mut last.loads, are_known);
-        (last.at, last.teeth) = (extension.at(*part), teeth);
+        (last.at, last.teeth) = (extension.at(*accepted_fraction), teeth);
     }
 }
 
@@ -115,11 +119,11 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, his
     for (i, quantity) in quantities[2..count].iter_mut().enumerate() {
         *quantity = error(i / 2, i % 2);
     }
-    history.add(&rolling, &quantities[..count], step.part);
+    history.add(&rolling, &quantities[..count], step.accepted_fraction);
 }
 
 /// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
-fn curve(extension: &Extension<LARGEST>, of: impl Fn(&Point<LARGEST>) -> f64) -> Curve {
+fn curve(extension: &Extension<MAX_SIZE>, of: impl Fn(&Point<MAX_SIZE>) -> f64) -> Curve {
     let Extension { start, end, coefficients } = extension;
     let nothing = of(&Point::ZERO);
     Curve {

@@ -121,7 +121,7 @@ impl Plan {
 
     /// Returns the plan with all planets in one group. Returns `None` if they are in one group already, or differ in
     /// phase.
-    pub fn with_planets_together(self) -> Option<Self> {
+    pub fn with_merged_planets(self) -> Option<Self> {
         let mut plan = self;
         let [first, others @ ..] = self.groups() else { return None };
         if others.is_empty() || others.iter().any(|group| group.phase != first.phase) {

@@ -14,10 +14,10 @@ pub fn warnings(p: &Parameters) -> Vec<Problem> {
 /// imposes the spin.
 fn imposed_bias(p: &Parameters) -> Option<Problem> {
     let (scene, effects) = (&p.scene, &p.effects);
-    let rubs = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
+    let has_friction = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
     let imposed =
         scene.planet_spin == PlanetSpin::Imposed && [scene.left_drive, scene.right_drive] == [SideDrive::Torque; 2];
-    (rubs && imposed).then(|| {
+    (has_friction && imposed).then(|| {
         Problem::new(
             "torque_bias_ratio",
             "it is the ratio of left.load_torque and right.load_torque, regardless of friction: with \

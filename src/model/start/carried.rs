@@ -30,16 +30,16 @@ impl Carried {
         let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - on_bodies[s]);
         let drive = inputs.carrier_torque + on_bodies[CARRIER];
         // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
-        let mut together = *ideal;
-        together.plan.shafts = [false; 2];
+        let mut rigid = *ideal;
+        rigid.plan.shafts = [false; 2];
         let j = &model.ideal.inertia;
         let mut motion = IdealMotion::default();
         let teeth = match ideal.plan.side_imposed {
             // a differential shares the torque of its carrier equally
             [true, true] => [0.5 * drive; 2],
             [false, false] => {
-                motion = together.motion(&Inputs { load_torque: load, carrier_torque: drive, ..*inputs });
-                let a = together.side_accelerations(&motion);
+                motion = rigid.motion(&Inputs { load_torque: load, carrier_torque: drive, ..*inputs });
+                let a = rigid.side_accelerations(&motion);
                 [0, 1].map(|s| load[s] + j.side[s] * a[s])
             }
             [imposed_left, _] => {
@@ -60,7 +60,7 @@ impl Carried {
                 teeth
             }
         };
-        let side_acceleration = together.side_accelerations(&motion);
+        let side_acceleration = rigid.side_accelerations(&motion);
         let shaft = [0, 1].map(|s| teeth[s] + on_bodies[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
         Self { teeth, shaft, side_acceleration, carrier_acceleration: motion.carrier, spin_acceleration: motion.spin }
     }
@@ -68,7 +68,7 @@ impl Carried {
 
 /// Brake torques on turning wheels [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.felt), inputs, &InputDerivatives::ZERO);
+    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
     let brakes = friction.wheel_loads(inputs);
     let (plan, layout) = (&model.ideal.plan, &model.layout);
     [0, 1].map(|s| {
@@ -85,7 +85,7 @@ fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1
     for (i, to) in model.layout.attached() {
         v[i] = v[to];
     }
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.felt);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
     let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, oil_viscosity };
     let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);

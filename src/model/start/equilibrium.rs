@@ -6,7 +6,7 @@ use super::carried::Carried;
 use crate::contact::FlankGaps;
 use crate::integrate::Point;
 use crate::model::assembly::{Model, SIGMA};
-use crate::model::dynamics::{LARGEST, Largest};
+use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::run::failure::limit_name;
 use crate::model::run::{LedgerEquations, hints};
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
@@ -28,7 +28,7 @@ pub fn press_sides(
     model: &Model,
     equations: &Largest,
     torque: [f64; 2],
-    point: &mut Point<LARGEST>,
+    point: &mut Point<MAX_SIZE>,
 ) -> Result<(), Problem> {
     press(equations, torque, point, |s, at| equations.torque_of_plain_teeth(s, at)).map_err(|s| {
         let bent = format!(
@@ -52,7 +52,7 @@ pub fn check_settled(
     model: &Model,
     equations: &Largest,
     torque: [f64; 2],
-    point: &Point<LARGEST>,
+    point: &Point<MAX_SIZE>,
 ) -> Result<(), Problem> {
     equations.check_deflection(point).map(drop).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
 }
@@ -62,8 +62,8 @@ pub fn check_settled(
 fn press(
     equations: &Largest,
     torque: [f64; 2],
-    point: &mut Point<LARGEST>,
-    carry: impl Fn(usize, &Point<LARGEST>) -> [f64; 2],
+    point: &mut Point<MAX_SIZE>,
+    carry: impl Fn(usize, &Point<MAX_SIZE>) -> [f64; 2],
 ) -> Result<(), usize> {
     let teeth = equations.teeth;
     let largest = (teeth.deflection_limit + teeth.contact.mesh.half_backlash()) / teeth.sin_base[1];
@@ -89,7 +89,7 @@ fn press(
 /// At this point, teeth with errors may still be separated, so that no force guides the search. Elastic gear bodies may
 /// deflect far beyond this point, so that the search may find no minimum. In both cases, the search starts again from a
 /// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic.
-pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) -> Option<Point<LARGEST>> {
+pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<MAX_SIZE>) -> Option<Point<MAX_SIZE>> {
     let is_other = equations.is_open_or_elastic();
     let touches = || {
         let sum = equations.statics(pressed).0;
@@ -101,15 +101,15 @@ pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<LARGEST>) ->
 
 /// Minimum of the potential under `loads`, searched from a point at which actual teeth carry the loads. Unloaded
 /// planets roll with the others.
-pub fn settle_actual_teeth(equations: &Largest, loads: &Carried) -> Option<Point<LARGEST>> {
+pub fn settle_actual_teeth(equations: &Largest, loads: &Carried) -> Option<Point<MAX_SIZE>> {
     minimum(equations, loads, &press_actual_teeth(equations, loads, 1)?, true)
 }
 
 /// Point at which each side gear is turned until actual teeth carry `loads`, while planets keep their spin angles.
 /// There are `rounds` rounds, because elastic planet bodies couple both sides.
-pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<LARGEST>> {
+pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<MAX_SIZE>> {
     let mut pressed = Point::ZERO;
-    let carry = |s: usize, at: &Point<LARGEST>| {
+    let carry = |s: usize, at: &Point<MAX_SIZE>| {
         let (sum, by_position) = equations.statics(at);
         [sum[s], by_position[s][s]]
     };
@@ -125,9 +125,14 @@ pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -
 ///
 /// Under equal loads, only V decides, and a minimum and its mirror image are equivalent. The planets then have positive
 /// angles under loads that drive forward, and negative angles under the mirrored loads.
-fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_valley: bool) -> Option<Point<LARGEST>> {
+fn minimum(
+    equations: &Largest,
+    loads: &Carried,
+    point: &Point<MAX_SIZE>,
+    along_valley: bool,
+) -> Option<Point<MAX_SIZE>> {
     let (teeth, torque) = (equations.teeth, loads.teeth);
-    let mut against = [0.0; LARGEST];
+    let mut against = [0.0; MAX_SIZE];
     against[..2].copy_from_slice(&torque);
     for g in 0..equations.groups() {
         against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin_acceleration;
@@ -135,9 +140,9 @@ fn minimum(equations: &Largest, loads: &Carried, point: &Point<LARGEST>, along_v
             against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
         }
     }
-    // teeth that are identical all round are in balance in each pitch or in none
-    let is_alike = equations.gaps().is_none_or(FlankGaps::are_alike_all_round);
-    let farthest_spin_angle = if along_valley && !is_alike { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
+    // identical teeth are in balance in each pitch or in none
+    let repeats = equations.gaps().is_none_or(FlankGaps::repeat_every_pitch);
+    let farthest_spin_angle = if along_valley && !repeats { TAU } else { teeth.base_pitch / teeth.sin_base[0] };
     let well = Well { equations, against, point, unknowns: unknowns(equations), farthest_spin_angle };
     let load = torque[0].abs() + torque[1].abs();
     let forward = torque[0] + torque[1];
@@ -181,8 +186,8 @@ fn unknowns(equations: &Largest) -> Vec<(usize, f64)> {
 struct Well<'a> {
     equations: &'a Largest<'a>,
     /// Torques T_i on each body [N·m].
-    against: [f64; LARGEST],
-    point: &'a Point<LARGEST>,
+    against: [f64; MAX_SIZE],
+    point: &'a Point<MAX_SIZE>,
     unknowns: Vec<(usize, f64)>,
     /// Largest spin angle that a planet may have in either direction [rad].
     farthest_spin_angle: f64,
@@ -193,7 +198,7 @@ impl Well<'_> {
         DVector::from_iterator(self.unknowns.len(), self.unknowns.iter().map(|&(i, _)| value(i)))
     }
 
-    fn at(&self, x: &DVector<f64>) -> Point<LARGEST> {
+    fn at(&self, x: &DVector<f64>) -> Point<MAX_SIZE> {
         let mut point = *self.point;
         self.unknowns.iter().zip(x.iter()).for_each(|(&(i, _), &value)| point.q[i] = value);
         point

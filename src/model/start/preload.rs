@@ -4,7 +4,7 @@ use super::carried::Carried;
 use super::equilibrium::{ROUNDS, check_settled, press_actual_teeth, press_sides, settle, settle_actual_teeth};
 use crate::integrate::Point;
 use crate::model::assembly::{Ideal, Model};
-use crate::model::dynamics::{LARGEST, Largest, State};
+use crate::model::dynamics::{Largest, MAX_SIZE, State};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{CARRIER, Inputs};
 use crate::problem::Problem;
@@ -60,7 +60,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
     }
     let (_, by_position) = equations.statics(&point);
     let speeds = state.v;
-    point.v = state.point::<LARGEST>().v;
+    point.v = state.point::<MAX_SIZE>().v;
     // quasi-static: while the planets spin, α follows the changing stiffness
     let spin = |g: usize| teeth.layout.planet(g);
     let by_spins =

@@ -32,15 +32,15 @@ impl Simulation {
         let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
         (model.thermal, model.watch) = (None, None);
-        let mut felt = model.body_effects().felt_nodes();
+        let mut influential = model.body_effects().influential_nodes();
         // a given sump temperature does not change
-        felt.retain(|&node| node != OIL || network.around.sump.is_none());
+        influential.retain(|&node| node != OIL || network.around.sump.is_none());
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
         let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
         let length = self.model.parameters.specs.warm_up.cycle;
         let not_periodic = |at: &[f64; NODES]| still.not_periodic(&network, at, length);
-        let found = network.steady(cold, &felt, heats);
+        let found = network.steady(cold, &influential, heats);
         let temperatures = match found {
             Ok(Steady::At(temperatures)) => temperatures,
             Ok(none) => {
@@ -59,8 +59,8 @@ impl Simulation {
                  second cycle only: {change}"
             ));
         }
-        if !felt.is_empty() {
-            let from_hot = network.steady(TEMPERATURES.1, &felt, heats)?;
+        if !influential.is_empty() {
+            let from_hot = network.steady(TEMPERATURES.1, &influential, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
         }
         self.state.thermal = Thermal::at(temperatures);

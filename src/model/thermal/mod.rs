@@ -45,7 +45,7 @@ pub struct Thermal {
     /// Present rise of each node [K].
     pub rises: [f64; NODES],
     /// Temperatures that friction uses [K].
-    pub felt: [f64; NODES],
+    pub used: [f64; NODES],
     /// Heat of the ledger that has entered each node [J].
     pub entered: [f64; NODES],
     /// Heat given off to ambient and a sump of given temperature [J].
@@ -69,7 +69,7 @@ impl Thermal {
             start: temperatures[OIL],
             first,
             rises: first,
-            felt: temperatures,
+            used: temperatures,
             entered: [0.0; NODES],
             given_off: 0.0,
             longest: LONGEST,
@@ -89,8 +89,8 @@ impl Thermal {
 
     /// True if friction must be updated with the present temperatures. Either a temperature has changed by its
     /// threshold, or it would do so well within the longest step.
-    pub fn is_to_be_felt(&self) -> bool {
-        let changes = self.temperatures().into_iter().zip(self.felt).map(|(now, felt)| (now - felt).abs());
+    pub fn is_update_due(&self) -> bool {
+        let changes = self.temperatures().into_iter().zip(self.used).map(|(now, used)| (now - used).abs());
         changes.zip(UPDATE_THRESHOLDS).any(|(change, threshold)| change > threshold)
             || self.update_interval < SHORTER * self.longest
     }
@@ -108,14 +108,14 @@ impl Thermal {
     }
 
     /// Updates the temperatures that friction uses, and the longest step until the next update.
-    pub fn feel(&mut self) {
-        (self.felt, self.longest) = (self.temperatures(), self.update_interval);
+    pub fn use_temperatures(&mut self) {
+        (self.used, self.longest) = (self.temperatures(), self.update_interval);
     }
 
     /// True if all temperatures and heats are finite and all step sizes are positive. Step sizes may be infinite.
     pub fn is_valid(&self) -> bool {
-        let Self { start, first, rises, felt, entered, given_off, longest, update_interval } = self;
-        let are_numbers = [first, rises, felt, entered].into_iter().all(Finite::is_finite);
+        let Self { start, first, rises, used, entered, given_off, longest, update_interval } = self;
+        let are_numbers = [first, rises, used, entered].into_iter().all(Finite::is_finite);
         are_numbers && [*start, *given_off].is_finite() && *longest > 0.0 && *update_interval > 0.0
     }
 }

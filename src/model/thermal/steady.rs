@@ -56,22 +56,22 @@ pub enum Steady {
 
 impl<const H: usize> Network<H> {
     /// Steady temperatures that are reached from `begin` [K]. `heats` returns the heats of a cycle at given
-    /// temperatures. `felt` lists the nodes whose temperatures influence these heats.
+    /// temperatures. `influential` lists the nodes whose temperatures influence these heats.
     pub fn steady<E>(
         &self,
         begin: f64,
-        felt: &[usize],
+        influential: &[usize],
         mut heats: impl FnMut(&[f64; NODES]) -> Result<Cycle, E>,
     ) -> Result<Steady, E> {
         let mut at = SVector::<f64, NODES>::repeat(begin);
         at[OIL] = self.around.sump.unwrap_or(begin);
         let [first, longest] = STEPS;
-        let mut h = if felt.is_empty() { longest } else { first };
+        let mut h = if influential.is_empty() { longest } else { first };
         let (coldest, hottest) = TEMPERATURES;
         // oil laws are not valid far outside this range, which iterations may leave but the result may not
         let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(coldest, hottest)).into();
         // heats that do not depend on temperature are computed once
-        let constant = if felt.is_empty() { Some(heats(&within(&at))?) } else { None };
+        let constant = if influential.is_empty() { Some(heats(&within(&at))?) } else { None };
         for _ in 0..MOST_STEPS {
             let cycle = constant.map_or_else(|| heats(&within(&at)), Ok)?;
             let (mut matrix, flow) = self.conduction(cycle.speed);
@@ -79,7 +79,7 @@ impl<const H: usize> Network<H> {
             for i in 0..NODES {
                 matrix[(i, i)] += self.capacity[i] / h;
             }
-            for &j in felt {
+            for &j in influential {
                 let mut beside = at;
                 beside[j] += DIFFERENCE;
                 let power = heats(&within(&beside))?.power;

@@ -1,5 +1,5 @@
 //! Explicit spherical-involute gears built only from vectors and rotations: the reference of the mesh tests.
-//! //!
+//!
 //! A great circle rolls without slip on the base circle, and its tracing point draws the flank. The program's formulas
 //! for the involute, the line of action, the gap of tip corners and the phases are not used.
 

@@ -2,7 +2,7 @@
 //! planet's two meshes, and with many small teeth.
 
 use bevel_differential::contact::bodies::{GearBody, PairPlace};
-use bevel_differential::contact::shared::MOST_PAIRS;
+use bevel_differential::contact::shared::MAX_PAIRS;
 use bevel_differential::contact::{Flank, Spot};
 use nalgebra::{DMatrix, DVector};
 
@@ -118,7 +118,7 @@ fn many_coupled_pairs_match_the_bodies_lose_no_energy_and_have_equal_loads_in_bo
             let pitch = gears.pair.base_pitch;
             let at = pressed(&planet, 0.5 * share * pitch, 2, pitch * f64::from(j) / 6.0);
             let (pairs, _) = pairs(&planet, &at);
-            crowded += usize::from(pairs.len() > MOST_PAIRS);
+            crowded += usize::from(pairs.len() > MAX_PAIRS);
             // if there are more pairs than fit, both evaluators choose the same ones
             let ((a, _), (b, _)) = (planet.linearised(&at), whole.linearised(&at));
             for i in planet.coordinates(0..6) {

@@ -47,7 +47,7 @@ fn check_symmetry(planet: &Planet, by: &[[[f64; 12]; READINGS]; 2]) {
             // the same product in both orders
             Contact { face: Face::Plain, is_elastic: false, .. } => 1e-14 * a.abs(),
             // twelve points over a partly loaded face integrate a logarithmic law to 1e-8
-            Contact { face: Face::Cut, law: Kind::LineWeber, .. } => 1e-8 * largest,
+            Contact { face: Face::Distributed, law: Kind::LineWeber, .. } => 1e-8 * largest,
             _ => 1e-12 * largest,
         };
         assert!((a - b).abs() <= limit, "{i} {j}: {a} {b}");
@@ -127,7 +127,7 @@ fn forces_and_energy_do_not_jump_while_teeth_come_into_contact_pass_their_corner
         // the sums switch between eight and twelve points over a face; on a broken tooth they integrate a logarithmic
         // law to 1e-8, and a step of damping with its bend on the face to 1e-6
         let limit = match planet.contact {
-            Contact { law: Kind::LineWeber, face: Face::Cut, .. } if is_step(&planet.contact) => 1e-6,
+            Contact { law: Kind::LineWeber, face: Face::Distributed, .. } if is_step(&planet.contact) => 1e-6,
             Contact { law: Kind::LineWeber, teeth: Teeth::Made(_, [_, depth]), .. } if depth > 0.0 => 1e-8,
             _ => 1e-9,
         };

@@ -1,5 +1,5 @@
 //! Kinds of contact of a planet with both side gears, and the single interface to the library's evaluators.
-//! //!
+//!
 //! A new kind of contact is a line in [`kinds`]. No other file of this suite refers to an evaluator.
 
 use std::sync::{Arc, LazyLock};
@@ -68,7 +68,7 @@ pub struct Slopes {
 pub enum Face {
     Plain,
     Whole,
-    Cut,
+    Distributed,
 }
 
 /// Perfect teeth, or teeth with errors, one of which is broken: over a fraction of its face from the heel, a depth [m]
@@ -141,7 +141,7 @@ pub fn kinds() -> Vec<Contact> {
             for (damping, friction) in dissipation {
                 let whole = Contact { damping, friction, face: Face::Whole, ..plain };
                 kinds.push(whole);
-                let face = if is_of_teeth { Face::Cut } else { Face::Whole };
+                let face = if is_of_teeth { Face::Distributed } else { Face::Whole };
                 for is_displaced in [false, true] {
                     kinds.extend(teeth.map(|teeth| Contact { face, teeth, is_displaced, ..whole }));
                 }
@@ -202,7 +202,7 @@ impl Gears {
         let fault = ToothFaultSpec { gear, index, tooth, missing_fraction, depth, ..Default::default() };
         let mut gaps = self.teeth.clone();
         gaps.chip = Chip::new(&fault, &self.pair, PLANETS).unwrap().filter(|_| depth > 0.0);
-        (gaps.least, gaps.errors) = (-errors.most_excess(self.pair.outer_cone), Some(errors));
+        (gaps.least, gaps.errors) = (-errors.max_excess(self.pair.outer_cone), Some(errors));
         Some(Arc::new(gaps))
     }
 }
@@ -264,16 +264,16 @@ fn linearised<C: PlanetContact>(contact: &C, at: &PlanetState) -> (Forces, Slope
 impl Planet {
     pub fn new(contact: Contact, gears: &Arc<Gears>) -> Self {
         let (pair, stiffness) = (&gears.pair, &gears.stiffness[usize::from(contact.is_elastic)]);
-        let Built { spring, whole, face, cut } = Built::of(pair, stiffness, contact.law, gears.exponent);
+        let Built { spring, whole, face, distributed } = Built::of(pair, stiffness, contact.law, gears.exponent);
         let (damping, is_single) = (contact.damping, contact.law == Kind::Lumped);
         let engagement = gears.engagements[usize::from(contact.has_corners)].clone();
         let mesh = Mesh { spring, damping, whole, is_single, engagement };
-        let face = if contact.face == Face::Cut { cut.unwrap() } else { face };
+        let face = if contact.face == Face::Distributed { distributed.unwrap() } else { face };
         let friction = contact.friction.map(|spec| ToothFriction { spec, modulus: 0.5 * STEEL.plane_modulus() });
         let mut detailed = Detailed::new(pair, mesh.spring.clone(), damping, face, is_single, friction);
         detailed.has_seats = contact.is_displaced;
-        if let Some(cut) = cut {
-            detailed.rub_over(cut);
+        if let Some(face) = distributed {
+            detailed.set_friction_face(face);
         }
         let constants = planet::Contact {
             mesh,

@@ -24,7 +24,7 @@ fn crowned(law: Kind, crown: f64, even: f64, edge: Option<[f64; 2]>) -> Planet {
     };
     let width = pair.outer_cone - pair.inner_cone;
     let missing = edge.map_or(SOUND, |[edge, depth]| [(pair.outer_cone - edge) / width, depth]);
-    Planet::new(Contact { law, face: Face::Cut, teeth: Teeth::Made(spec, missing), ..PLAIN }, &GEARS[0])
+    Planet::new(Contact { law, face: Face::Distributed, teeth: Teeth::Made(spec, missing), ..PLAIN }, &GEARS[0])
 }
 
 /// ∫ω R² dR and ∫ω R dR over the faces of all pairs at the point `at`, summed over slices.

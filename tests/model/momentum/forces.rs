@@ -59,12 +59,12 @@ fn points_normals_thrusts_and_pin_forces_equal_those_computed_in_space() {
                 for load in loads.iter().filter(|load| load.planet == i) {
                     spots[load.spot as usize] += 1;
                     let force = UnitForce::of(&pair, load);
-                    let (parts, contact) = (force.parts(load.side), load.contact(&action));
+                    let (components, contact) = (force.components(load.side), load.contact(&action));
                     let off = [force.point - contact.point, force.normal - contact.normal].map(|off| off.amax());
-                    let parts_off = (0..3).map(|i| (parts[i] - load.parts[i]).abs()).fold(0.0, f64::max);
-                    assert!(off[0].max(off[1]).max(parts_off) < ROUNDING, "{name}: {load:?}");
-                    for (sum, part) in mesh[load.side].iter_mut().zip(parts) {
-                        *sum += load.normal * part;
+                    let components_off = (0..3).map(|i| (components[i] - load.components[i]).abs()).fold(0.0, f64::max);
+                    assert!(off[0].max(off[1]).max(components_off) < ROUNDING, "{name}: {load:?}");
+                    for (sum, component) in mesh[load.side].iter_mut().zip(components) {
+                        *sum += load.normal * component;
                     }
                 }
                 let [left, right] = mesh;
@@ -105,12 +105,13 @@ fn washers_and_pins_rub_with_the_forces_of_the_teeth_in_space_and_of_the_orbit()
             simulation.advance(f64::from(k) * 2e-3).expect("a step");
             let (mut thrust, mut across, mut along, mut sides) = (0.0, 0.0, 0.0, [0.0; 2]);
             simulation.tooth_loads(|load| {
-                let parts = UnitForce::of(&pair, load).parts(load.side).map(|part| load.normal * part);
-                thrust += parts[0];
-                across += parts[2];
-                along += if load.side == 0 { parts[1] } else { -parts[1] };
+                let components =
+                    UnitForce::of(&pair, load).components(load.side).map(|component| load.normal * component);
+                thrust += components[0];
+                across += components[2];
+                along += if load.side == 0 { components[1] } else { -components[1] };
                 // both planets are identical
-                sides[load.side] += 2.0 * parts[1];
+                sides[load.side] += 2.0 * components[1];
             });
             let states = simulation.states();
             let orbit = states[of(if pins { Body::Pin(0) } else { Body::Carrier })];

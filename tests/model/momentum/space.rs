@@ -59,7 +59,7 @@ impl UnitForce {
 
     /// Components of the force: along the planet's axis on the planet, along the side gear's axis on the side gear, and
     /// along the carrier's rotation on the side gear `side`. The first two point away from the apex.
-    pub fn parts(&self, side: usize) -> [f64; 3] {
+    pub fn components(&self, side: usize) -> [f64; 3] {
         // y points against the rotation on the left side, and along it on the right side
         let along = if side == 0 { -self.normal.y } else { self.normal.y };
         [-self.normal.z, self.normal.x, along]

@@ -6,7 +6,7 @@ use std::path::{Path, absolute};
 
 use anyhow::{Context, Result, ensure};
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::felt::Situation;
+use bevel_differential::variables::effective::Situation;
 use bevel_differential::variables::{Variable, named, table};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 

@@ -1,7 +1,7 @@
 //! Variables that have an influence in a scene, and the scene reduced to them.
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
-use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::effective::{self, Situation};
 use bevel_differential::variables::{Variable, assign, index_of, table, value_of};
 
 use super::Scene;
@@ -28,7 +28,7 @@ pub fn acting(scene: &Scene) -> Scene {
 /// Names of the variables whose values take effect in `scene`, and of outputs other than those of inactive effects.
 pub fn names(scene: &Scene) -> Vec<&'static str> {
     let mut parameters = scene.parameters;
-    let mut acts = |index: usize| felt::acts(index, &mut parameters, Situation::START);
+    let mut acts = |index: usize| effective::acts(index, &mut parameters, Situation::START);
     let rows =
         table().rows.iter().enumerate().filter(|(index, row)| acts(*index) && !is_of_absent_effect(row.name, scene));
     rows.map(|(_, row)| row.name).collect()
@@ -52,5 +52,6 @@ pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
     let mut parameters = scene.parameters;
     let unit = |row: &Variable| row.unit.map(|unit| unit.name);
     let is_repeated = || scene.outputs.iter().any(|output| unit(output) == unit(row));
-    felt::acts(index, &mut parameters, situation) || felt::is_felt(index, &mut parameters, situation) && is_repeated()
+    effective::acts(index, &mut parameters, situation)
+        || effective::has_effect(index, &mut parameters, situation) && is_repeated()
 }

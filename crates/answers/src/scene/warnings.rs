@@ -3,7 +3,7 @@
 
 use bevel_differential::model::{Parameters, Simulation};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::effective::{self, Situation};
 use bevel_differential::variables::unset::{self, SetValues};
 use bevel_differential::variables::{index_of, number};
 
@@ -13,9 +13,9 @@ use super::{InputTable, Scene};
 pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
     let set = set_values(scene);
     let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
-    let problems = simulation.warnings().iter().cloned().chain(unfelt(scene)).chain(runaway);
+    let problems = simulation.warnings().iter().cloned().chain(values_without_effect(scene)).chain(runaway);
     let mut found: Vec<String> = problems.map(|problem| problem.to_string()).collect();
-    if set.has_own_differential() {
+    if set.describes_another_differential() {
         let line = unset::in_one_line(&unset::unset(&scene.parameters, &scene.inputs, &set));
         found.extend(Some(line).filter(|line| !line.is_empty()));
     }
@@ -36,12 +36,13 @@ pub fn set_values(scene: &Scene) -> SetValues {
 }
 
 /// Problems of values that change nothing in `scene`, at the start or later, at most one for each variable.
-fn unfelt(scene: &Scene) -> Vec<Problem> {
+fn values_without_effect(scene: &Scene) -> Vec<Problem> {
     let (mut parameters, mut inputs) = (scene.parameters, scene.inputs);
-    let mut found = felt::unfelt(&parameters, &inputs, Situation::START);
+    let mut found = effective::values_without_effect(&parameters, &inputs, Situation::START);
     let mut later = |name: &'static str, value: Option<f64>, parameters: &mut Parameters| {
-        let problem =
-            index_of(name).zip(value).and_then(|(i, v)| felt::unfelt_value(i, v, parameters, Situation::RUNNING));
+        let problem = index_of(name)
+            .zip(value)
+            .and_then(|(i, v)| effective::value_without_effect(i, v, parameters, Situation::RUNNING));
         found.extend(problem.filter(|problem| found.iter().all(|known| known.variable != problem.variable)));
     };
     for setting in scene.events.iter().flat_map(|event| &event.settings) {

@@ -13,7 +13,7 @@ use answers::scene::run::{SceneRun, run};
 use answers::scene::{Scene, load};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Method};
-use bevel_differential::variables::felt::{self, Situation};
+use bevel_differential::variables::effective::{self, Situation};
 use bevel_differential::variables::index_of;
 
 /// No teeth, 50 rad/s, 99 N.m on each side.
@@ -177,7 +177,7 @@ thrust_friction.coefficient = 0.05
     let scene = parsed(&text);
     for setting in &scene.settings {
         let index = index_of(setting.row.name).expect("a variable");
-        assert!(felt::acts(index, &mut scene.parameters.clone(), Situation::START), "{}", setting.row.name);
+        assert!(effective::acts(index, &mut scene.parameters.clone(), Situation::START), "{}", setting.row.name);
     }
     assert_eq!(scene.events.iter().map(|event| event.settings.len()).collect::<Vec<_>>(), [1], "{text}");
     let started = SceneRun::start(&scene, scene.step).expect("a start");

@@ -1,4 +1,4 @@
-"""The cheapest model that gives wanted quantities to an accuracy, proven by runs of the scene."""
+"""Finds the cheapest model that gives wanted quantities to an accuracy, proven by runs of the scene."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -14,12 +14,12 @@ from ..values import FileName, Value
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# beginnings of the text of a setting with their markers, in the order of the legend; the first that fits counts
+# prefixes of setting texts and their markers, in the order of the legend; the first match counts
 KINDS = [("ideal", "o"), ("lumped", "s"), ("tooth impact", "^"), ("tooth line +", "P"), ("tooth line_weber +", "D"),
          ("tooth line_weber", "X"), ("tooth line", "v"), ("solid", "<")]
 # settings with fixed steps: their counts cannot be compared with those of the adaptive method
 FIXED = "fixed steps"
-# smallest error that is drawn, as a fraction of the accuracy; smaller errors are drawn at this one
+# smallest error that is drawn, as a fraction of the accuracy; smaller errors are drawn at this value
 FLOOR = 1e-3
 LONGEST = 90
 
@@ -57,14 +57,14 @@ class Choice:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """The answer.
+    """Result of `accuracy`.
 
     `wants`: the wanted quantities; `values`: their values in the reference, SI. `use`: the chosen setting, None if nothing is
-    accurate enough; `cheaper`: the dearest of the cheaper settings that are not accurate enough; `richer`: the cheapest of the
-    dearer settings with a smaller error; `reference`: the run that all others are compared with. `needed`, `out`: effects that
-    the setting needs, and effects that it leaves out, with the largest change of a wanted quantity by each. `effects`: the role
-    of each effect, and why. `uncertain`: the reference strays by more than a third of the accuracy. `runs`: all runs; `table`:
-    the same as CSV."""
+    accurate enough; `cheaper`: the most expensive of the cheaper settings that are not accurate enough; `richer`: the cheapest of
+    the more expensive settings with a smaller error; `reference`: the run with which all others are compared. `needed`, `out`:
+    effects that the setting needs, and effects that it leaves out, with the largest change of a wanted quantity by each. `effects`:
+    the role of each effect, with the reason. `uncertain`: true if the uncertainty of the reference is above a third of the accuracy.
+    `runs`: all runs; `table`: the same as CSV."""
 
     scene: str
     wants: list[str]
@@ -98,13 +98,14 @@ class Accuracy:
 def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: float | str = "1%", *, from_: str | float | None = None,
              set: Mapping[str, Value] | None = None, file: FileName | None = None,
              display_units: Sequence[str] = (), progress: Progress | None = None) -> Accuracy:
-    """The cheapest level, law, set of effects and tolerance that give the wanted quantities of a scene to an accuracy. A scene with
-    `solver.method` = fixed_step keeps it, and gets the longest fixed steps instead of a tolerance.
+    """Finds the cheapest level, law, set of effects and tolerance that give the wanted quantities of a scene to an accuracy. A scene
+    with `solver.method` = fixed_step keeps this method; the longest fixed steps then replace the tolerance.
 
     `scene`: a file, the name of a shipped scene, or a `Scene`. `want`: one or several "OUTPUT:STATISTIC", such as
-    "left.speed:mean"; without it all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this time
-    on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `file`: the intended place of a scene file
-    with the setting, which is not written: its text is `answer["file"]`. Ctrl-C stops the work. Raises `DifferentialError`."""
+    "left.speed:mean"; the default is all outputs of the scene. `within`: such as "1%" or 0.01. `from_`: outputs count from this
+    time on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `file`: intended path of a scene
+    file with the setting; the file is not written, its text is `answer["file"]`. Ctrl-C stops the work. Raises
+    `DifferentialError`."""
     question = {"ask": "accuracy", "of": about(scene, set, display_units), "want": [want] if isinstance(want, str) else list(want),
                 "within": str(within), "from": None if from_ is None else str(from_), "file": None if file is None else Path(file)}
     found = ask(question, progress=progress)

@@ -15,7 +15,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="a quantity, such as left.speed:mean; may be repeated (default: all outputs of the scene)")
     parser.add_argument("--within", metavar="PERCENT", required=True, help="the accuracy that it needs, such as 1%%")
     parser.add_argument("--from", metavar="TIME", dest="from_", help="judge outputs from this time on, such as 10ms")
-    add_file(parser, "--csv", "CSV file", "write a table of all that was tried")
+    add_file(parser, "--csv", "CSV file", "write a table of all runs")
     add_file(parser, "--plot", "picture", "draw error against cost")
     add_file(parser, "--write", "scene", "write the scene with the chosen setting")
     add_file(parser, "--ssv", "parameter set", "write the start values of the chosen setting for hosts of the FMU")
@@ -24,14 +24,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Answers, prints and writes files. That no setting is accurate enough is a finding."""
+    """Finds the setting, prints it and writes files. If no setting is accurate enough, this is a finding."""
     from ..extras import require
     from ..progress import shown
     from ..values import DifferentialError
     from ..writing import write_whole
     from . import accuracy
 
-    # before the work, not after it
+    # an error before the work, not after it
     if arguments.write and arguments.write.exists():
         raise DifferentialError(f"{arguments.write} is there already: remove it, or name another with --write FILE")
     if arguments.plot:
@@ -44,7 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
           f"{time.monotonic() - begin:.2g} s in all")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
-        # without a setting that is accurate enough there is none to write
+        # if no setting is accurate enough, there is nothing to write
         if file and found.answer[key]:
             write_whole(file, found.answer[key])
             print(f"written: {file}")

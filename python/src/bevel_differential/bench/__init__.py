@@ -1,5 +1,5 @@
-"""A virtual bench: tests of a differential in the terms of SAE J2817. While it differentiates under load, the torque bias ratio is
-TBR = T_high/T_low, the locking effect LE = 100 (TBR − 1)/(TBR + 1) %."""
+"""A virtual bench: tests of a differential in the terms of SAE J2817. The torque bias ratio of a differential that differentiates
+under load is TBR = T_high/T_low. Its locking effect is LE = 100 (TBR − 1)/(TBR + 1) %."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -17,16 +17,16 @@ TESTS = {"bias": (bias, "bias"), "breakaway": (breakaway, "bias"), "judder": (ju
 
 
 def scene_file(name: str) -> Path:
-    """The scene of a test."""
+    """Scene file of a test."""
     return Path(__file__).with_name(f"{TESTS[name][1]}.toml")
 
 
 def bench(name: str, folder: FileName, scene: FileName | None = None, values: Mapping[str, Value] | None = None,
           fmu: FileName | Fmu | None = None, display_units: Sequence[str] = (), **farm: Any) -> str:
-    """Runs a test; writes its figure NAME.png and its numbers NAME.csv into a folder. Returns what to read from them.
+    """Runs a test; writes its figure NAME.png and its numbers NAME.csv into a folder. Returns the conclusions as text.
 
-    `scene`: instead of the test's own; `values`: changes of it; `display_units`: of the figure and the text; `farm`: what
-    `designs.Farm` takes."""
+    `scene`: replaces the test's scene; `values`: changes of the scene; `display_units`: units of the figure and the text; `farm`:
+    arguments of `designs.Farm`."""
     test, _ = TESTS[name]
     with Scene.load(scene or scene_file(name), fmu=fmu, display_units=display_units) as loaded:
         return test(loaded.set(values), Path(folder) / name, farm)

@@ -20,7 +20,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Runs the tests, prints what to read from them and writes files. Raises `DifferentialError`."""
+    """Runs the tests, prints their conclusions and writes files. Raises `DifferentialError`."""
     from ..extras import require
     from ..values import DifferentialError, suggestion
     from ..writing import in_folder, write_whole

@@ -10,16 +10,16 @@ from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
 from ..scene import Scene
 
-# friction that rises with speed, as of a fresh oil with a friction modifier
+# friction that rises with speed, as with a fresh oil that has a friction modifier
 RISING = {"limited_slip.static_ratio": 1.0, "limited_slip.stribeck_speed": 0.0, "limited_slip.slip_slope": 0.02}
-# judder ends where the vibration of the speed is less than this, rad/s; time over which it is judged, s
+# judder ends when the speed vibrates by less than this, rad/s, within this time window, s
 QUIET, WINDOW = 0.1, 0.1
-# a lap, and the time in it in the middle of a hairpin, s
+# duration of a lap, and the time in the lap at which the car is in the middle of a hairpin, s
 LAP, HAIRPIN = 60.0, 20.0
 
 
 def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
-    """Vibration of a side gear about its wheel's speed, for the scene's friction and one that rises with speed."""
+    """Measures the vibration of a side gear about its wheel's speed, with the scene's friction and with one that rises with speed."""
     names, (_, _, slips, _) = ["left.speed", "right.speed"], axes(scene)
     falling, rising = (scene.run(names, values) for values in ({}, RISING))
     time = falling["time"]
@@ -42,10 +42,10 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 
 def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
-    """Temperatures and locking effect over laps."""
+    """Measures temperatures and locking effect over laps."""
     record, (*_, warmth) = scene.run(), axes(scene)
     time, left, right = record["time"], record["left.shaft_torque"], record["right.shaft_torque"]
-    # only while it differentiates
+    # only while the differential differentiates
     effect = np.array([np.nan if held or ratio_of(*torques)[1] is None else ratio_of(*torques)[1]
                        for held, *torques in zip(record["held.sides"] > 0, left.tolist(), right.tolist())])
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
@@ -57,10 +57,10 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 
 def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
-    """Temperatures and loss after a cold start."""
+    """Measures temperatures and loss after a cold start."""
     record, (*_, warmth) = scene.run(), axes(scene)
     time, loss = record["time"], record["power.loss"]
-    # without the first steps, in which all starts to move
+    # without the first steps, in which everything starts to move
     half = time[np.argmax(loss[1:] < 0.5 * (loss[1] + loss[-1])) + 1]
     says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
             f"{half:.0f} s, in which the oil warms up from {warmth.text(record['temperature.oil'][0], 3)} to "

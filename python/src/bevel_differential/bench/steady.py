@@ -1,4 +1,4 @@
-"""Steady tests: torque bias over torque, and breakaway apart from it, at three temperatures, in both directions."""
+"""Steady tests: torque bias and breakaway over torque, at three temperatures, in both directions."""
 
 from collections.abc import Mapping
 from itertools import product
@@ -16,7 +16,7 @@ from ..records import write
 from ..scene import Scene
 from ..values import DifferentialError
 
-# shares of the scene's torque; temperatures, K; carrier speed and difference of wheel speeds, rad/s
+# fractions of the scene's torque; temperatures, K; carrier speed and difference of wheel speeds, rad/s
 SHARES = np.array([0.15, 0.25, 0.4, 0.6, 0.8, 1.0])
 TEMPERATURES = (253.15, 313.15, 393.15)
 SPEED, DIFFERENCE = 50.0, 5.0
@@ -25,19 +25,18 @@ HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]
 
 
 def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
-    """TBR over torque while it differentiates."""
+    """Measures TBR over torque while the differential differentiates."""
     torques, (of_torque, *_) = _torques(scene), axes(scene)
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
     says = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
-            f"{of_torque.text(torques[-1])}: "
-            "at small torque preload makes it, at large torque the friction that grows with it. Left and right agree where solid and "
-            "dashed lines meet")
+            f"{of_torque.text(torques[-1])}: preload determines it at small torque, friction that grows with the torque at large torque. "
+            "Left and right agree where solid and dashed lines meet")
     return _written(scene, out, rows, says, "differentiating", 5)
 
 
 def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
-    """LE at which it breaks loose, over torque."""
+    """Measures LE at breakaway over torque."""
     torques, (of_torque, _, of_slip, _) = _torques(scene), axes(scene)
     found = _measured(scene, torques, (0.0, DIFFERENCE), farm)
     rows, over = [], []
@@ -45,28 +44,28 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
         if difference:
             continue
         total = figures[0] + figures[1]
-        # the left wheel about to be the faster one, and the slower one
+        # torque of the left wheel when it is about to become the faster one, and the slower one
         for left, sign in ((figures[3], 1.0), (figures[4], -1.0)):
             rows.append((torque, sign, temperature, left, total - left, *ratio_of(left, total - left)))
         slipping = found[torque, speed, DIFFERENCE, temperature]
         over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
     held = [row[6] for row in rows if row[0] == torques[-1] and row[6] is not None]
     says = (f"it holds up to {f'an LE of {min(held):.0f} to {max(held):.0f} %' if held else 'torques that oppose each other'} at "
-            f"{of_torque.text(torques[-1])}; breakaway takes {min(over):.2f} to "
-            f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}, and is no TBR, as nothing "
-            "differentiates")
+            f"{of_torque.text(torques[-1])}; breakaway needs {min(over):.2f} to "
+            f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}. This is not a TBR, because "
+            "nothing differentiates")
     return _written(scene, out, rows, says, "breaking loose", 6)
 
 
 def _torques(scene):
     command = scene.value("carrier.torque_command")
     if command <= 0.0:
-        raise DifferentialError(f"carrier.torque_command = {command:g} N.m: a bench needs the greatest torque here, above 0")
+        raise DifferentialError(f"carrier.torque_command = {command:g} N.m: the bench needs its largest torque here, above 0")
     return SHARES * command
 
 
 def _measured(scene, torques, differences, farm):
-    """Figures of points {(torque, speed, difference, temperature): figures}."""
+    """Figures by point: {(torque, speed, difference, temperature): figures}."""
     points = list(product(torques.tolist(), (SPEED,), differences, TEMPERATURES))
     with Farm(**farm) as workers:
         rows = workers.evaluate(PointTask(benched(scene)), [(run, inputs(point)) for run, point in enumerate(points)])

@@ -1,4 +1,4 @@
-"""The gears for other programs: solids as STEP, meshes as STL, 3MF and GLB, drawings as DXF. All are made from one dictionary, the
+"""Exports the gears to other programs: solids as STEP, meshes as STL, 3MF and GLB, drawings as DXF. All use one dictionary, the
 `shape` in the answer about gears."""
 
 from collections.abc import Collection
@@ -18,13 +18,13 @@ EXTRA = "cad"
 
 
 def available() -> bool:
-    """Whether the packages of the extra are there."""
+    """True if the packages of the extra are installed."""
     return all(find_spec(name) for name in ("OCP", "ezdxf", "trimesh"))
 
 
 def step(shape: dict[str, Any], part: str = "assembly", solids: dict[str, Any] | None = None) -> bytes:
-    """The solid of a gear, or all gears and pins of the differential, as STEP in millimetres. `solids` keeps gears of the shape for
-    its other parts."""
+    """Solid of one gear, or of all gears and pins of the differential, as STEP in millimetres. `solids` caches gears of the shape
+    for other parts."""
     require("OCP.gp", EXTRA)
     from .step_file import step
 
@@ -32,7 +32,7 @@ def step(shape: dict[str, Any], part: str = "assembly", solids: dict[str, Any] |
 
 
 def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> bytes:
-    """The same as facets; STL and 3MF in millimetres, GLB in metres."""
+    """Mesh of one gear, or of all gears and pins of the differential: STL and 3MF in millimetres, GLB in metres."""
     for module in ("trimesh", "lxml", "networkx") if kind == "3mf" else ("trimesh",):
         require(module, EXTRA)
     from .mesh_file import mesh
@@ -41,7 +41,7 @@ def mesh(shape: dict[str, Any], part: str = "assembly", kind: str = "glb") -> by
 
 
 def drawing(shape: dict[str, Any], part: str) -> bytes:
-    """Outlines at heel and toe as curves in space, and the section of a gear with its dimensions, as DXF in millimetres."""
+    """Drawing of a gear as DXF in millimetres: outlines at heel and toe as curves in space, and the section with dimensions."""
     require("ezdxf", EXTRA)
     from .dxf_file import drawing
 
@@ -49,7 +49,7 @@ def drawing(shape: dict[str, Any], part: str) -> bytes:
 
 
 def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), parts: Collection[str] = PARTS) -> list[str]:
-    """Writes the files of an answer about gears, and of these kinds for these parts; all are made before the first is written.
+    """Writes the files of an answer about gears, and files of `kinds` for `parts`. All are created before the first is written.
     Returns their names."""
     made = {name: content.encode() for name, content in found["files"].items()}
     solids: dict[str, Any] = {}

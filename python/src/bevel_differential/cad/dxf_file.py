@@ -1,7 +1,7 @@
 """Drawings of a gear as DXF by ezdxf, in millimetres.
 
-About the origin: the outlines of all teeth at heel and toe as curves in space, seen along the axis; other programs can take them
-from there to build on. Beside it: the section through the axis with its dimensions."""
+The outlines of all teeth at heel and toe are around the origin. They are curves in space, seen along the axis, from which other
+programs can build models. Next to them is the section through the axis with its dimensions."""
 
 import io
 import math
@@ -14,14 +14,14 @@ from ezdxf.math import global_bspline_interpolation
 MM = 1e3
 STYLE = {"dimtxt": 2.2, "dimasz": 2.2, "dimexe": 1.0, "dimexo": 0.5, "dimgap": 0.8, "dimdec": 3, "dimadec": 4, "dimtad": 1,
          "dimdsep": ord(".")}
-# from the axis of the view to the apex of the section, in cone distances, and between lines of dimensions [mm]
+# distance from the axis of the view to the apex of the section, in cone distances; distance between dimension lines [mm]
 BESIDE, APART = 1.6, 7.0
 LAYERS = {"heel": ("CONTINUOUS", 7), "toe": ("CONTINUOUS", 4), "section": ("CONTINUOUS", 7), "gap": ("DASHED", 8),
           "centre": ("CENTER", 1), "dimensions": ("CONTINUOUS", 3)}
 
 
 def drawing(shape, part):
-    """The file as bytes; `part` is planet or side_gear."""
+    """File as bytes; `part` is planet or side_gear."""
     document = ezdxf.new("R2010", setup=True)
     document.units = ezdxf.units.MM
     document.header["$LTSCALE"] = 10.0
@@ -39,7 +39,7 @@ def drawing(shape, part):
 
 
 def _outline(space, gear, cone, layer):
-    """All teeth at this cone distance."""
+    """Draws the outline of all teeth at this cone distance."""
     on, pitch = {"layer": layer}, math.tau / gear["teeth"]
     foot, flank = np.array(gear["foot"]), np.array(gear["flank"])
     low, high = (math.atan2(point[1], point[0]) for point in (foot[0], flank[-1]))
@@ -62,7 +62,7 @@ def _outline(space, gear, cone, layer):
 
 
 def _section(space, gear, toe, heel):
-    """Through the middle of a tooth and, dashed, of a gap; apex on the left, axis to the right."""
+    """Draws the section through the middle of a tooth and, dashed, of a gap. The apex is left, the axis points to the right."""
     root, tip, pitch, bore = gear["root"], gear["tip"], gear["pitch"], MM * gear["bore"] / 2.0
     left = BESIDE * heel
 

@@ -1,20 +1,20 @@
-"""Files of meshes by trimesh: one gear, or the whole differential with pins. STL and 3MF in millimetres, GLB in metres as glTF
+"""Mesh files by trimesh: one gear, or the whole differential with pins. STL and 3MF are in millimetres, GLB is in metres as glTF
 requires."""
 
 import numpy as np
 import trimesh
 from trimesh.visual.material import PBRMaterial
 
-# a metre in units of each kind of file
+# length of a metre in each kind of file
 METRE = {"stl": 1e3, "3mf": 1e3, "glb": 1.0}
-# edges of the polygon that stands for a pin's circle
+# edges of the polygon that approximates a pin's circle
 AROUND = 128
-# of planet, side gear and pins
+# red, green and blue of planet, side gear and pins
 COLOURS = [(0.80, 0.62, 0.35), (0.62, 0.65, 0.70), (0.40, 0.42, 0.45)]
 
 
 def mesh(shape, part, kind):
-    """The file as bytes; `part` is planet, side_gear or assembly, `kind` one of METRE."""
+    """File as bytes; `part` is planet, side_gear or assembly, `kind` is one of METRE."""
     scale, scene = METRE[kind], trimesh.Scene()
     names = [gear["name"] for gear in shape["gears"]]
     solids = [_gear(gear, colour, scale) for gear, colour in zip(shape["gears"], COLOURS, strict=False)]

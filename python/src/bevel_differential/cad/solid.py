@@ -1,10 +1,10 @@
 """Solids of gears and pins by Open CASCADE, in millimetres: the faces of one tooth, copied around the axis and sewn together.
 
-All faces of a tooth are cones with their apex in the pitch apex. Tip and root land are cones about the gear's axis. A flank is a
-ruled surface from a spline through points of the involute at the toe to the same spline, grown, at the heel; so is a fillet.
-Heel and toe are planes within the root circles. Beyond them they are cones about the axis: one under the tip land, one under
-the fillet, and between these, under the flank, the surface of straight lines in planes through the axis that leads from the
-one to the other."""
+All faces of a tooth are cones whose apex is the pitch apex. Tip and root land are cones about the gear's axis. A flank is a
+ruled surface from a spline through points of the involute at the toe to the same spline, enlarged, at the heel. A fillet is such
+a surface too. Heel and toe are planes within the root circles. Outside the root circles, they are cones about the axis under the
+tip land and under the fillet. Between these cones, under the flank, they are surfaces of straight lines in planes through the
+axis."""
 
 import math
 
@@ -31,11 +31,11 @@ from OCP.TopoDS import TopoDS
 from ..values import DifferentialError
 
 MM = 1e3
-# gaps that sewing closes, over the cone distance: splines through the same points differ from arcs by nanometres
+# largest gap that sewing closes, relative to the cone distance: splines through the same points differ from arcs by nanometres
 SEAM = 1e-6
-# what Open CASCADE takes for one point
+# distance within which Open CASCADE treats points as equal [mm]
 POINT = 1e-7
-# azimuths [rad] and vectors of length 1 that differ by less are equal
+# azimuths [rad] and unit vectors that differ by less are equal
 ROUNDING = 1e-9
 AXIS, ACROSS = gp_Dir(0, 0, 1), gp_Dir(1, 0, 0)
 
@@ -73,12 +73,12 @@ def pins_solid(shape):
 
 
 def _side(gear, cones, foot, flank):
-    """Faces between the middle of a gap and the tip on one side of a tooth."""
+    """Faces on one side of a tooth, from the middle of a gap to the tip."""
     root, base = gear["root"], _polar(flank[:1])[0]
     arcs = np.append(0.0, np.cumsum(np.linalg.norm(np.diff(flank, axis=0), axis=1)))
     yield _ruled(*(cone * flank for cone in cones), arcs)
     yield from (_ruled(cone * _on_circle(root, flank), cone * flank, arcs) for cone in cones)
-    # the cone from the root circle to where the flank begins cuts rays at these shares of the cone distance
+    # the cone from the root circle to the start of the flank cuts rays at these fractions of the cone distance
     share = math.cos((base - root) / 2) / np.cos(_polar(foot) - (base + root) / 2)
     edge = foot * share[:, None]
     if len(foot) > 1:
@@ -92,7 +92,7 @@ def _side(gear, cones, foot, flank):
 
 
 def _lands(gear, cones, foot, flank):
-    """Tip land with its ends, and the root land beside it if there is one."""
+    """Tip land with its ends, and the root land next to it if there is one."""
     root, tip = gear["root"], gear["tip"]
     (middle, end), pitch = _azimuth(np.array([foot[0], flank[-1]])), math.tau / gear["teeth"]
     yield _cone((cones[0], tip), (cones[1], tip), -end, end)
@@ -102,7 +102,7 @@ def _lands(gear, cones, foot, flank):
 
 
 def _blank(gear, cones, corners):
-    """Planes of toe and heel with corners at these azimuths of each tooth, and the bore."""
+    """Planes of toe and heel, with corners at these azimuths of each tooth, and the bore."""
     pitch, radius = math.tau / gear["teeth"], MM * gear["bore"] / 2.0
     of_tooth = np.sort(np.append(corners, -corners))
     around = (of_tooth + pitch * np.arange(gear["teeth"])[:, None]).ravel()
@@ -124,7 +124,7 @@ def _blank(gear, cones, corners):
 
 
 def _ruled(low, high, at):
-    """Straight lines between cubic splines through the points `low` and `high`, both with the parameters `at`."""
+    """Face of straight lines between cubic splines through the points `low` and `high`, both with the parameters `at`."""
     curves = [_spline(points, at) for points in (low, high)]
     count = curves[0].NbPoles()
     poles, ends, twice = Array2_gp_Pnt(1, count, 1, 2), Array1_double(1, 2), Array1_int(1, 2)
@@ -149,14 +149,14 @@ def _spline(points, at):
 
 
 def _cone(start, end, low, high):
-    """Cone about the axis between two points, each by cone distance and polar angle, and two azimuths."""
+    """Face of a cone about the axis, between two points (cone distance, polar angle) and two azimuths."""
     (a, x), (b, y) = sorted(((r * math.cos(polar), r * math.sin(polar)) for r, polar in (start, end)))
     surface = Geom_ConicalSurface(gp_Ax3(gp_Pnt(0, 0, a), AXIS, ACROSS), math.atan2(y - x, b - a), x)
     return BRepBuilderAPI_MakeFace(surface, low, high, 0.0, math.hypot(y - x, b - a), POINT).Face()
 
 
 def _on_circle(polar, points):
-    """Points of the circle at this polar angle with the azimuths of these points."""
+    """Points on the circle at the polar angle `polar` that have the azimuths of `points`."""
     azimuth = _azimuth(points)
     ring = math.sin(polar)
     return np.stack([ring * np.cos(azimuth), ring * np.sin(azimuth), np.full(len(points), math.cos(polar))], axis=1)

@@ -1,4 +1,4 @@
-"""STEP: the solid of one gear, or the differential as an assembly of named parts, pins in place."""
+"""STEP: the solid of one gear, or the differential as an assembly of named parts with its pins."""
 
 from io import BytesIO
 
@@ -17,7 +17,7 @@ from .solid import gear_solid, pins_solid
 
 
 def step(shape, part, solids):
-    """The file as bytes; `part` is planet, side_gear or assembly. `solids`: gears by name that are made already, to which it adds."""
+    """File as bytes; `part` is planet, side_gear or assembly. `solids` caches gears by name; missing gears are added."""
     for printer in Message.DefaultMessenger_s().Printers():
         printer.SetTraceLevel(Message_Gravity.Message_Fail)
     document = TDocStd_Document(TCollection_ExtendedString("XmlXCAF"))

@@ -1,5 +1,5 @@
 """The command `bevel-differential`. Each sub-command is a module with `add_arguments(parser)` and `run(arguments) -> exit status`.
-Only the requested module is imported. Before its `run`, it imports no package that only some installations have."""
+Only the requested module is imported. Until its `run`, no optional package is imported."""
 
 import argparse
 import importlib
@@ -32,10 +32,10 @@ COMMANDS = {
     "sweep": (".command.sweep", "sweep", "run a scene for many designs: grids, Latin hypercubes, Sobol sequences, Monte Carlo"),
     "optimise": (".optimise.command", "design", "optimise gears by several objectives at once"),
     "tolerance": (".tolerance.command", "design",
-                  "what manufacturing tolerances do: spread of figures, yield, and which tolerance is worth its money"),
+                  "calculate the effects of manufacturing tolerances: spread of results, yield, and which tolerance is worth its money"),
     "spectrum": (".spectrum.command", "design",
                  "damage and life of the gears over a duty cycle: events with counts, torque and speeds"),
-    "losses": (".losses.command", "sweep", "map power loss and torque bias over torque, speeds and oil temperature, its error measured"),
+    "losses": (".losses.command", "sweep", "map power loss and torque bias over torque, speeds and oil temperature, with measured errors"),
     "bench": (".bench.command", "sweep", "put a differential on a virtual bench: torque bias, breakaway, judder, hot lap, winter start"),
     "study": (".study.command", "report", "simulate the two cases of the study and compare the results with the study and with theory"),
     "verify": (".command.verify", None, "simulate the scenes of an FMU's evidence and compare with its results within their tolerances"),
@@ -46,19 +46,19 @@ PACKAGE = __package__.partition(".")[0]
 # exit statuses of all commands, and the words for them
 DONE, FAILED, WRONG, FINDING, INTERRUPTED = 0, 1, 2, 3, 130
 STATUSES = {DONE: "done", FAILED: "failed", WRONG: "wrong value or use", FINDING: "done, with a finding", INTERRUPTED: "stopped by Ctrl-C"}
-# by the kinds of `DifferentialError`
+# exit statuses by the kind of `DifferentialError`
 _STATUS = {"use": WRONG, "finding": FINDING}
 
 
 class Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
+    """Parser that reports errors in one line."""
 
     def error(self, message: str) -> NoReturn:
         self.exit(WRONG, f"{self.prog}: {message}; see {self.prog} --help\n")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Runs the command with these arguments, or those of the process. Returns its exit status."""
+    """Runs the command with these arguments, by default those of the process. Returns its exit status."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     try:
         if not arguments or arguments[0] in ("-h", "--help", "help"):
@@ -68,7 +68,7 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(f"{NAME} {version() or 'of sources that are not installed'}")
             return DONE
         status = _run(arguments[0], arguments[1:])
-        # at exit Python would show an error by itself
+        # if this fails at exit, Python prints a message of its own
         sys.stdout.flush()
         return status
     except DifferentialError as error:
@@ -76,18 +76,18 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt as interrupt:
         return _said(interrupt if str(interrupt) else "stopped", INTERRUPTED)
     except BrokenPipeError:
-        # the reader has closed the pipe: nothing is left to say
+        # the reader has closed the pipe: there is nothing left to say
         _discard_output()
         return FAILED
     except OSError as error:
         if error.filename is None:
-            # all files that are written have names
+            # all written files have names, so this is standard output
             _discard_output()
         return _said(f"{error.filename or 'standard output'}: {error.strerror or error}", FAILED)
 
 
 def _discard_output():
-    """Discards all that is still to be printed, also at exit."""
+    """Discards all pending output, also at exit."""
     with suppress(UnsupportedOperation):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 

@@ -1,4 +1,4 @@
-"""Arguments that several sub-commands take."""
+"""Arguments shared by several sub-commands."""
 
 import argparse
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from ..values import DifferentialError
 
 
 def assignment(text: str) -> tuple[str, str]:
-    """Of NAME=VALUE."""
+    """Splits NAME=VALUE."""
     name, sign, value = text.partition("=")
     if not (name.strip() and sign and value.strip()):
         raise argparse.ArgumentTypeError(f"{text!r}: write NAME=VALUE")
@@ -19,7 +19,7 @@ def assignment(text: str) -> tuple[str, str]:
 
 
 def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Values by name. A name that is given twice would lose a value without a word."""
+    """Values by name. Fails if a name is given twice, because one of its values would be lost silently."""
     values: dict[str, str] = {}
     for name, value in ((present(name), value) for name, value in pairs):
         if name in values:
@@ -29,7 +29,7 @@ def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
 
 
 class _File(argparse.Action):
-    """Takes a file that is to be written, checked before any work: an unknown ending is wrong use, a read-only folder a failure."""
+    """Option with a file to write, checked before any work: an unknown ending is wrong use, a read-only folder is a failure."""
 
     def __init__(self, kind: str, **named: Any):
         super().__init__(**named)
@@ -45,13 +45,13 @@ class _File(argparse.Action):
 
 
 def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
-    """A file to write, of a kind in `output_file.ENDINGS`."""
+    """Adds an option with a file to write, of a kind in `output_file.ENDINGS`."""
     help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
     parser.add_argument(option, metavar="FILE", action=_File, kind=kind, help=help, **more)
 
 
 def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:
-    """Files to write, a table and a picture; `before`: names that the options `csv` and `plot` had before, which still do."""
+    """Adds options with a table and a picture to write. `before`: former names of the options `csv` and `plot`, which still work."""
     add_file(parser, "--csv", "table", f"write {table}")
     add_file(parser, "--plot", "picture", f"draw {picture}")
     for option, name in before.items():
@@ -59,58 +59,58 @@ def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **befor
 
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:
-    """The FMU to use."""
+    """Adds the option for the FMU."""
     parser.add_argument("--fmu", metavar="FILE", help="the FMU (default: that of the package, or BEVEL_DIFFERENTIAL_FMU)")
 
 
 def add_units(parser: argparse.ArgumentParser) -> None:
-    """Units to show values in."""
+    """Adds the option for the units of displayed values."""
     parser.add_argument("--unit", metavar="UNIT", action="append", default=[],
                         help="show all values of its dimension in this unit, such as rpm or kN; may be repeated (default: those of "
                              "display_units in the scene, else the usual units)")
 
 
 def add_set(parser: argparse.ArgumentParser) -> None:
-    """Values that differ from the scene's."""
+    """Adds the option for values that differ from the scene's."""
     parser.add_argument("--set", metavar="NAME=VALUE", type=assignment, action="append", default=[],
                         help="a parameter, or an input at the start, such as \"geometry.module=4.5 mm\"")
 
 
 def add_stop(parser: argparse.ArgumentParser) -> None:
-    """Another end of the scene."""
+    """Adds the option for another end of the scene."""
     parser.add_argument("--stop", metavar="TIME", help="another end of the scene, such as \"0.2 s\"")
 
 
 def add_quick(parser: argparse.ArgumentParser, what: str) -> None:
-    """A coarser answer in less time; `what` is different in it."""
+    """Adds the option for a coarser answer in less time; `what` describes the difference."""
     parser.add_argument("--quick", action="store_true", help=f"a coarser answer in less time: {what}")
 
 
 def add_scene(parser: argparse.ArgumentParser) -> None:
-    """The scene, and values that differ from its own."""
+    """Adds the scene, and the options for values that differ from its own."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
     add_stop(parser)
 
 
 def changes(arguments: argparse.Namespace) -> dict[str, str]:
-    """The options --set and --stop as changes of a scene in a question to the library of answers."""
+    """Options --set and --stop as changes of a scene in a question to the library of answers."""
     stop = [] if arguments.stop is None else [("stop_time", arguments.stop)]
     return once("--set", [*arguments.set, *stop])
 
 
 def add_farm(parser: argparse.ArgumentParser) -> None:
-    """Who evaluates many designs."""
-    parser.add_argument("--workers", type=int, metavar="N", help="how many at once (default: one per core; 0: this process)")
+    """Adds the options for the workers that evaluate designs."""
+    parser.add_argument("--workers", type=int, metavar="N", help="number of workers (default: one per core; 0: this process)")
     parser.add_argument("--threads", action="store_true", help="workers are threads, not processes")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="a dask scheduler whose workers run the designs")
 
 
 def farm(arguments: argparse.Namespace) -> dict[str, Any]:
-    """The same as `Farm` takes it."""
+    """Arguments of `Farm` from the options of `add_farm`."""
     return {"workers": arguments.workers, "processes": not arguments.threads, "scheduler": arguments.scheduler}
 
 
 def add_progress(parser: argparse.ArgumentParser) -> None:
-    """How progress is shown."""
+    """Adds the option for the display of progress."""
     parser.add_argument("--progress", choices=("bar", "lines", "none"), default="bar", help=argparse.SUPPRESS)

@@ -1,4 +1,4 @@
-"""The command `examples`: files of designs, tolerances and duty cycles, and programs with a car, of which the documents speak."""
+"""The command `examples`: copies the example files of the documentation: designs, tolerances, duty cycles and cars."""
 
 import argparse
 from pathlib import Path
@@ -17,7 +17,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Copies the files and names them. Raises `DifferentialError` where one is there already."""
+    """Copies the files and prints their names. Raises `DifferentialError` if one exists already."""
     out = Path(arguments.out)
     copies = {file: out / name / file.name for name, patterns in FOLDERS.items() for pattern in patterns
               for file in sorted((folder() / name).glob(pattern))}
@@ -34,6 +34,6 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def folder() -> Path:
-    """Where they are: in this package, or in the repository that it is used from."""
+    """Folder of the examples: in this package, or in the repository that contains it."""
     shipped = Path(__file__).parents[1] / "examples"
     return shipped if shipped.is_dir() else shipped.parents[3] / "examples"

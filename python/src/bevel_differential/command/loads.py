@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Writes the loads and says how many."""
+    """Writes the loads and prints their number."""
     from ..answers import about, ask
     from ..progress import shown
 

@@ -13,7 +13,7 @@ FILE = "BevelDifferential.html"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
-    parser.add_argument("--path", action="store_true", help="only print where the page is")
+    parser.add_argument("--path", action="store_true", help="only print the path of the page")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -30,7 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def page_file() -> Path:
-    """The page of this package, or of the repository that it is used from."""
+    """Path of the page: in this package, or in the repository that contains it."""
     package = Path(str(importlib.resources.files(__package__.partition(".")[0])))
     places = [package / "page" / FILE]
     # in a checkout: src/bevel_differential, src, python, the repository
@@ -39,5 +39,5 @@ def page_file() -> Path:
     for place in places:
         if place.is_file():
             return place.resolve()
-    raise DifferentialError("the page is not in this package. It comes with a wheel that was built where the page was made: in a "
-                            "checkout with Rust, `cargo run --release -- page`, then `cargo run --release -- wheel`", kind="failed")
+    raise DifferentialError("the page is not in this package. It is in wheels that are built where the page exists: in a checkout with "
+                            "Rust, run `cargo run --release -- page`, then `cargo run --release -- wheel`", kind="failed")

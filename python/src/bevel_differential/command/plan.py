@@ -1,4 +1,4 @@
-"""The command `plan`: what a scene will simulate, and the scene for other hosts."""
+"""The command `plan`: describes what a scene simulates, and writes the scene for other hosts."""
 
 import argparse
 
@@ -13,7 +13,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_stop(parser)
     add_units(parser)
     add_file(parser, "--ssv", "parameter set", "write the start values as a parameter set of SSP 1.0, which hosts read")
-    add_file(parser, "--python", "Python script", "write a Python script that simulates the scene, with the bits of `run`")
+    add_file(parser, "--python", "Python script", "write a Python script that simulates the scene to the same bits as `run`")
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def listed(command: str, arguments: argparse.Namespace) -> str:
-    """The scenes with what they are; options are wrong where there is no scene."""
+    """List of the scenes with their descriptions. Raises `DifferentialError` if there are options, because they need a scene."""
     from ..answers import ask, scenes
     from ..text import aligned
     from ..values import DifferentialError

@@ -13,7 +13,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                                                  "one, list the scenes")
     add_set(parser)
     add_stop(parser)
-    parser.add_argument("--output", metavar="NAME", action="append", help="what to record, instead of the scene's outputs")
+    parser.add_argument("--output", metavar="NAME", action="append",
+                        help="a variable to record instead of the scene's outputs; may be repeated")
     add_units(parser)
     add_files(parser, "the record, in SI without --unit", "the record")
     add_file(parser, "--parquet", "Parquet file", argparse.SUPPRESS)

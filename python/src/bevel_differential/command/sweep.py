@@ -6,7 +6,7 @@ from pathlib import Path
 from . import DONE, FINDING
 from .arguments import add_farm, add_file, add_fmu, add_set, add_stop, add_units, assignment, farm, once
 
-# keys of a plan file, and the name of each option here
+# keys of a plan file, and the names of the options here
 KEYS = {"scene": "scene", "stop": "stop", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
         "condition": "condition", "from": "start"}
 DEFAULTS = {"plan": "random", "seed": 0, "start": 0.0}
@@ -26,12 +26,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
                         help="a figure to record, such as left.speed:mean; the final value without a statistic")
     parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],
-                        help="what a feasible design meets, such as \"safety.root_min >= 1.2\"")
+                        help="a condition that a feasible design meets, such as \"safety.root_min >= 1.2\"")
     parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
-    add_file(parser, "--out", "Parquet file", "results; --resume goes on from this file")
+    add_file(parser, "--out", "Parquet file", "results; --resume continues from this file")
     add_file(parser, "--csv", "table", "write all runs as a table")
-    parser.add_argument("--resume", action="store_true", help="go on with what is missing in the results")
+    parser.add_argument("--resume", action="store_true", help="run only the designs that are missing in the results")
     parser.add_argument("--force", action="store_true", help="overwrite existing results")
     add_units(parser)
     add_farm(parser)
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Sweeps and prints what was found. Runs that fail, and a sweep without a feasible design, are findings. Raises
+    """Runs the sweep and prints its results. Failed runs, and a sweep without a feasible design, are findings. Raises
     `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.sweep import sweep, text
     from ..scene import Scene
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _merged(arguments):
-    """Values of the plan file, replaced or extended by those of the command line."""
+    """Values of the plan file. Values of the command line replace or extend them."""
     given = {**DEFAULTS, **(_read(arguments.plan_file) if arguments.plan_file else {})}
     for name in ("scene", "stop", "plan", "runs", "seed", "start"):
         if getattr(arguments, name) is not None:

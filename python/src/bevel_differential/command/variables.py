@@ -44,7 +44,7 @@ def _kind(variable: Variable) -> str:
 
 
 def _row(variable):
-    """Cells of the file, in SI."""
+    """Cells of a row of the file, in SI."""
     ends = (variable.minimum, variable.maximum)
     values = ("" if value is None else _literal(variable, value) for value in (variable.start, *ends))
     return (variable.name, _kind(variable), variable.kind, variable.unit or "", *values, variable.shown(0.0)[0],
@@ -56,7 +56,7 @@ def _literal(variable, number):
 
 
 def _table(found):
-    """Lines of the table, in the units that are usually shown."""
+    """Lines of the table, in display units."""
     from ..text import aligned
 
     if not found:
@@ -80,7 +80,7 @@ def _indented(text, terminal):
 
 
 def _cells(variable):
-    """Name, kind, unit, start and range as they are read."""
+    """Texts of name, kind, unit, start and range, in the display unit."""
     unit, _ = variable.shown(0.0)
     shown = unit if unit == variable.unit or not unit else f"{unit} ({variable.unit})"
     ends = () if variable.literals else (variable.minimum, variable.maximum)

@@ -1,4 +1,4 @@
-"""Several scenes side by side: their outputs over the same time, how far they differ, and in which values the scenes differ."""
+"""Compares several scenes: their outputs over the same time, the differences, and the values in which the scenes differ."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -21,21 +21,21 @@ from .differing import differing
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# figures of a series: its mean over time, its value farthest from 0, its value at the end
+# statistics of a series: its mean over time, its value farthest from 0, its value at the end
 FIGURES = ("mean", "peak", "end")
-# a value below this part of the largest one is 0 but for rounding: nothing is a percentage of it
+# a value below this fraction of the largest one is 0 except for rounding, so percentages of it make no sense
 NOTHING = 1e-9
-# smaller percentages are not written out
+# smaller percentages are not printed as numbers
 LEAST = 1e-3
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Records of several scenes over the same time; the first one is what others are compared with.
+    """Records of several scenes over the same time; the others are compared with the first one.
 
-    `scenes`: by their names, which differ; `records`: by these names, structured arrays in SI with a field "time" and one of each
-    output; `end`: time that all of them have, s; `notes`: sentences about durations and outputs; `differing`: head and rows of the
-    values in which the scenes differ. `fmu` shows values in the preferred units."""
+    `scenes`: scenes by unique names; `records`: structured arrays in SI by these names, with a field "time" and a field for each
+    output; `end`: end of the time that all scenes have, s; `notes`: sentences about durations and outputs; `differing`: head and rows
+    of the values in which the scenes differ. `fmu` shows values in the preferred units."""
 
     scenes: Mapping[str, Scene]
     records: Mapping[str, np.ndarray]
@@ -55,17 +55,17 @@ class Comparison:
         return list(next(iter(self.records.values())).dtype.names or ())[1:]
 
     def shown(self, output: str) -> tuple[str, dict[str, np.ndarray]]:
-        """Unit of an output, and its values by scene in this unit."""
+        """Unit of an output, and its values in this unit by scene."""
         variable = self.fmu.variable(output)
         unit, _ = variable.shown(0.0)
         return unit, {name: variable.shown(record[output].astype(float))[1] for name, record in self.records.items()}
 
     def table(self) -> np.ndarray:
-        """A row for each output and figure (mean, peak, end), in the units that are shown: a structured array, which pandas takes as
-        it is.
+        """A row for each output and figure (mean, peak, end), in display units: a structured array that pandas can read.
 
-        Fields: output, unit, figure, one for each scene, then for each other scene "NAME - FIRST" and "NAME - FIRST, %", NaN if a
-        percentage makes no sense. The peak is the value farthest from 0."""
+
+        Fields: output, unit, figure, one for each scene, then for each other scene "NAME - FIRST" and "NAME - FIRST, %". A percentage
+        that makes no sense is NaN. The peak is the value farthest from 0."""
         first, *others = self.names
         rows = []
         for output in self.outputs:
@@ -84,16 +84,16 @@ class Comparison:
         return np.array(rows, fields)
 
     def _figures(self, output, name):
-        """Mean, peak and end of an output of a scene, SI."""
+        """Mean, peak and end of an output in a scene, SI."""
         record = self.records[name]
         values, time = record[output].astype(float), record["time"]
         return mean_over_time(values, time), float(values[np.argmax(np.abs(values))]), float(values[-1])
 
     def _difference(self, output, first, other, largest):
-        """Difference of two values in SI as it is shown, and in per cent of the first."""
+        """Difference of two values in SI: in the display unit, and in per cent of the first value."""
         variable = self.fmu.variable(output)
         shown = float(variable.differences().shown(other - first)[1])
-        # a percentage of a temperature in degC would depend on where the scale begins
+        # a percentage of a temperature in degC would depend on the zero of the scale
         sensible = abs(first) > NOTHING * largest and float(variable.shown(0.0)[1]) == 0.0
         return shown, 100.0 * (other - first) / abs(first) if sensible else np.nan
 
@@ -103,14 +103,14 @@ class Comparison:
 
     def _lines(self):
         first, *others = self.names
-        # two scenes need no names: there is one difference
+        # two scenes have only one difference, which needs no names
         heads = ["difference", "in %"] if len(others) == 1 else [part for name in others for part in (f"{name} − {first}", "in %")]
         lines: list[tuple[str, ...]] = [("output", "unit", "figure", *self.names, *heads)]
         for row in self.table().tolist():
             output, unit, figure, *numbers = row
             count = len(self.names)
             size = max(map(abs, numbers[:count]))
-            # what is left of large numbers is rounding
+            # small remainders of large numbers are rounding errors
             values, differences = ([0.0 if abs(value) < NOTHING * size else value for value in part]
                                    for part in (numbers[:count], numbers[count::2]))
             pairs = [text for difference, part in zip(differences, numbers[count + 1::2])
@@ -121,19 +121,19 @@ class Comparison:
 
     def _differing_lines(self):
         if len(self.differing) == 1:
-            return ["The scenes set the same values: they differ by rounding alone."]
+            return ["The scenes set the same values: they differ only by rounding."]
         return ["The scenes differ in:", *aligned(self.differing, 1 + len(self.names))]
 
     def plot(self, file: FileName | None = None) -> "Figure":
-        """Draws all scenes over each other, a panel for each output. Writes `file` (PNG, SVG or PDF) if there is one."""
+        """Draws the curves of all scenes, in a panel for each output. If `file` is given, it is written as PNG, SVG or PDF."""
         require("matplotlib", "plot")
         from .picture import draw
 
         return draw(self, file)
 
     def to_csv(self, file: FileName) -> Path:
-        """Writes all records below each other, as CSV or, by the file's ending, as Parquet: the column "scene", then those of
-        `Scene.to_csv` in the units of this comparison."""
+        """Writes all records below each other, as CSV or Parquet by the file's ending. The columns are "scene" and those of
+        `Scene.to_csv`, in the units of this comparison."""
         rows: list[tuple[Any, ...]] = []
         for name, scene in self.scenes.items():
             head, units, columns = scene.columns(self.records[name], list(self.fmu.display_units.values()))
@@ -142,7 +142,7 @@ class Comparison:
 
 
 def _percent(difference: float, part: float) -> str:
-    """A percentage, short."""
+    """Short text of a percentage."""
     if np.isnan(part):
         return "–"
     if difference == 0.0:
@@ -154,9 +154,9 @@ def compare(*scenes: FileName | Scene, outputs: Sequence[str] | None = None, val
             stop: TimeValue | None = None, display_units: Sequence[str] = (), fmu: FileName | Fmu | None = None) -> Comparison:
     """Runs two or more scenes over the same time and compares their outputs.
 
-    `scenes`: files, names of shipped scenes, or `Scene`s. `outputs`: those that all scenes record, if none are named. `values`:
-    changes of all scenes. `stop`: end of all; otherwise that of the shortest. `display_units` win over those of the scenes, and those of
-    the first scene over others. Warnings name their scene. Raises `DifferentialError`."""
+    `scenes`: files, names of shipped scenes, or `Scene`s. `outputs`: by default those that all scenes record. `values`: changes of
+    all scenes. `stop`: end of all runs, by default that of the shortest scene. `display_units` take precedence over the units of the
+    scenes, and the first scene takes precedence over the others. Warnings name their scene. Raises `DifferentialError`."""
     if len(scenes) < 2:
         raise DifferentialError("a comparison needs two scenes or more", kind="use")
     files = [None if isinstance(scene, Scene) else find(scene) for scene in scenes]
@@ -185,7 +185,7 @@ def compare(*scenes: FileName | Scene, outputs: Sequence[str] | None = None, val
 
 
 def _names(scenes: Sequence[Scene], files: Sequence[Path | None]) -> list[str]:
-    """A name for each scene: its own, with as many folders as tell files of one name apart, or with a number."""
+    """Unique names of the scenes. Files with the same name get as many folders as needed; other scenes get a number."""
     paths = [None if file is None else file.resolve().with_suffix("").parts for file in files]
     names = [scene.name for scene in scenes]
     for place, path in enumerate(paths):
@@ -200,7 +200,7 @@ def _names(scenes: Sequence[Scene], files: Sequence[Path | None]) -> list[str]:
 
 
 def _common(scenes: Mapping[str, Scene], outputs: Sequence[str] | None) -> tuple[list[str], tuple[str, ...]]:
-    """Outputs to compare, and a note about those that are left out."""
+    """Outputs to compare, and a note about the outputs that are left out."""
     if outputs is not None:
         return list(outputs), ()
     recorded = [scene.outputs for scene in scenes.values()]

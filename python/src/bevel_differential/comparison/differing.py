@@ -1,4 +1,4 @@
-"""The values in which scenes differ: communication steps, parameters, inputs at the start, over time and later."""
+"""Values in which scenes differ: communication steps, parameters, and inputs at the start, over time and later."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
@@ -16,8 +16,8 @@ NOTHING: Cell = (None, "–", "–")
 
 
 def differing(scenes: Mapping[str, Scene], values: Mapping[str, Value], fmu: Fmu) -> list[tuple[str, ...]]:
-    """A table: its head, then a row for each value that is not the same in all scenes, in the units that `fmu` shows. `values` change
-    all scenes."""
+    """Table of the values that are not the same in all scenes: its head, then a row for each value, in the display units of `fmu`.
+    `values` change all scenes."""
     changed = {variable.name: number for variable, number in fmu.numbers(values)}
     rows: list[tuple[str, ...]] = [("value", *scenes)]
     for name, cells in _all(list(scenes.values()), changed, fmu):

@@ -14,21 +14,21 @@ if TYPE_CHECKING:
 
     from . import Comparison
 
-# inches
+# heights of a panel and of everything else, inches
 PANEL, REST = 2.2, 1.5
-# more panels than this stand in two columns
+# more panels than this are drawn in two columns
 ONE_COLUMN = 4
 # characters of the caption per inch: names are wider than words
 DENSITY = 11.0
 DASHES = ("-", "--", "-.", ":")
-# differences below this part of an output's size are none that is seen
+# differences below this fraction of an output's size are invisible
 UNSEEN = 1e-3
-# values in which scenes differ that the caption names
+# number of differing values that the caption names
 NAMED = 3
 
 
 def draw(found: "Comparison", file: FileName | None) -> "Figure":
-    """Draws the comparison, and writes `file` if there is one."""
+    """Draws the comparison, and writes `file` if it is given."""
     outputs = found.outputs
     columns = 1 if len(outputs) <= ONE_COLUMN else 2
     rows = -(-len(outputs) // columns)
@@ -37,7 +37,7 @@ def draw(found: "Comparison", file: FileName | None) -> "Figure":
         panels, (factor, unit) = axes.ravel(), time_scale(found.end)
         for panel, output in zip(panels, outputs):
             _draw(panel, found, output, factor)
-        # below the last panel of each column
+        # unused panels at the end
         for panel in panels[len(outputs):]:
             panel.remove()
         for place in range(max(0, len(outputs) - columns), len(outputs)):
@@ -56,7 +56,7 @@ def _draw(panel, found, output, factor):
     unit, curves = found.shown(output)
     kind = found.fmu.variable(output).kind
     for place, (name, values) in enumerate(curves.items()):
-        # the first is the widest, so that it is seen below others of the same values; numbers that count hold until the next
+        # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
         panel.plot(factor * found.records[name]["time"], values, DASHES[place % len(DASHES)], label=name,
                    linewidth=1.3 + 2.0 * (len(curves) - 1 - place) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_title(output, loc="left", fontsize=style.SMALL)
@@ -86,7 +86,7 @@ def _caption(found):
 
 
 def _apart(found, output):
-    """The largest difference from the first scene over the largest value, and where it is, in words."""
+    """Largest difference from the first scene relative to the largest value, and its time and values in words."""
     first, *others = found.names
     unit, curves = found.shown(output)
     records = found.records

@@ -1,4 +1,4 @@
-"""Many designs of one scene: which values to try, and what each gives."""
+"""Many designs of one scene: the values that vary, and the results."""
 
 from .farm import Farm
 from .space import Dimension, Space

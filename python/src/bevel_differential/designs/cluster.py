@@ -1,4 +1,4 @@
-"""Workers: dask.distributed, quiet, without a dashboard."""
+"""Workers of dask.distributed, without log messages and dashboard."""
 
 import logging
 import multiprocessing
@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 SILENT = logging.CRITICAL + 1
 # time limit for a scheduler and its workers to answer, s
 ANSWER_TIMEOUT = 5.0
-# a chunk whose worker died comes back at once: the farm tries its designs one by one, as one of them may be the cause
+# if a worker dies, its chunk is returned immediately: the farm retries the designs one by one, as one of them may be the cause
 ALLOWED_FAILURES = 0
-# a worker that takes longer to start again is given up for good
+# a worker that needs longer to restart is given up
 RESTART = 300.0
 SETTINGS = {
     "distributed.scheduler.allowed-failures": ALLOWED_FAILURES, "distributed.deploy.lost-worker-timeout": f"{RESTART:g}s",
     "distributed.worker.multiprocessing-method": "spawn", "distributed.comm.timeouts.connect": f"{ANSWER_TIMEOUT:g}s",
-    # dask's own measurements are not read
+    # dask's measurements of itself are not used
     "distributed.worker.profile.enabled": False, "distributed.admin.system-monitor.interval": "10s",
     "distributed.admin.tick.interval": "500ms", "distributed.admin.log-length": 0,
 }
@@ -35,7 +35,7 @@ SETTINGS = {
 
 @contextmanager
 def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iterator[Client]":
-    """A dask client: of the scheduler at an address, or of an own cluster with one thread per worker."""
+    """Dask client of the scheduler at an address, or of a new cluster with one thread per worker."""
     dask, distributed = require("dask", "sweep"), require("distributed", "sweep")
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise DifferentialError("a worker process has run the script that started it; put what the script does below "
@@ -52,30 +52,30 @@ def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iter
 
 
 def usual_workers() -> int:
-    """As many as there are cores for this process."""
+    """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def _started(distributed, workers, processes):
     count = workers or usual_workers()
     sizes = {"n_workers": count, "threads_per_worker": 1} if processes else {"n_workers": 1, "threads_per_worker": count}
-    with _interrupts_for_this_process_alone(), warnings.catch_warnings():
+    with _interrupts_only_for_this_process(), warnings.catch_warnings():
         # dask warns if another cluster uses the port of its dashboard
         warnings.simplefilter("ignore", UserWarning)
         try:
             cluster = distributed.LocalCluster(**sizes, processes=processes, dashboard_address=None, silence_logs=SILENT,
                                                memory_limit=0, host="127.0.0.1" if processes else None)
         except RuntimeError as error:
-            raise DifferentialError(f"the workers do not start ({error}); a script starts them below "
-                                    "if __name__ == \"__main__\": alone, as each worker reads it", kind="failed") from None
-    # the cluster opens a port for browsers nevertheless
+            raise DifferentialError(f"the workers do not start ({error}); a script must start them below if __name__ == \"__main__\":, "
+                                    "because each worker reads the script", kind="failed") from None
+    # the cluster opens a port for browsers even without a dashboard
     cluster.loop.add_callback(cluster.scheduler.http_server.stop)
     return distributed.Client(cluster, set_as_default=False)
 
 
 @contextmanager
 def _quiet():
-    """Silences the log of dask: errors carry what matters."""
+    """Silences the log of dask, because errors contain the important messages."""
     logs = [logging.getLogger(name) for name in ("distributed", *logging.root.manager.loggerDict)
             if name.partition(".")[0] == "distributed"]
     levels = [log.level for log in logs]
@@ -89,13 +89,13 @@ def _quiet():
 
 
 @contextmanager
-def _interrupts_for_this_process_alone():
-    """Threads and processes that are started meanwhile, and what these start, never see a Ctrl-C. A Ctrl-C that comes
-    meanwhile waits for the end."""
+def _interrupts_only_for_this_process():
+    """Hides Ctrl-C from threads and processes that start in this context, and from their children. This process receives it at the
+    end of the context."""
     if not hasattr(signal, "pthread_sigmask"):
         yield
         return
-    # multiprocessing starts this process with the first worker, which would end the blocking: start it before
+    # multiprocessing starts its resource tracker with the first worker, which would end the blocking: start it before
     resource_tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:

@@ -18,24 +18,25 @@ from ..warned import warn
 from . import cluster
 from .task import Row, Task
 
-# time that a chunk takes, s: handing it out costs some ms; a worker that dies loses one or two
+# shortest and longest duration of a chunk, s: submitting it costs some ms; a worker that dies loses one or two chunks
 SHORTEST, LONGEST = 0.1, 1.0
-# chunks that each worker still gets towards the end, so that all end at about the same time
+# number of chunks per worker into which the remaining designs are divided, so that all workers finish at about the same time
 LAST_CHUNKS = 4
-# chunks that a worker has in its queue, so that it never waits
+# chunks of each worker that run or wait, so that no worker is idle
 AT_HAND = 2
-# time after which an interrupt is seen, s
+# interval at which interrupts are checked, s
 LOOK = 0.2
-# time without any worker after which none will come any more, s
+# time without any worker after which the farm gives up, s
 NO_WORKER_TIMEOUT = 60.0
 
 
 class Farm:
     """Workers that evaluate designs; a context manager, usable for any number of tasks.
 
-    `workers`: how many (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: each worker is
-    a process; otherwise threads of this one. `scheduler`: address of a dask scheduler whose workers are used instead.
-    `progress`: shows a bar on a terminal. Only the first run passes on what the FMU warns of, as there may be thousands. Results are the same for all of these."""
+    `workers`: their number (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: true if each
+    worker is a process; otherwise, workers are threads of this process. `scheduler`: address of a dask scheduler whose workers are
+    used instead. `progress`: shows a bar on a terminal. Only the first run passes on warnings of the FMU, as there may be thousands.
+    Results do not depend on these options."""
 
     def __init__(self, workers: int | None = None, processes: bool = True, scheduler: str | None = None, progress: bool = False):
         if workers is not None and workers < 0:
@@ -61,14 +62,14 @@ class Farm:
         return sorted(self.rows(task, designs), key=lambda row: row.run)
 
     def rows(self, task: Task, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Generator[Row, None, None]:
-        """Rows as they complete. `task`: a `Task`, or an object with its `evaluate` and `close` that can be pickled."""
+        """Rows in the order of completion. `task`: a `Task`, or an object that has its `evaluate` and `close` and can be pickled."""
         designs = list(designs)
         rows = self._here(task, designs) if self._client is None else _TaskRun(self._client, task, designs).rows()
         rows = self._passing_on(rows, [run for run, _ in designs])
         return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
 
     def _passing_on(self, rows, order):
-        """The rows; passes on the warnings of the first one in `order` that ran to its end, once for this farm."""
+        """Yields the rows. Passes on the warnings of the first run in `order` that did not fail, once for this farm."""
         place, waiting = 0, {}
         with closing(rows):
             for row in rows:
@@ -88,17 +89,17 @@ class Farm:
 
 
 class _TaskRun:
-    """Designs of one task on their way through the workers."""
+    """Evaluation of the designs of one task by the workers."""
 
     def __init__(self, client, task, designs):
         self.client, self.left, self.packed = client, deque(designs), pickle.dumps(task)
         self.under_way, self.ended, self.seconds = {}, queue.SimpleQueue(), None
-        # designs of chunks whose worker died, to be run one by one; designs whose worker died again, to be run alone
-        self.retry_singly, self.retry_alone = deque(), []
+        # designs of chunks whose worker died, which are retried individually; designs whose worker died again, which are retried alone
+        self.retry_individually, self.retry_alone = deque(), []
 
     def rows(self):
         try:
-            # an interrupt inside dask may be lost: it waits until dask has done its part
+            # an interrupt inside dask may be lost, so it is held back until dask returns
             with held_back():
                 self._fill()
             while self.under_way:
@@ -106,12 +107,12 @@ class _TaskRun:
                     rows = self._ended(interrupts)
                 yield from rows
         except (CancelledError, OSError):
-            raise DifferentialError("the scheduler is gone; start it again and go on", kind="failed") from None
+            raise DifferentialError("the scheduler is gone; start it again and resume", kind="failed") from None
         finally:
             self.client.cancel(list(self.under_way))
 
     def _ended(self, interrupts):
-        """Rows of a chunk that has ended; none at an interrupt."""
+        """Rows of a chunk that has ended; empty at an interrupt."""
         future = self._next(interrupts)
         if future is None:
             return []
@@ -120,7 +121,7 @@ class _TaskRun:
         return rows
 
     def _next(self, interrupts):
-        """A future that has ended; None at an interrupt."""
+        """Future that has ended, or None at an interrupt."""
         seen = time.monotonic()
         while not interrupts:
             try:
@@ -129,18 +130,18 @@ class _TaskRun:
                 now = time.monotonic()
                 seen = now if self.client.nthreads() else seen
                 if now - seen > NO_WORKER_TIMEOUT:
-                    raise DifferentialError(f"all workers have been gone for {NO_WORKER_TIMEOUT:g} s; start some and go on",
+                    raise DifferentialError(f"all workers have been gone for {NO_WORKER_TIMEOUT:g} s; start some and resume",
                                             kind="failed") from None
 
     def _fill(self):
         """Hands out chunks until all workers have enough."""
         workers = max(1, sum(self.client.nthreads().values()))
-        while (self.left or self.retry_singly) and len(self.under_way) < AT_HAND * workers:
-            size = 1 if self.retry_singly else min(self._size(workers), len(self.left))
-            source = self.retry_singly or self.left
+        while (self.left or self.retry_individually) and len(self.under_way) < AT_HAND * workers:
+            size = 1 if self.retry_individually else min(self._size(workers), len(self.left))
+            source = self.retry_individually or self.left
             self._submit([source.popleft() for _ in range(size)])
         if self.retry_alone and not self.under_way:
-            # alone, so that no other design can be the cause if the worker dies
+            # without other designs under way, so that none of them can be the cause if the worker dies
             self._submit([self.retry_alone.pop()], alone=True)
 
     def _submit(self, chunk, alone=False):
@@ -149,14 +150,14 @@ class _TaskRun:
         future.add_done_callback(self.ended.put)
 
     def _size(self, workers):
-        """Designs in the next chunk."""
+        """Number of designs in the next chunk."""
         if self.seconds is None:
             return 1
         share = len(self.left) * self.seconds / (LAST_CHUNKS * workers)
         return max(1, round(min(max(share, SHORTEST), LONGEST) / self.seconds))
 
     def _taken(self, submitted, future):
-        """Rows of a chunk that has ended."""
+        """Rows of a chunk that has ended; empty if its worker died and the designs are retried."""
         from distributed import KilledWorker
         chunk, alone = submitted
         try:
@@ -164,8 +165,8 @@ class _TaskRun:
         except KilledWorker:
             if alone:
                 return [Row(run, dict(values), message="its worker process died each time") for run, values in chunk]
-            # one by one, to find the design that kills it
-            (self.retry_alone if len(chunk) == 1 else self.retry_singly).extend(chunk)
+            # one by one, to find the design that ends the worker
+            (self.retry_alone if len(chunk) == 1 else self.retry_individually).extend(chunk)
             return []
         recent = sum(row.seconds for row in rows) / len(rows)
         self.seconds = max(1e-6, recent if self.seconds is None else 0.5 * (self.seconds + recent))
@@ -173,18 +174,18 @@ class _TaskRun:
 
 
 def _with_bar(rows, total):
-    # a caller that stops early closes this generator, and with it `rows`: designs under way are cancelled
+    # closing this generator early also closes `rows`, which cancels the designs under way
     with closing(rows):
         yield from require("tqdm", "sweep").tqdm(rows, total=total, unit=" designs", dynamic_ncols=True)
 
 
-# on a worker: the last task and its pickled form, for each thread, as an instance belongs to one thread
+# on a worker: the last task and its pickled form, per thread, because an instance belongs to one thread
 _of_thread = threading.local()
 
 
 def evaluated(packed: bytes, chunk: Sequence[tuple[int, Mapping[str, Number]]]) -> list[Row]:
-    """Rows of a chunk, on a worker. Each chunk brings the pickled task. The worker keeps the task, with the FMU's instance,
-    for the next chunks."""
+    """Evaluates a chunk on a worker. Each chunk brings the pickled task. The worker caches the task, with the FMU's instance, for the
+    next chunks."""
     if getattr(_of_thread, "packed", None) != packed:
         if hasattr(_of_thread, "task"):
             _of_thread.task.close()

@@ -1,4 +1,4 @@
-"""Plans: which designs of a space are tried."""
+"""Plans: selections of designs from a space."""
 
 import math
 from dataclasses import dataclass
@@ -12,17 +12,17 @@ from .space import Space
 KINDS = {"grid": "all combinations of lists and ranges", "lhs": "a Latin hypercube", "sobol": "a scrambled Sobol sequence",
          "random": "Monte Carlo"}
 SHORT = {"latin_hypercube": "lhs", "latin": "lhs", "monte_carlo": "random", "mc": "random"}
-# more runs than this are a slip
+# more runs than this are probably a mistake
 MOST_RUNS = 10_000_000
 
 
 @dataclass(frozen=True)
 class Plan:
-    """A plan of some kind.
+    """Plan of one kind.
 
-    `kind`: a key of KINDS. `runs`: how many designs; for a grid all there are, for Sobol the next power of two. `seed`: what all
-    draws follow from. Random designs and seeds of a run follow from this seed and the number of the run alone, so that they
-    depend neither on the workers nor on how many runs there are."""
+    `kind`: a key of KINDS. `runs`: number of designs: all combinations for a grid, a power of two for Sobol. `seed`: seed of all
+    draws. Random designs and the seeds of a run depend only on this seed and the number of the run, not on the workers or on the
+    number of runs."""
 
     space: Space
     kind: str
@@ -31,7 +31,7 @@ class Plan:
 
     @classmethod
     def parse(cls, space: Space, kind: str, runs: int | None = None, seed: int = 0) -> "Plan":
-        """Of a kind by its name."""
+        """Plan of the named kind. Rounds `runs` up to a power of two for Sobol."""
         kind = SHORT.get(kind, kind)
         if kind not in KINDS:
             raise DifferentialError(f"there is no plan {kind!r}{suggestion(kind, KINDS)}; known: {', '.join(KINDS)}")
@@ -53,7 +53,7 @@ class Plan:
         return cls(space, kind, int(runs), int(seed))
 
     def designs(self) -> list[tuple[int, dict[str, Number]]]:
-        """All designs by run: [(run, {name: value in SI})]."""
+        """All designs: [(run, {name: value in SI})]."""
         planned, seeds = _split(self.space)
         designs = planned.grid() if self.kind == "grid" else planned.at(self._shares(len(planned.dimensions)))
         return [(run, self._with_seeds(run, values, seeds)) for run, values in enumerate(designs)]
@@ -71,7 +71,7 @@ class Plan:
     def _with_seeds(self, run, values, seeds):
         if not seeds.dimensions:
             return values
-        # of their own branch: the same whether other variables are drawn or not
+        # a separate branch: the seeds do not depend on the other variables that are drawn
         drawn = seeds.at(_generator(self.seed, run, 1).random((1, len(seeds.dimensions))))[0]
         return {name: {**values, **drawn}[name] for name in self.space.names}
 
@@ -81,7 +81,7 @@ def _generator(root, *key):
 
 
 def _split(space):
-    """What the plan sets, and what each run draws for itself."""
+    """Dimensions that the plan sets, and dimensions whose values each run draws."""
     own = tuple(one for one in space.dimensions if one.kind == "seed")
     return Space(tuple(one for one in space.dimensions if one.kind != "seed")), Space(own)
 

@@ -1,4 +1,4 @@
-"""Parameters and inputs that vary, each by a distribution."""
+"""Parameters and inputs that vary, each with its distribution."""
 
 import itertools
 import re
@@ -13,13 +13,13 @@ from ..fmu import Fmu
 from ..former_names import by_present_names
 from ..values import DifferentialError, Number, Value, Variable
 
-# values to try as a user writes them: text such as "4 mm..5 mm:11", a sequence of values, or one value
+# values in the form that users write: text such as "4 mm..5 mm:11", a sequence of values, or one value
 Given: TypeAlias = Number | str | Iterable[Value]
 
 _CALL = re.compile(r"(uniform|normal|triangular|lognormal)\((.*)\)$")
 _USAGE = ("write FROM..TO, FROM..TO:COUNT, a list A, B, C, uniform(A, B), normal(MEAN, SD), triangular(A, PEAK, B), "
           "lognormal(MEDIAN, FACTOR) or, for whole numbers, seed")
-# the least share of a distribution without bounds: share 0 would give an infinite value
+# smallest share of a distribution without bounds: share 0 would give an infinite value
 _LEAST = 2.0**-53
 
 
@@ -27,9 +27,9 @@ _LEAST = 2.0**-53
 class Dimension:
     """A variable and its values.
 
-    `variable`: its name. `kind`: "list", "range", a distribution, or "seed" (each run draws its own, whatever the plan).
-    `numbers`: what the kind takes, in SI: the values of a list; both ends of a range or of seeds; the numbers of a distribution.
-    `count`: values of a range on a grid, or None. `whole`: only whole numbers."""
+    `variable`: its name. `kind`: "list", "range", a distribution, or "seed" (each run draws its own seed, with any plan). `numbers`: in
+    SI, the values of a list, both ends of a range or of seeds, or the parameters of a distribution. `count`: number of values of a
+    range on a grid, or None. `whole`: true for whole numbers only."""
 
     variable: str
     kind: str
@@ -39,7 +39,7 @@ class Dimension:
 
     @classmethod
     def parse(cls, fmu: Fmu, name: str, given: Given) -> "Dimension":
-        """From text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or of a sequence of values."""
+        """Reads text ("4 mm..5 mm:11", "line, line_weber", "normal(0.05, 0.005)") or a sequence of values."""
         variable = fmu.variable(name)
         if variable.causality not in ("parameter", "input"):
             raise DifferentialError(f"{name}: it is calculated and cannot be varied")
@@ -94,7 +94,7 @@ class Dimension:
             raise DifferentialError(f"{variable.name}: only real variables have distributions")
         wanted = {"uniform": 2, "normal": 2, "triangular": 3, "lognormal": 2}[kind]
         if len(parts) != wanted:
-            raise DifferentialError(f"{variable.name} = {text}: {kind} takes {wanted} numbers; {_USAGE}")
+            raise DifferentialError(f"{variable.name} = {text}: {kind} needs {wanted} numbers; {_USAGE}")
         numbers: tuple[Number, ...]
         if kind == "lognormal":
             # the factor has no unit
@@ -105,11 +105,11 @@ class Dimension:
             "uniform": lambda a, b: a < b, "normal": lambda m, s: s > 0.0,
             "triangular": lambda a, c, b: a <= c <= b and a < b, "lognormal": lambda m, f: m > 0.0 and f > 1.0}
         if not sane[kind](*numbers):
-            raise DifferentialError(f"{variable.name} = {text}: these numbers make no distribution; {_USAGE}")
+            raise DifferentialError(f"{variable.name} = {text}: these numbers do not define a distribution; {_USAGE}")
         return cls(variable.name, kind, numbers)
 
     def at(self, share: np.ndarray) -> list[Number]:
-        """Values at shares of probability in [0, 1), shape (runs,), in SI."""
+        """Values at `share`, shares of probability in [0, 1), shape (runs,). SI."""
         share, numbers = np.asarray(share, float), self.numbers
         if self.kind == "list":
             return [numbers[i] for i in np.minimum((share * len(numbers)).astype(int), len(numbers) - 1)]
@@ -119,7 +119,7 @@ class Dimension:
         return _quantile(self.kind, numbers, share).tolist()
 
     def size(self) -> int:
-        """How many values there are on a grid."""
+        """Number of values on a grid."""
         if self.kind == "list":
             return len(self.numbers)
         if self.kind != "range":
@@ -152,7 +152,7 @@ def _quantile(kind, numbers, share):
     if kind in ("range", "uniform"):
         return numbers[0] + share * (numbers[1] - numbers[0])
     share = np.maximum(share, _LEAST)
-    # a second to load, which each worker would take to start
+    # this import takes a second, so workers that do not need it skip it
     stats = require("scipy.stats", "sweep")
     if kind == "normal":
         return stats.norm.ppf(share, *numbers)
@@ -164,13 +164,13 @@ def _quantile(kind, numbers, share):
 
 @dataclass(frozen=True)
 class Space:
-    """All dimensions."""
+    """All dimensions of a plan."""
 
     dimensions: tuple[Dimension, ...]
 
     @classmethod
     def parse(cls, fmu: Fmu, given: Mapping[str, Given]) -> "Space":
-        """From a mapping of names to values that `Dimension.parse` takes."""
+        """Reads a mapping of names to values; `Dimension.parse` describes the values."""
         if not given:
             raise DifferentialError("nothing varies: name a variable and its values")
         return cls(tuple(Dimension.parse(fmu, name, values) for name, values in by_present_names(given).items()))
@@ -181,7 +181,7 @@ class Space:
         return [dimension.variable for dimension in self.dimensions]
 
     def at(self, shares: np.ndarray) -> list[dict[str, Number]]:
-        """Designs at points of the unit cube, shape (runs, dimensions)."""
+        """Designs at points of the unit cube. `shares`: shape (runs, dimensions)."""
         shares = np.asarray(shares, float)
         columns = [dimension.at(column) for dimension, column in zip(self.dimensions, shares.T)]
         return self.designs(zip(*columns) if columns else [()] * len(shares))

@@ -1,4 +1,4 @@
-"""Results of designs as a table, and their storage in a Parquet file. Rows are written to parts beside that file while they
+"""Results of designs as a table, and their storage in a Parquet file. Rows are written to parts next to that file as soon as they
 arrive, so that an interrupt, a crash or a full disk loses little."""
 
 import hashlib
@@ -20,7 +20,7 @@ from ..writing import OutputError, whole
 from .space import Space
 from .task import Row, Task
 
-# least time between two parts, s
+# shortest time between two parts, s
 INTERVAL = 1.0
 PLAN = "plan.json"
 TYPES = {"Real": pa.float64(), "Integer": pa.int64(), "Boolean": pa.bool_(), "Enumeration": pa.string()}
@@ -29,8 +29,8 @@ KEY = b"bevel_differential"
 
 
 class Columns:
-    """Columns of a table: run, varied variables, wanted figures, feasible, message, seconds. Variables, figures and seconds
-    name their SI unit."""
+    """Columns of a table: run, varied variables, wanted figures, feasible, message, seconds. Variables, figures and seconds have their
+    SI unit in the metadata."""
 
     def __init__(self, task: Task, space: Space):
         fmu = task.scene.fmu
@@ -43,7 +43,7 @@ class Columns:
         self.schema = pa.schema(fields)
 
     def table(self, rows: Sequence[Row]) -> pa.Table:
-        """The table of rows, in order of run. Figures of designs that failed are null."""
+        """Table of rows, in order of run. Figures of failed designs are null."""
         rows = sorted(rows, key=lambda row: row.run)
         columns: list[list] = [[row.run for row in rows]]
         columns += [[variable.written(row.values[variable.name]) for row in rows] for variable in self._variables]
@@ -57,27 +57,27 @@ def _field(name, kind, unit):
 
 
 def with_metadata(table: pa.Table, metadata: dict[str, Any]) -> pa.Table:
-    """The table with metadata as JSON."""
+    """Copy of the table with `metadata` as JSON."""
     return table.replace_schema_metadata({KEY: json.dumps(metadata)})
 
 
 def metadata_of(schema: pa.Schema) -> dict[str, Any] | None:
-    """The metadata of a table of this package; None for other tables."""
+    """Metadata of a table of this package; None for other tables."""
     text = (schema.metadata or {}).get(KEY)
     return None if text is None else json.loads(text)
 
 
 def digest(table: pa.Table) -> str:
-    """A hash of all rows without their times: equal for equal results."""
+    """Hash of all rows without their durations: equal for equal results."""
     rows = table.drop_columns(["seconds"]).sort_by("run").to_pylist()
     return hashlib.sha256(json.dumps(rows).encode()).hexdigest()
 
 
 class Store:
-    """Results on their way to `file`. `metadata` describes the task and the plan; `metadata["hash"]` identifies them.
+    """Results that will be written to `file`. `metadata` describes the task and the plan; `metadata["hash"]` identifies them.
 
-    If an exception ends the context, the rows added so far are kept, unless the disk could not be written to.
-    `resume` continues with the parts of an earlier command, `force` starts over."""
+    If an exception ends the context, the rows added so far are kept, unless the disk is not writable. `resume` continues with the
+    parts of an earlier command, `force` starts over."""
 
     def __init__(self, file: FileName, columns: Columns, metadata: dict[str, Any], resume: bool = False, force: bool = False):
         self.file, self.columns, self.metadata = Path(file), columns, metadata
@@ -98,7 +98,7 @@ class Store:
         self._count = len(self.kept)
 
     def runs(self) -> set[int]:
-        """Numbers of the runs that an earlier command has kept."""
+        """Numbers of the runs that an earlier command has finished."""
         return set(self.kept["run"].to_pylist())
 
     def add(self, row: Row) -> None:
@@ -125,7 +125,7 @@ class Store:
         return table
 
     def progress(self) -> str:
-        """Sentence that says how many runs are kept, where, and how to go on."""
+        """Sentence with the number and the folder of the finished runs, and with the way to continue."""
         return (f"{self._count} of {self.metadata['runs']} runs are kept in {self.folder}; "
                 "the same command with --resume (resume=True) goes on")
 
@@ -133,7 +133,7 @@ class Store:
         return self
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
-        # a disk that could not be written to is not tried again
+        # if the disk was not writable, a second attempt is useless
         if kind is not None and not issubclass(kind, StoreError):
             self.flush()
 
@@ -149,7 +149,7 @@ class Store:
         if not resume:
             raise DifferentialError(f"{self.file}: the file exists and holds the results of this plan; --resume (resume=True) shows "
                                     "them, --force (force=True) starts over")
-        # a process that is killed after its last step leaves them
+        # a process that was killed after writing the file leaves its parts
         shutil.rmtree(self.folder, ignore_errors=True)
         return table
 
@@ -159,10 +159,10 @@ class Store:
         except (OSError, ValueError, KeyError):
             found = None
         if found != self.metadata["hash"]:
-            raise DifferentialError(f"{self.folder}: it holds parts of another plan; name another file, or remove them with "
+            raise DifferentialError(f"{self.folder}: it contains parts of another plan; name another file, or remove them with "
                                     "--force (force=True)")
         if not resume:
-            raise DifferentialError(f"{self.folder}: it holds parts of this plan; go on with --resume (resume=True), or start "
+            raise DifferentialError(f"{self.folder}: it contains parts of this plan; continue with --resume (resume=True), or start "
                                     "over with --force (force=True)")
 
     def _begin(self):
@@ -175,7 +175,7 @@ class Store:
             raise StoreError(str(OutputError(self.folder, error.strerror or str(error)))) from None
 
     def _read_parts(self):
-        """All parts as one table, in order of run. If a run occurs twice, its last row counts. Parts that are cut off are left out."""
+        """All parts as one table, in order of run. If a run occurs twice, its last row counts. Incomplete parts are left out."""
         tables = [self.columns.schema.empty_table()]
         for part in sorted(self.folder.glob("part-*.parquet")):
             try:
@@ -195,7 +195,7 @@ class Store:
 
 
 class StoreError(DifferentialError):
-    """Results cannot be written."""
+    """Error of a file that cannot be written."""
 
     def __init__(self, message: str):
         super().__init__(message, kind="failed")

@@ -1,4 +1,4 @@
-"""Sweeps: all designs of a plan, and what they found as text."""
+"""Sweeps: all designs of a plan, and a summary of the results as text."""
 
 import hashlib
 import json
@@ -32,21 +32,21 @@ from .task import Task
 if TYPE_CHECKING:
     import pandas
 
-# messages that are listed
+# number of messages that are listed
 MOST_MESSAGES = 5
 
 
 class Stopped(KeyboardInterrupt):
-    """An interrupt; the message says what is kept and how to go on."""
+    """Interrupt of a sweep; the message names the finished runs and the way to continue."""
 
 
 @dataclass(frozen=True)
 class SweepResult:
-    """All runs of a plan.
+    """Results of all runs of a plan.
 
-    `table`: run, what varied, figures, feasible, message, seconds; SI, fields name their units; in order of run.
-    `metadata`: what they are results of. `seconds`: what the runs of this sweep took, without the start of workers;
-    `new`: how many these were, as others were kept from before."""
+    `table`: run, varied variables, figures, feasible, message, seconds; in SI, with units in the fields, in order of run.
+    `metadata`: scene, plan and versions. `seconds`: time for the runs of this sweep, without the start of workers; `new`: number of
+    these runs, as others may come from an earlier command."""
 
     table: pa.Table
     metadata: dict[str, Any]
@@ -56,31 +56,31 @@ class SweepResult:
 
     @classmethod
     def load(cls, file: FileName) -> "SweepResult":
-        """Of a file."""
+        """Reads the results from a file."""
         try:
             table = pq.read_table(file)
         except (OSError, pa.ArrowException) as error:
             raise DifferentialError(f"{file}: {error}") from None
         metadata = metadata_of(table.schema)
         if metadata is None:
-            raise DifferentialError(f"{file}: it holds no sweep")
+            raise DifferentialError(f"{file}: it contains no sweep")
         return cls(table, metadata, Path(file))
 
     def frame(self) -> "pandas.DataFrame":
-        """As a pandas DataFrame, by run."""
+        """Results as a pandas DataFrame, by run."""
         return self.table.to_pandas().set_index("run")
 
     def digest(self) -> str:
-        """A hash of all rows without the times they took."""
+        """Hash of all rows without their durations."""
         return digest(self.table)
 
     def failures(self) -> Counter[str]:
-        """How many designs failed, by message."""
+        """Number of failed designs by message."""
         return Counter(message for message in self.table["message"].to_pylist() if message)
 
     def displayed(self, fmu: Fmu) -> dict[str, list[Any]]:
-        """The columns by name, SI. With display units of `fmu`, quantities of their dimensions have these units, and names of columns
-        name units: "left.speed:mean [rpm]"."""
+        """Columns by name, in SI. If `fmu` has display units, quantities of their dimensions have these units, and names of columns contain
+        units: "left.speed:mean [rpm]"."""
         quantities = {name: fmu.variable(name) for name in self.metadata["vary"]}
         quantities |= {name: Want.parse(fmu, name).quantity(fmu) for name in self.metadata["figures"]}
         return dict(quantities[name].column(name, values, fmu.display_units) if name in quantities else (name, values)
@@ -94,10 +94,10 @@ class SweepResult:
 def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan | str = "random", runs: int | None = None,
           seed: int = 0, wants: Sequence[str | Want] = (), conditions: Sequence[str | Condition] = (), start: TimeValue = 0.0,
           out: FileName | None = None, resume: bool = False, force: bool = False, **farm: Any) -> SweepResult:
-    """Runs a scene (a `Scene`, or what `Scene.load` takes) for all designs of a plan.
+    """Runs a scene (a `Scene`, or an argument of `Scene.load`) for all designs of a plan.
 
     `vary`: values by variable, see `Dimension.parse`. `plan`, `runs`, `seed`: see `Plan`. `wants`, `conditions`, `start`: see
-    `Task`. `out`: a Parquet file; see `Store`. `farm`: what `Farm` takes. An interrupt keeps what is done and raises
+    `Task`. `out`: a Parquet file; see `Store`. `farm`: arguments of `Farm`. An interrupt keeps the finished runs and raises
     `Stopped`."""
     scene = scene if isinstance(scene, Scene) else Scene.load(scene)
     space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
@@ -126,7 +126,7 @@ def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan
 
 @contextmanager
 def going_on_later(store: Store) -> Iterator[None]:
-    """What ends the work says what `store` has kept, and how to go on: an interrupt as `Stopped`."""
+    """Context in which errors also report the runs that `store` has kept and the way to continue. An interrupt becomes `Stopped`."""
     try:
         yield
     except KeyboardInterrupt:
@@ -140,7 +140,7 @@ def going_on_later(store: Store) -> Iterator[None]:
 
 
 def describe(task: Task, plan: Plan) -> dict[str, Any]:
-    """What results follow from, for their metadata; "hash" is the hash of it all."""
+    """Description of a task and a plan for the metadata of their results; "hash" is the hash of all entries."""
     return hashed(task.scene, {
         "vary": {one.variable: str(one) for one in plan.space.dimensions},
         "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,
@@ -152,21 +152,21 @@ def describe(task: Task, plan: Plan) -> dict[str, Any]:
 
 
 def hashed(scene: Scene, what: Mapping[str, Any]) -> dict[str, Any]:
-    """The same of a scene and `what` was done with it."""
+    """Description of a scene and of `what` was done with it, including the hash of all entries."""
     state = {key: value for key, value in scene.__getstate__().items() if key != "fmu"}
     from_all = {"version": version() or "not installed", "fmu": scene.fmu.sha256, "scene": state, **what}
-    # numbers of numpy as plain ones
+    # numbers of numpy as plain numbers
     plain = json.loads(json.dumps(from_all, default=lambda value: value.tolist()))
     return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
 
 
 def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) -> str:
-    """Runs, failures by message, feasible designs, range of each figure, rate. `asked`: number of requested runs. Figures are SI, or
-    in the display units of `fmu`."""
+    """Summary: runs, failures by message, feasible designs, range of each figure, rate. `asked`: number of requested runs. Figures are
+    in SI, or in the display units of `fmu`."""
     table, metadata = result.table, result.metadata
     lines = [f"runs      {table.num_rows}"]
     if asked is not None and asked != table.num_rows:
-        lines[0] += f" ({asked} asked for; a Sobol sequence has a power of two)"
+        lines[0] += f" ({asked} requested; a Sobol sequence has a power of two)"
     failures = result.failures()
     lines.append(f"failed    {failures.total()}")
     common = failures.most_common()
@@ -186,7 +186,7 @@ def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) 
 
 
 def _ranges(result, fmu):
-    """Least, mean and greatest value of each figure, aligned."""
+    """Smallest, mean and largest value of each figure, aligned."""
     rows = [("figure", "unit", "min", "mean", "max")]
     for name in result.metadata["figures"]:
         column, unit = result.table[name], result.unit(name)

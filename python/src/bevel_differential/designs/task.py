@@ -1,4 +1,4 @@
-"""The task of each design: a run of the scene, reduced to the wanted figures."""
+"""Task for each design: a run of the scene, reduced to the wanted figures."""
 
 import time
 from collections.abc import Mapping, Sequence
@@ -13,8 +13,9 @@ from ..want import Condition, Want
 class Row:
     """A design and its results.
 
-    `figures`: by want, SI; empty where the design failed, and `message` and `kind` of the error say why. `feasible`: it ran and all conditions hold.
-    `seconds`: duration of the run. `warnings` of the FMU; None if the FMU did not run to the end."""
+    `figures`: by want, SI; empty if the design failed, and `message` and `kind` of the error then give the reason. `feasible`: true if
+    the run succeeded and all conditions are met. `seconds`: duration of the run, s. `warnings` of the FMU; None if the FMU did not
+    run to the end."""
 
     run: int
     values: dict[str, Number]
@@ -27,11 +28,11 @@ class Row:
 
 
 class Task:
-    """A scene, and the figures and conditions of its designs. It can be sent to other processes.
+    """Scene with the figures and conditions of its designs. It can be sent to other processes.
 
-    `wants` and `conditions` as text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count
-    communication points after `start` (s). `figures` are those of wants and conditions, in order. If all of them are final
-    values, the scene takes one long step."""
+    `wants` and `conditions` are text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count communication points
+    after `start` (s). `figures` are those of wants and conditions, in this order. If all of them are final values, the scene takes
+    one long step."""
 
     def __init__(self, scene: Scene, wants: Sequence[str | Want], conditions: Sequence[str | Condition] = (),
                  start: float = 0.0):
@@ -44,13 +45,13 @@ class Task:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
         if not 0.0 <= start <= scene.stop:
             raise DifferentialError(f"from = {start:g} s is outside the scene's 0 to {scene.stop:g} s")
-        # fewer than two points have no mean and no swing
+        # fewer than two points have no mean and no peak-to-peak value
         if not self._only_final() and scene.stop - start < 2.0 * scene.step * (1.0 - 1e-9):
             raise DifferentialError(f"from = {start:g} s leaves less than two steps of {scene.step:g} s to the end at "
-                                    f"{scene.stop:g} s; begin earlier, or make the scene's step smaller")
+                                    f"{scene.stop:g} s; start earlier, or use a smaller step in the scene")
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
-        """The row of a design. A failed run is a row, too."""
+        """Evaluates a design. A failed run also returns a row."""
         begun = time.perf_counter()
         row = Row(run, dict(values))
         try:
@@ -76,6 +77,6 @@ class Task:
         outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
         record = self.scene._record(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
-        # half a step, as communication points are rounded; the start itself is not counted
+        # half a step of tolerance, because communication points are rounded; the start itself does not count
         record = record[record["time"] > self.start + 0.5 * self.scene.step]
         return {str(want): want.of(record, teeth) for want in self.figures}

@@ -1,5 +1,5 @@
-"""A map of power loss and torque bias over carrier torque, carrier speed, difference of wheel speeds and oil temperature, with its
-measured error."""
+"""Map of power loss and torque bias over carrier torque, carrier speed, difference of wheel speeds and oil temperature, with
+measured errors."""
 
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -20,7 +20,7 @@ from .grid import Bound, estimates, places, refined, share_beyond, starting, tor
 from .loss_map import MAPPED, SIGNS, LossMap
 from .point import AXES, FIGURES, PointTask, benched
 
-# variables that give the axes their units: torque, speed, difference of speeds, temperature
+# variables with the units of the axes: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
 ZERO_CELSIUS = 273.15
 # switch of corner contact, and level of gear contact
@@ -29,13 +29,13 @@ CORNERS, LEVEL = "effects.corner_contact", "scene.gear_contact"
 
 @dataclass(frozen=True, kw_only=True)
 class MeasuredMap(LossMap):
-    """A map with all that its measurement found, in SI.
+    """Map with all results of its measurement, in SI.
 
     `unseen`: random points that measure the error, with signed difference, shape (points, 4). `found`: T_left, T_right and loss of the
-    runs there, shape (points, 3). `errors`: error of the map there over the bound, same shape. `estimate`: error over the bound,
-    estimated by leaving lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number of runs of this
-    call, and the time that they took, start of workers included. `model`: the choice of `accuracy` in words; empty with the scene's
-    own."""
+    runs at these points, shape (points, 3). `errors`: error of the map at these points over the bound, same shape. `estimate`: error
+    over the bound, estimated by leaving lines out. `restless`: number of points whose means do not settle. `new`, `seconds`: number
+    and duration of the runs of this call, including the start of workers. `model`: the choice of `accuracy` in words; empty if the
+    scene's own model is used."""
 
     scene: Scene
     unseen: np.ndarray
@@ -50,33 +50,34 @@ class MeasuredMap(LossMap):
 
     @property
     def beyond(self) -> int:
-        """How many unseen points have an error beyond the bound."""
+        """Number of unseen points whose error is beyond the bound."""
         return _beyond(self.errors)
 
 
 def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, within: str | None = None, bound: Bound = Bound(),
            unseen: int = 300, seed: int = 1, most: int = 4000, out: FileName | None = None, resume: bool = False, force: bool = False,
            tell: Callable[[str], object] = lambda text: None, **farm: Any) -> MeasuredMap:
-    """The map of a scene; changes of the scene over time are ignored.
+    """Measures the map of a scene; changes of the scene over time are ignored.
 
-    `levels`: first values of each axis, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`: accuracy
-    for which `accuracy` chooses the cheapest model, such as "1%"; without it the scene's model is used. `unseen`: how many points
-    measure the error, drawn by `seed`. Temperatures share their runs if nothing depends on them; `tell` says so. `most`: most slipping points of the map in one direction. `out`: a Parquet file of all runs; see
-    `designs.store.Store`.
-    `farm`: what `Farm` takes. An interrupt keeps what is done and raises `Stopped`."""
-    # not for options that are shown, or a map that is only read
+    `levels`: first values of each axis, by VARIABLES, SI; differences are above 0, and each runs in both directions. `within`:
+    accuracy for which `accuracy` chooses the cheapest model, such as "1%"; without it, the scene's model is used. `unseen`: number of
+    random points that measure the error, drawn by `seed`. Temperatures share their runs if nothing depends on them; `tell` receives
+    this and other messages. `most`: maximum number of slipping points of the map in one direction. `out`: a Parquet file of all runs;
+    see `designs.store.Store`. `farm`: arguments of `Farm`. An interrupt keeps the finished runs and raises `Stopped`."""
+    # imported here, because printing the options or reading a map does not need it
     from ..designs.store import Columns, Store
     from ..designs.sweep import going_on_later, hashed
 
     scene = benched(scene if isinstance(scene, Scene) else Scene.load(scene))
     lines, model = [starting(levels[name]) for name in VARIABLES], ""
     if lines[2][0] <= 0.0:
-        raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it is above 0; both directions run, and no difference as well")
+        raise DifferentialError(f"difference = {lines[2][0]:g} rad/s: it must be above 0; both directions and zero difference are run "
+                                "anyway")
     if within is not None:
         chosen = _chosen(scene, lines, within)
         model, corners = chosen.run.setting, scene.value(CORNERS)
         scene.set(chosen.set)
-        # without corner contact tooth forces jump: tolerable in the middle of the map, at its edge slow gears stall
+        # without corner contact tooth forces jump: tolerable in the middle of the map, but slow gears at its edge stall
         if corners and not scene.value(CORNERS) and scene.value(LEVEL) == scene.fmu.variable(LEVEL).literals["tooth"]:
             scene.set({CORNERS: True})
             model += ", corner contact"
@@ -84,8 +85,8 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
     task, begin, temperatures = PointTask(scene), time.perf_counter(), lines[3]
     if len(temperatures) > 1 and not _depends_on_oil(scene, temperatures):
         lines[3] = temperatures[len(temperatures) // 2:][:1]
-        tell(f"oil.temperature changes nothing here, as no friction and no drag depends on it: {len(temperatures)} temperatures share the "
-             f"runs at {lines[3][0] - ZERO_CELSIUS:.3g} degC")
+        tell(f"oil.temperature has no effect here, because no friction and no drag depends on it: {len(temperatures)} temperatures share "
+             f"the runs at {lines[3][0] - ZERO_CELSIUS:.3g} degC")
     with ExitStack() as opened:
         store = None
         if out is not None:
@@ -126,7 +127,7 @@ def _beyond(errors):
 
 
 def _measured(errors, bound):
-    """The measured error, in a sentence."""
+    """Sentence about the measured error."""
     count, beyond = len(errors), _beyond(errors)
     if not count:
         return "no unseen points: the error of the map is not measured"
@@ -135,16 +136,16 @@ def _measured(errors, bound):
 
 
 class _Runs:
-    """Runs of points, each once, numbered in the order of the requests, which is always the same."""
+    """Runs of points, each once. The order of the requests, and so the number of each run, is always the same."""
 
     def __init__(self, task, store, farm):
         self.task, self.store, self.farm = task, store, farm
-        # rows of an earlier call; failed runs are repeated
+        # rows of an earlier command; failed runs are repeated
         self.kept = {row["run"]: row for row in store.kept.to_pylist() if not row["message"]} if store is not None else {}
         self.found, self.restless, self.new = {}, 0, 0
 
     def at(self, points):
-        """Figures at points (…, 4), shape (…, figures)."""
+        """Figures at points of shape (…, 4); shape (…, figures)."""
         keys = [tuple(point) for point in points.reshape(-1, 4).tolist()]
         asked = [(len(self.found) + number, key) for number, key in enumerate(key for key in dict.fromkeys(keys) if key not in self.found)]
         key_of = dict(asked)
@@ -175,7 +176,7 @@ class _Runs:
 
 
 def inputs(point: Sequence[float]) -> dict[str, Number]:
-    """Values of the FMU for a point: torque, speed, difference of speeds, temperature."""
+    """Values of the FMU for a point (torque, speed, difference of speeds, temperature)."""
     torque, speed, difference, temperature = point
     return dict(zip(AXES, (torque, speed, speed + 0.5 * difference, speed - 0.5 * difference, temperature)))
 
@@ -190,21 +191,21 @@ def _drawn(lines, count, seed):
 
 
 def _depends_on_oil(scene, temperatures):
-    """Returns True if torques and losses depend on the oil's temperature. The rating of teeth also depends on it, but moves nothing."""
+    """Returns true if torques and losses depend on the oil temperature. Tooth rating is ignored, because it does not act on motion."""
     start = scene.fmu.variable(VARIABLES[3]).start
     other = next(float(temperature) for temperature in temperatures if temperature != start)
     try:
         return VARIABLES[3] not in scene.unfelt_of({VARIABLES[3]: other, "effects.strength": False})
     except DifferentialError:
-        # the point that is refused is named when it runs
+        # the run itself will report the point that is refused
         return True
 
 
 def _chosen(scene, lines, within):
-    """The cheapest model that is accurate in the middle of the map."""
+    """Cheapest model that is accurate in the middle of the map."""
     middle = Scene(scene.name, stop=scene.stop, step=scene.step, set={**scene.values, **inputs([np.median(line) for line in lines])},
                    fmu=scene.fmu)
-    # the runs of the map pass on what the FMU warns of
+    # the runs of the map pass on the warnings of the FMU
     with silenced():
         found = accuracy(middle, ["left.shaft_torque:mean", "right.shaft_torque:mean"], within, from_=0.5 * scene.stop)
     if found.use is None:

@@ -1,4 +1,4 @@
-"""The axes of a map as pictures, tables and sentences show them: in N·m, rpm and °C, unless the scene prefers other units."""
+"""Axes of a map in pictures, tables and sentences: in N·m, rpm and °C, unless the scene prefers other units."""
 
 from typing import TypeVar
 
@@ -16,30 +16,29 @@ _Values = TypeVar("_Values", float, np.ndarray)
 
 
 class Axis:
-    """An axis of a map: its `unit` as it is printed, and its `label`, a name with the unit. The unit of the first axis is that of all
-    torques."""
+    """Axis of a map: `unit` as text, and `label`, a name with the unit. All torques have the unit of the first axis."""
 
     def __init__(self, fmu: Fmu, axis: int):
         if "rad/s" not in fmu.display_units:
             fmu = fmu.displaying(["rpm"])
         variable = fmu.variable(VARIABLES[axis])
         self._variable = variable.differences() if axis == SLIP_AXIS else variable
-        # temperatures are read in °C, whatever other units are preferred
+        # temperatures are in °C, although other quantities may be in SI
         self._preferred = {self._variable.unit or "": ""} if axis == TEMPERATURE_AXIS else fmu.display_units
         unit, _ = self._variable.in_files(0.0, self._preferred)
         self.unit = words.unit_text(unit).replace("degC", "°C")
         self.label = f"{NAMES[axis]}, {self.unit}"
 
     def values(self, values: _Values) -> _Values:
-        """SI `values` in the unit of the axis."""
+        """SI `values`, converted to the unit of the axis."""
         return self._variable.in_files(values, self._preferred)[1]
 
     def text(self, value: float, digits: int = 4) -> str:
-        """An SI value with its unit."""
+        """Text of an SI value with its unit."""
         return words.quantity(float(self.values(value)), self.unit, digits)
 
 
 def axes(scene: Scene) -> tuple[Axis, Axis, Axis, Axis]:
-    """Torque, speed, difference of speeds and temperature, in the units that a scene prefers."""
+    """Axes of torque, speed, difference of speeds and temperature, in the preferred units of a scene."""
     torque, speed, slip, temperature = (Axis(scene.fmu, axis) for axis in (TORQUE_AXIS, SPEED_AXIS, SLIP_AXIS, TEMPERATURE_AXIS))
     return torque, speed, slip, temperature

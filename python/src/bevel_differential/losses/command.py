@@ -5,14 +5,14 @@ import argparse
 from ..command import DONE, FINDING
 from ..command.arguments import add_farm, add_file, add_files, add_fmu, add_quick, add_scene, add_units, farm, once
 
-# default values of the axes; those of torque and speed are parts of the scene's own values
+# default values of the axes; those of torque and speed are fractions of the scene's values
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
 USUAL = {DIFFERENCE: "0.5 rad/s..20 rad/s", TEMPERATURE: "-20 degC, 20 degC, 80 degC, 120 degC"}
 OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: a tenth to all of the scene's)",
            DIFFERENCE: f"difference of the wheel speeds, above 0; both directions run (default: {USUAL[DIFFERENCE]})",
            TEMPERATURE: f"oil temperature (default: {USUAL[TEMPERATURE]})"}
 
-# bound of the error and points that measure it, in a map and in a quick one
+# bound of the error, and number of points that measure it, in a full and in a quick map
 BOUND, UNSEEN, QUICK_BOUND, QUICK_UNSEEN = "2,0.1", 300, "10,0.5", 50
 
 
@@ -22,13 +22,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     for name, what in OPTIONS.items():
         parser.add_argument(f"--{name}", metavar="VALUES", help=f"{what}; FROM..TO, FROM..TO:COUNT or a list A, B, C")
     parser.add_argument("--within", metavar="PERCENT", help="let `accuracy` choose the cheapest model, such as 1%% (default: the scene's)")
-    parser.add_argument("--bound", metavar="PERCENT,TORQUE", help=f"what an error may be, in %% and N.m (default: {BOUND})")
+    parser.add_argument("--bound", metavar="PERCENT,TORQUE", help=f"largest error, in %% of the value plus N.m (default: {BOUND})")
     parser.add_argument("--unseen", metavar="N", type=int, help=f"points that measure the error (default: {UNSEEN})")
     add_quick(parser, f"--bound {QUICK_BOUND} --unseen {QUICK_UNSEEN}")
     parser.add_argument("--seed", metavar="N", type=int, default=1, help="seed of these points (default: 1)")
-    parser.add_argument("--most", metavar="N", type=int, default=20000, help="most points in one direction (default: 20000)")
-    add_file(parser, "--out", "Parquet file", "all runs; --resume goes on from this file")
-    parser.add_argument("--resume", action="store_true", help="go on with what is missing in the runs")
+    parser.add_argument("--most", metavar="N", type=int, default=20000, help="maximum number of points in one direction (default: 20000)")
+    add_file(parser, "--out", "Parquet file", "all runs; --resume continues from this file")
+    parser.add_argument("--resume", action="store_true", help="run only the points that are missing in the file")
     parser.add_argument("--force", action="store_true", help="overwrite existing runs")
     add_units(parser)
     add_files(parser, "the map, in SI with any --unit", "bias, loss and measured error")
@@ -39,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Makes the map, says how good it is and writes files. A map that is worse than its bound is a finding. Raises
+    """Measures the map, prints its error and writes files. A map that is worse than its bound is a finding. Raises
     `DifferentialError`, `KeyboardInterrupt`."""
     from ..report.write import need
     from ..scene import Scene
@@ -63,9 +63,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.quick:
         print(f"quick: --bound {bound} --unseen {unseen}; a map has --bound {BOUND} --unseen {UNSEEN}")
     if made.estimate > GOAL:
-        print(f"the map stops at --most {arguments.most} points in one direction: lines that are left out tell of more bends")
+        print(f"the map stops at --most {arguments.most} points in one direction: the estimated error is still above the bound")
     if made.restless:
-        print(f"{made.restless} points do not stand still: they have the means of their last times")
+        print(f"{made.restless} points do not settle: they have the means of their last cycles")
     print(f"{made.new} runs in {made.seconds:.1f} s")
     for file, write in ((arguments.csv, save), (arguments.simulink, save_for_simulink), (arguments.plot, draw),
                         (arguments.report, write_report)):
@@ -86,7 +86,7 @@ def _axes(scene, arguments):
     usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
     for name, variable in zip(OPTIONS, VARIABLES):
         text = getattr(arguments, name) or usual[name]
-        # a range without a count starts with its two ends
+        # a range without a count starts with only its two ends
         yield Dimension.parse(scene.fmu, variable, f"{text}:2" if ".." in text and ":" not in text else text)
 
 

@@ -1,20 +1,20 @@
-"""Cuts through a map: a few of its lines, and what lies along an axis."""
+"""Cuts through a map: some of its lines, and its values along an axis."""
 
 import numpy as np
 
 from .loss_map import LossMap
 
-# points of a curve
+# number of points of a curve
 POINTS = 60
 
 
 def some(line: np.ndarray, most: int) -> np.ndarray:
-    """Positions of at most so many lines of an axis, its ends among them."""
+    """Positions of at most `most` lines of an axis, including its ends."""
     return np.unique(np.linspace(0, len(line) - 1, most).round().astype(int))
 
 
 def along(made: LossMap, axis: int, fixed: np.ndarray, sign: float) -> tuple[np.ndarray, np.ndarray]:
-    """Values of an axis, and torques left and right and loss there, shape (POINTS, 3), with the other axes at `fixed`, a point whose
+    """Values of an axis, with torques left and right and loss at them, shape (POINTS, 3). The other axes are at the point `fixed`, whose
     difference has the direction `sign`."""
     at = np.linspace(made.lines[axis][0], made.lines[axis][-1], POINTS)
     points = np.tile(np.asarray(fixed, float), (POINTS, 1))

@@ -1,4 +1,4 @@
-"""The figures of a map's report, each with a caption that says what to see."""
+"""Figures of a map's report, with captions that describe what they show."""
 
 from collections.abc import Iterator
 
@@ -12,24 +12,24 @@ from .cuts import POINTS, along, some
 from .loss_map import MAPPED, SIGNS
 from .tables import bias
 
-# most temperatures, and most panels of other axes
+# maximum number of temperatures, and of panels of other axes
 TEMPERATURES, PANELS = 4, 3
-# lines of equal loss; a loss below this part of the largest is none
+# number of lines of equal loss; a loss below this fraction of the largest is treated as zero
 LEVELS, NOTHING = 10, 1e-9
-# temperatures whose figures differ by less than this part of the largest are alike
+# temperatures whose values differ by less than this fraction of the largest are equal
 SAME = 1e-6
-# a ratio with a greater range than this has a logarithmic axis
+# a ratio with a larger range than this has a logarithmic axis
 DECADE = 4.0
 SIDES = ("left wheel faster", "right wheel faster")
 
 
 def warmth_text(made: MeasuredMap, temperature: float) -> str:
-    """A temperature, K, as it is read."""
+    """Text of a temperature, K, in the unit of its axis."""
     return axes_of(made.scene)[TEMPERATURE_AXIS].text(temperature, 3)
 
 
 def label(made: MeasuredMap, place: int) -> str:
-    """The temperature of a line; both ends where all lines are alike."""
+    """Text of the temperature of a line, or of both ends if all lines are equal."""
     line = made.lines[TEMPERATURE_AXIS]
     if len(line) == 1 or not alike(made):
         return warmth_text(made, line[place])
@@ -38,7 +38,7 @@ def label(made: MeasuredMap, place: int) -> str:
 
 
 def alike(made: MeasuredMap) -> bool:
-    """Whether temperature changes nothing."""
+    """True if temperature has no effect."""
     return all(np.all(np.ptp(values, axis=-2) <= SAME * np.abs(values).max(axis=tuple(range(values.ndim - 1))))
                for values in (made.slipping[..., :MAPPED], made.stuck))
 
@@ -49,12 +49,12 @@ def largest(line: np.ndarray) -> int:
 
 
 def temperatures(made: MeasuredMap) -> np.ndarray:
-    """Positions of the temperatures that are shown: the first where all are alike."""
+    """Positions of the displayed temperatures: only the first if all are equal."""
     return np.zeros(1, int) if alike(made) else some(made.lines[TEMPERATURE_AXIS], TEMPERATURES)
 
 
 def loss_map(made: MeasuredMap) -> Picture | None:
-    """Loss over torque and speed at each temperature; None where one of the two has a single value."""
+    """Loss over torque and speed at each temperature; None if torque or speed has a single value."""
     if min(len(made.lines[TORQUE_AXIS]), len(made.lines[SPEED_AXIS])) < 2:
         return None
     sheets = list(_sheets(made))
@@ -115,7 +115,7 @@ def _loss_map(picture, made, sheets):
 
 
 def _round_levels(low, top):
-    """About LEVELS round levels in a range, none at its ends, where there is no room for a label."""
+    """About LEVELS round levels in a range. Its ends are excluded, because labels have no room there."""
     from matplotlib.ticker import MaxNLocator
 
     edge = 0.02 * (top - low)
@@ -123,7 +123,7 @@ def _round_levels(low, top):
 
 
 def _label_places(curves, speed, torque):
-    """A place for each level's label: where its line crosses the diagonal, away from the borders."""
+    """Position of each level's label: where its line crosses the diagonal, away from the borders."""
     start, size = np.array([speed[0], torque[0]]), np.array([np.ptp(speed), np.ptp(torque)])
     for pieces in curves.allsegs:
         points = np.concatenate([np.empty((0, 2)), *pieces])
@@ -149,7 +149,7 @@ def over_difference(made: MeasuredMap) -> Picture:
 
 
 def _level(made, axis):
-    """The line of an axis that stands for it where others vary: the largest torque, the middle of the others."""
+    """Line of an axis that represents it when others vary: the largest torque, the middle of the others."""
     line = made.lines[axis]
     return largest(line) if axis == TORQUE_AXIS else len(line) // 2
 
@@ -192,7 +192,7 @@ def _over_difference(picture, made):
 
 
 def ratio(made: MeasuredMap) -> Picture:
-    """Torque bias ratio over torque for both signs of the difference, sliding and where it breaks loose."""
+    """Torque bias ratio over torque for both signs of the difference, during slip and at breakaway."""
     slip, speed = made.lines[SLIP_AXIS], made.lines[SPEED_AXIS][_level(made, SPEED_AXIS)]
     _, of_speed, of_slip, _ = axes_of(made.scene)
     ends = []
@@ -244,7 +244,7 @@ def _drawn_ratio(picture, made):
 
 
 def stuck(made: MeasuredMap) -> Picture:
-    """The interval in which the differential stays stuck, over torque or speed."""
+    """Interval in which the differential stays stuck, over torque or speed."""
     at = [_level(made, axis) for axis in range(4)]
     of_torque, _, of_slip, _ = axes_of(made.scene)
     ends = [f"{words.number(of_torque.values(low))} to {of_torque.text(high)} at {label(made, warmth)}"
@@ -278,12 +278,12 @@ def _drawn_stuck(picture, made):
 
 
 def error(made: MeasuredMap) -> Picture:
-    """The error of the unseen points: how many have how much, and where."""
+    """Distribution of the error at the unseen points, and the error over the difference of speeds."""
     worst = made.errors.max(axis=1)
     place, half = int(np.argmax(worst)), float(np.median(worst))
     return Picture("error", _error(made),
-                   f"Errors at {len(made.unseen)} random points that the map has not seen, over the bound; beyond the red line they are "
-                   f"larger than it. Left: share of the points whose error is at most so large; half have "
+                   f"Errors at {len(made.unseen)} random points that were not used for the map, over the bound; beyond the red line they "
+                   f"are larger than it. Left: share of the points whose error is at most this large; half have "
                    f"{words.number(half, 2)} or less. Right: the largest error of each point over its difference of speeds; the worst, "
                    f"{words.number(float(worst[place]), 2)}, is at {axes_of(made.scene)[SLIP_AXIS].text(made.unseen[place, SLIP_AXIS], 3)}.")
 

@@ -1,16 +1,17 @@
-"""Lines of a map, and new lines where it bends.
+"""Lines of a map, and new lines where it has curvature.
 
-The map is linear between lines in each of its axes, as the tables of system models are. By leaving a line out, its neighbours predict
-the values on it; the error of that, 1/2 |f''| h1 h2 with distances h1 and h2 to the neighbours, gives the curvature, and curvature the
-error 1/8 |f''| h² in the middle of an interval. The errors of all axes add up. Intervals with the largest are halved. Whether
-the map is as good as that says is measured by points that it has never seen.
+The map is linear between lines in each of its axes, as the tables of system models are. If a line is left out, its neighbours
+predict the values on it with the error 1/2 |f''| h1 h2, where h1 and h2 are the distances to the neighbours. This gives the
+curvature f'', and the curvature gives the error 1/8 |f''| h² in the middle of an interval. The errors of all axes add up.
+Intervals with the largest errors are halved. The true error is measured at points that were not used for the map.
 
-Linear are torques, not powers: a drag that grows with speed is a straight line, its power a parabola. Points are torque T of the
-carrier, speed ω, difference of speeds Δ and temperature; of the wheels' torques T_L and T_R and the loss P the map has
+Interpolation uses torques instead of powers: a drag that grows with speed is a straight line, but its power is a parabola. Points
+are carrier torque T, speed ω, difference of speeds Δ and temperature. From the wheel torques T_L and T_R and the loss P the map
+calculates
 
     M = T_L − T_R,  Q = T − T_L − T_R,  D = (P + M Δ/2) / (|ω| + |Δ|/2)
 
-what locks, what drags on shafts, and what is lost beside the slip, P = −M Δ/2 + D (|ω| + |Δ|/2)."""
+the locking torque, the drag on shafts, and the loss other than by slip: P = −M Δ/2 + D (|ω| + |Δ|/2)."""
 
 import math
 from collections.abc import Sequence
@@ -20,11 +21,11 @@ import numpy as np
 
 from ..extras import require
 
-# least lines of an axis that tell whether the map bends
+# smallest number of lines of an axis that show curvature
 LEAST = 3
-# sum of the errors of all axes over their bounds, each in its worst interval, from which on the map is good enough
+# sum over all axes of the largest error over its bound, below which the map is accurate enough
 GOAL = 1.0
-# an interval shorter than this part of its axis is not halved: the map jumps there
+# an interval shorter than this fraction of its axis is not halved, because the map jumps there
 SHORTEST = 1e-3
 # confidence of the measured bound
 CONFIDENCE = 0.95
@@ -32,20 +33,20 @@ CONFIDENCE = 0.95
 
 @dataclass(frozen=True)
 class Bound:
-    """What an error may be: a part of the value, and a torque [N·m] on top of it. In power the torque acts at the speeds of
-    carrier and planets."""
+    """Largest allowed error: a fraction of the value plus a torque [N·m]. For power, the torque acts at the speeds of carrier and
+    planets."""
 
     part: float = 0.02
     torque: float = 0.1
 
     def of_torques(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Bounds of M, Q and D [N·m] that keep those of T_L, T_R and P: half of Q is in each of the wheels' torques."""
+        """Bounds of M, Q and D [N·m] that ensure those of T_L, T_R and P: half of Q is in each of the wheels' torques."""
         bounds = self.part * np.abs(torques_of(figures, points)) + self.torque
         bounds[..., 1] = 2.0 * (self.part * np.abs(figures[..., :2]).min(axis=-1) + self.torque)
         return bounds
 
     def of_figures(self, figures: np.ndarray, points: np.ndarray) -> np.ndarray:
-        """Bounds of T_L, T_R [N·m] and P [W] at points, both along the last axis."""
+        """Bounds of T_L, T_R [N·m] and P [W]. `figures` and `points` are along the last axis."""
         return self.part * np.abs(figures) + self.torque * np.stack([np.ones(points.shape[:-1])] * 2 + [_speed(points)], axis=-1)
 
     def __str__(self) -> str:
@@ -53,7 +54,7 @@ class Bound:
 
 
 def torques_of(figures: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """M, Q and D of T_L, T_R and P at points, all along the last axis; D is 0 where nothing turns."""
+    """M, Q and D from T_L, T_R and P at points, all along the last axis; D is 0 at standstill."""
     left, right, loss = np.moveaxis(figures, -1, 0)
     locking, speed = left - right, _speed(points)
     lost = np.divide(loss + 0.5 * locking * points[..., 2], speed, out=np.zeros_like(speed), where=speed > 0.0)
@@ -61,17 +62,17 @@ def torques_of(figures: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def figures_of(torques: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """T_L, T_R and P of M, Q and D."""
+    """T_L, T_R and P from M, Q and D at points, all along the last axis."""
     locking, dragging, lost = np.moveaxis(torques, -1, 0)
     total = points[..., 0] - dragging
     return np.stack([0.5 * (total + locking), 0.5 * (total - locking), lost * _speed(points) - 0.5 * locking * points[..., 2]], axis=-1)
 
 
 def efficiency(points: np.ndarray, figures: np.ndarray) -> np.ndarray:
-    """Power that leaves over power that enters, in the direction in which the power flows; 1 if nothing enters.
+    """Output power over input power, in the direction in which the power flows; 1 if the input power is zero.
 
-    `points` and `figures` (T_L, T_R and P) are along the last axis. If the torque is against the speed, the wheels feed, so that the
-    carrier delivers |T ω| of |T ω| + P."""
+    `points` and `figures` (T_L, T_R and P) are along the last axis. If torque and speed have opposite signs, the wheels are the input,
+    so that the carrier delivers |T ω| of |T ω| + P."""
     left, right, loss = np.moveaxis(figures, -1, 0)
     torque, speed, difference, _ = np.moveaxis(points, -1, 0)
     powers = (torque * speed, -left * (speed + 0.5 * difference), -right * (speed - 0.5 * difference))
@@ -84,7 +85,7 @@ def _speed(points):
 
 
 def starting(levels: Sequence[float]) -> np.ndarray:
-    """Lines that an axis begins with: the given ones, 0 where they straddle it, and enough to see a bend."""
+    """Initial lines of an axis: the given ones, 0 if it is between them, and enough lines to detect curvature."""
     lines = np.unique(np.asarray(levels, float))
     if lines[0] < 0.0 < lines[-1]:
         lines = np.union1d(lines, [0.0])
@@ -94,12 +95,12 @@ def starting(levels: Sequence[float]) -> np.ndarray:
 
 
 def places(lines: Sequence[np.ndarray]) -> np.ndarray:
-    """All crossings of the lines, shape (lines of each axis, axes)."""
+    """Points at all crossings of the lines, shape (lines of each axis, axes)."""
     return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
 
 
 def estimates(lines: Sequence[np.ndarray], values: np.ndarray, bounds: np.ndarray) -> list[np.ndarray]:
-    """The largest error over its bound in each interval of each axis. `values` and `bounds`: shape (sheets, lines of each axis,
+    """Largest error over its bound in each interval of each axis. `values` and `bounds`: shape (sheets, lines of each axis,
     figures)."""
     found = []
     for axis, at in enumerate(lines):
@@ -116,8 +117,8 @@ def estimates(lines: Sequence[np.ndarray], values: np.ndarray, bounds: np.ndarra
 
 
 def refined(lines: Sequence[np.ndarray], found: Sequence[np.ndarray], most: int) -> list[np.ndarray] | None:
-    """The lines with the worst intervals halved, or with the worst one where that would make more than `most` crossings; None where
-    the map is good enough, or as large as it may be."""
+    """Lines with the worst intervals halved. If this gives more than `most` crossings, only the worst interval is halved. Returns None
+    if the map is accurate enough or has its maximum size."""
     worst = [errors.max(initial=0.0) for errors in found]
     if sum(worst) <= GOAL:
         return None
@@ -129,7 +130,7 @@ def refined(lines: Sequence[np.ndarray], found: Sequence[np.ndarray], most: int)
 
 
 def size(lines: Sequence[np.ndarray]) -> int:
-    """How many crossings there are."""
+    """Number of crossings of the lines."""
     return math.prod(map(len, lines))
 
 
@@ -139,19 +140,19 @@ def _halved(at, where):
 
 
 def interpolated(lines: Sequence[np.ndarray], values: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Values at points, shape (points, figures), linear between lines; `values`: shape (lines of each axis, figures). An axis of one
-    line is the same everywhere."""
+    """Values at points by linear interpolation between lines, shape (points, figures). `values`: shape (lines of each axis, figures).
+    Along an axis with one line, values are constant."""
     several = [axis for axis, at in enumerate(lines) if len(at) > 1]
     kept = values.reshape([len(lines[axis]) for axis in several] + [values.shape[-1]])
     if not several:
         return np.broadcast_to(kept, (len(points), values.shape[-1]))
-    # a second to load, which each worker would take to start
+    # this import takes a second, so workers that do not need it skip it
     interpolate = require("scipy.interpolate", "sweep")
     return interpolate.RegularGridInterpolator([lines[axis] for axis in several], kept)(np.asarray(points)[:, several])
 
 
 def share_beyond(count: int, beyond: int) -> float:
-    """The share of points beyond a bound that is not exceeded at CONFIDENCE, after so many of `count` random points were beyond it
-    (Clopper and Pearson); 1 − 0.05^(1/n) where none was."""
+    """Share of points beyond a bound that is not exceeded at CONFIDENCE, if `beyond` of `count` random points are beyond the bound
+    (Clopper and Pearson); 1 − 0.05^(1/n) if none is."""
     beta = require("scipy.stats", "sweep").beta
     return 1.0 if beyond == count else float(beta.ppf(CONFIDENCE, beyond + 1, count - beyond))

@@ -1,4 +1,4 @@
-"""The map of losses as it is used: torques, loss and efficiency at any point within its axes, also from a file."""
+"""Map of losses for users: torques, loss and efficiency at any point within its axes, also from a file."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,31 +12,31 @@ from ..output_file import is_parquet
 from ..values import DifferentialError, FileName
 from .grid import efficiency, figures_of, interpolated, places, torques_of
 
-# figures that the map holds where the differential slips: torques left and right, loss
+# number of figures of a slipping point in the map: torques left and right, loss
 MAPPED = 3
 SIGNS = (1.0, -1.0)
-# columns of the file: kind of a row, axes, and figures; then others that follow from them
+# columns of the file: kind of a row, axes and figures, followed by derived columns
 KIND = "kind"
 AXES = ("carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]")
 FIGURES = ("left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
            "left.shaft_torque_max [N.m]")
-# names of the axes in errors; the one whose two signs share lines
+# names of the axes in errors; index of the axis whose two signs share lines
 NAMES, DIFFERENCE = ("torque", "speed", "difference", "temperature"), 2
-# a point beyond an end by less than this part of the value there is at the end
+# a point may be outside the end of an axis by this fraction of the value at the end
 ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, kw_only=True)
 class LossMap:
-    """A map of power loss and wheel torques over carrier torque, carrier speed, difference of wheel speeds and oil temperature, in SI.
+    """Map of power loss and wheel torques over carrier torque, carrier speed, difference of wheel speeds and oil temperature, in SI.
 
-    `LossMap.load(file)` reads what the command `losses --csv` wrote. Between its lines the map interpolates as `losses` does when it
+    `LossMap.load(file)` reads a file of the command `losses --csv`. Between its lines the map interpolates as `losses` does when it
     measures the error.
 
     `lines`: values of torque, speed, magnitude of the difference of speeds, and temperature. `slipping`: FIGURES with the left wheel
-    faster and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: the same without a difference, so the
-    third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `error`: the measured
-    error in a sentence."""
+    faster and with the right wheel faster, shape (2, lines of each axis, figures). `stuck`: FIGURES without a difference, so that the
+    third axis has length 1; the last two figures are the left torques at which the differential breaks loose. `error`: a sentence
+    about the measured error."""
 
     lines: tuple[np.ndarray, ...]
     slipping: np.ndarray
@@ -45,7 +45,7 @@ class LossMap:
 
     @classmethod
     def load(cls, file: FileName) -> "LossMap":
-        """The map in a file of the command `losses --csv`, CSV or Parquet. Raises `DifferentialError` if the file is no such map."""
+        """Reads a map from a file of the command `losses --csv`, CSV or Parquet. Raises `DifferentialError` for other files."""
         file = Path(file)
         error, columns = _from_parquet(file) if is_parquet(file) else _from_csv(file)
         kinds, points, figures = columns[KIND], *(np.stack([columns[name] for name in names], axis=-1) for names in (AXES, FIGURES))
@@ -70,11 +70,11 @@ class LossMap:
         return self._figures(torque, speed, difference, temperature)[1][..., 2][()]
 
     def efficiency(self, torque: Any, speed: Any, difference: Any, temperature: Any) -> Any:
-        """Power that leaves over power that enters, from 0 to 1; arguments as for `torques`."""
+        """Output power over input power, from 0 to 1; arguments as for `torques`."""
         return efficiency(*self._figures(torque, speed, difference, temperature))[()]
 
     def at(self, points: np.ndarray) -> np.ndarray:
-        """Torques left and right and loss, shape (points, 3), at points of torque, speed, signed difference and temperature."""
+        """Torques left and right and loss, shape (points, 3). `points`: torque, speed, signed difference and temperature."""
         points = self._within(np.array(points, float))
         unsigned = _unsigned(points)
         sheets = [(_still(self.lines), self.stuck, 0.0), *((self.lines, values, sign) for sign, values in zip(SIGNS, self.slipping))]
@@ -87,7 +87,7 @@ class LossMap:
         return figures_of(torques, points)
 
     def _figures(self, *axes):
-        """Points and what the map has there, both along the last axis."""
+        """Points and the values of the map at them, both along the last axis."""
         try:
             points = np.stack(np.broadcast_arrays(*(np.asarray(axis, float) for axis in axes)), axis=-1)
         except ValueError as error:
@@ -95,7 +95,7 @@ class LossMap:
         return points, self.at(points.reshape(-1, len(NAMES))).reshape(*points.shape[:-1], MAPPED)
 
     def _within(self, points):
-        """Points, those that rounding has put beyond an end moved to it. Raises `DifferentialError` for others beyond."""
+        """Points within the map. Points that are outside only by rounding are moved to the end. Raises `DifferentialError` for others."""
         unsigned = _unsigned(points)
         for axis, (name, head, line) in enumerate(zip(NAMES, AXES, self.lines)):
             near = np.clip(unsigned[:, axis], line[0], line[-1])
@@ -115,19 +115,19 @@ class LossMap:
 
 
 def _unsigned(points):
-    """Points with the magnitude of the difference."""
+    """Points with the magnitude of their difference."""
     found = points.copy()
     found[..., DIFFERENCE] = np.abs(found[..., DIFFERENCE])
     return found
 
 
 def _still(lines):
-    """Lines of the map without a difference."""
+    """Lines of the map at zero difference."""
     return (*lines[:DIFFERENCE], np.zeros(1), *lines[DIFFERENCE + 1:])
 
 
 def _filled(file, lines, points, figures):
-    """Figures in the places of their points, shape (lines of each axis, figures)."""
+    """Figures at the positions of their points, shape (lines of each axis, figures)."""
     shape = tuple(map(len, lines))
     at = [np.minimum(np.searchsorted(line, points[:, axis]), len(line) - 1) for axis, line in enumerate(lines)]
     on_lines = all(np.array_equal(line[place], points[:, axis]) for axis, (line, place) in enumerate(zip(lines, at)))
@@ -156,7 +156,7 @@ def _from_csv(file):
     (_, head), *rows = lines_of(file, texts=[KIND])
     _need(file, head)
     with open(file, encoding="utf-8-sig") as text:
-        # a spreadsheet that saves the file may have added separators
+        # spreadsheets may add separators when they save the file
         comment = text.readline().strip().strip("\",;").removeprefix("#").strip()
     cells = {name: [cells[head.index(name)] for _, cells in rows] for name in (KIND, *AXES, *FIGURES)}
     return comment, _columns(file, cells, [line for line, _ in rows], "line")
@@ -165,11 +165,11 @@ def _from_csv(file):
 def _need(file, names):
     missing = [name for name in (KIND, *AXES, *FIGURES) if name not in names]
     if missing:
-        raise DifferentialError(f"{file}: it has no column {missing[0]}, so it is no map; `losses --csv` writes one")
+        raise DifferentialError(f"{file}: it has no column {missing[0]}, so it is not a map; `losses --csv` writes one")
 
 
 def _columns(file, cells, lines, what):
-    """Columns of the rows that make the map, numbers as such."""
+    """Columns of the rows that belong to the map, with numbers converted."""
     kept = [place for place, kind in enumerate(cells[KIND]) if kind in ("map", "stuck")]
     found = {KIND: np.array([cells[KIND][place] for place in kept])}
     for name in (*AXES, *FIGURES):

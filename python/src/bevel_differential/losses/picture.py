@@ -1,4 +1,4 @@
-"""The picture of a map: bias and loss over its axes, and its measured error."""
+"""Picture of a map: bias and loss over its axes, and its measured error."""
 
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from .cuts import along, some
 from .loss_map import SIGNS
 from .tables import bias
 
-# curves for at most so many temperatures
+# maximum number of temperatures with curves
 MOST_CURVES = 4
 NAMES = ["left torque", "right torque", "loss"]
 # ratio from which its axis is logarithmic

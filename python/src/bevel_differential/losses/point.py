@@ -1,10 +1,10 @@
-"""A point of the map: the scene with a given carrier torque, carrier speed, difference of wheel speeds and oil temperature, run
-until its means stand still.
+"""Point of the map: the scene with a given carrier torque, carrier speed, difference of wheel speeds and oil temperature, run
+until its means settle.
 
-The carrier is driven by torque, both wheels by speed. Means are those over whole mesh cycles, of torques sampled within a cycle and
-of the heat that a cycle adds. A slow cycle costs no more than a fast one, since steps grow with it, and well damped half-shafts keep
-falling friction from juddering: at small differences the means are quasi-static. Without a difference the differential is stuck: it
-winds up in both directions, slowly, over a mesh cycle, and its torques range up to where it breaks loose."""
+The carrier is driven by torque, both wheels by speed. Means are over whole mesh cycles: of torques sampled within a cycle, and of
+the heat that a cycle adds. A slow cycle costs no more than a fast one, because steps grow with it. Well damped half-shafts keep
+falling friction from juddering, so the means are quasi-static at small differences. Without a difference, the differential is
+stuck: it is wound up in both directions, slowly, over a mesh cycle, and its torques range up to breakaway."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -19,41 +19,41 @@ from ..values import DifferentialError, Number
 from ..want import Want
 from ..designs.task import Row
 
-# what makes a point
+# variables that define a point
 AXES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "right.speed_command", "oil.temperature"]
 TORQUES = ["left.shaft_torque", "right.shaft_torque"]
 FIGURES = ["left.shaft_torque:mean", "right.shaft_torque:mean", "power.loss:mean", "left.shaft_torque:min", "left.shaft_torque:max"]
-# a bench drives so; without warming up all surfaces have the temperature of the oil
+# drives of a bench; without the effect warm_up, all surfaces have the temperature of the oil
 BENCH = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.planet_spin": "free",
          "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False}
 SHAFTS = ["half_shaft.left", "half_shaft.right"]
 # damping over stiffness of the half-shafts, s: the means of the torques do not depend on it
 DAMPING_TIME = 0.01
-# samples of a mesh cycle; shortest time over which means are compared, and most of these times, s
+# samples of a mesh cycle; shortest time window over which means are compared, s; maximum number of windows
 SAMPLES, SHORTEST, MOST = 48, 0.02, 12
-# means stand still where they change by less than this part, or by this torque [N·m]
+# means have settled if they change by less than this fraction, or by this torque [N·m]
 STILL, STILL_TORQUE = 1e-3, 0.01
 # difference of speeds at which a stuck differential is wound up [rad/s]; samples and levels of the search for its peak
 CREEP, FINER, LEVELS = 0.02, 20, 3
 
 
 def benched(scene: Scene) -> Scene:
-    """The scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
+    """Copy of the scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
     values = {**scene.values, **BENCH}
     values |= {f"{shaft}_damping": DAMPING_TIME * scene.value(f"{shaft}_stiffness") for shaft in SHAFTS}
     return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
 
 
 class PointTask:
-    """What a worker does with a point: a task of `designs.Farm`.
+    """Task of `designs.Farm` for a point of the map.
 
-    A row's figures are those of FIGURES in SI. Where the differential slips, least and greatest torque are those of a mesh cycle;
-    where it is stuck, those at which it breaks loose. `feasible`: its means stand still; else they are those of the last cycles."""
+    The figures of a row are those of FIGURES in SI. For a slipping differential, smallest and largest torque are those of a mesh
+    cycle; for a stuck one, those at breakaway. `feasible`: true if the means settle; otherwise they are those of the last cycles."""
 
     def __init__(self, scene: Scene):
         self.scene = scene
         self.figures = [Want.parse(scene.fmu, figure) for figure in FIGURES]
-        # heat of brakes is part of what the wheels get
+        # brake heat is excluded, because it belongs to the power that the wheels receive
         self.heats = [name for name in scene.fmu.variables if name.startswith("heat.") and name != "heat.brake"]
         self._instance: Instance | None = None
 
@@ -67,7 +67,7 @@ class PointTask:
             self._instance = None
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
-        """The row of a point. A failed run is a row, too."""
+        """Evaluates a point. A failed run also returns a row."""
         begun, row = time.perf_counter(), Row(run, dict(values))
         try:
             figures, row.feasible = self._stuck(values) if _difference(values) == 0.0 else self._slipping(values)
@@ -78,7 +78,7 @@ class PointTask:
         return row
 
     def warnings(self, values: Mapping[str, Number]) -> list[str]:
-        """Warnings of the FMU in the run of a point, but for what the bench itself sets."""
+        """Warnings of the FMU in the run of a point, except those about values that the bench sets."""
         return list(self.evaluate(0, values).warnings or ())
 
     def _warnings(self):
@@ -97,7 +97,7 @@ class PointTask:
         return self._settled(instance, cycle, period)
 
     def _settled(self, instance, cycle, period):
-        """Figures over the first times that differ from the times before by next to nothing, and whether there were any."""
+        """Figures over the first window whose means are nearly equal to those of the window before, and true if there is such a window."""
         window = ceil(SHORTEST / (cycle * period)) * period
         means = []
         while len(means) < MOST:
@@ -108,7 +108,7 @@ class PointTask:
         return [*np.mean(means[MOST // 2:], axis=0), samples[:, 0].min(), samples[:, 0].max()], False
 
     def _window(self, instance, size, steps):
-        """Torques after each of the steps, shape (steps, 2), and the heat of all of them."""
+        """Torques after each of `steps` steps of `size`, s, shape (steps, 2), and the heat of all of them, J."""
         before = sum(instance.read(self.heats))
         samples = []
         for _ in range(steps):
@@ -124,14 +124,14 @@ class PointTask:
             instance = self._begun({**values, "left.speed_command": values["left.speed_command"] + sign * CREEP / 2.0,
                                     "right.speed_command": values["right.speed_command"] - sign * CREEP / 2.0})
             cycle, _ = _cycles(instance, CREEP)
-            # the faster wheel has less torque
+            # the faster wheel has the smaller torque
             ends.append(-sign * peak(instance, lambda of: -sign * of.get(TORQUES[0]), cycle / SAMPLES, SAMPLES))
         return [*means, *sorted(ends)], still
 
 
 def peak(instance: Instance, read: Callable[[Instance], Number], size: float, steps: int, level: int = 0) -> float:
-    """The greatest value of `read` over so many steps of `size`, s; steps are finer where its growth first falls to less than half, as
-    it does where friction breaks loose."""
+    """Largest value of `read` over `steps` steps of `size`, s. Steps are refined where its growth first falls below half, which happens
+    when friction breaks loose."""
     kept = [instance.save()] * 2
     seen = [float(read(instance))]
     greatest, is_first = -np.inf, True
@@ -152,7 +152,7 @@ def _difference(values):
 
 
 def _cycles(instance, difference):
-    """Duration of a mesh cycle, s, and mesh cycles until all teeth meet again as at the start; 1 where teeth are alike."""
+    """Duration of a mesh cycle, s, and mesh cycles until the same teeth meet again; 1 if all teeth are equal."""
     planet, side = instance.read(["geometry.planet_teeth", "geometry.side_teeth"])
     differ = any(instance.read(["effects.tooth_errors", "effects.tooth_fault"]))
     return 4.0 * pi / (side * abs(difference)), lcm(int(planet), int(side)) if differ else 1

@@ -1,4 +1,4 @@
-"""The report of a map: one HTML file with the map, what its error is, and what the columns of its tables mean."""
+"""Report of a map: one HTML file with the map, its error, and the meaning of the columns of its tables."""
 
 import itertools
 from pathlib import Path
@@ -18,14 +18,14 @@ from .loss_map import MAPPED, SIGNS
 from .point import AXES as DRIVEN, PointTask
 from .tables import BETWEEN, MEANINGS, bias
 
-# unseen points that are listed
+# number of unseen points that are listed
 WORST = 10
 AXES = ("carrier torque", "carrier speed", "difference of the wheels' speeds", "temperature of oil and surfaces")
 ERRED = ("left torque", "right torque", "loss")
 
 
 def write(made: MeasuredMap, file: FileName) -> Path:
-    """Writes the report of a map whole, or not at all; returns its path. It runs the corners of the map again for the FMU's warnings."""
+    """Writes the report of a map completely, or not at all; returns its path. Runs the corners of the map again for the FMU's warnings."""
     need()
     sections = [_head(made), _loss(made), _bias(made), _error(made), _setup(made), _columns()]
     write_whole(file, page(f"Loss map of {made.scene.name}", made.scene.description, sections))
@@ -33,7 +33,7 @@ def write(made: MeasuredMap, file: FileName) -> Path:
 
 
 def says(made: MeasuredMap) -> str:
-    """What the unseen points measure, as a sentence of the report."""
+    """Measured error as a sentence of the report."""
     return f"{made.error.replace('N.m', 'N·m')}."
 
 
@@ -48,10 +48,10 @@ def _head(made):
     found.say(f"The bound is {words.percent(made.bound.part)} of the value and {words.quantity(made.bound.torque, 'N.m')} on top, "
               "for the torque of each wheel. For the loss this torque acts at the speed of the carrier and half the difference.")
     if made.estimate > GOAL:
-        found.add(Text(f"The map stops at as many points as it may have: leaving lines out tells of errors of "
+        found.add(Text(f"The map stops at its maximum number of points. Leaving lines out shows errors of "
                        f"{words.number(made.estimate, 2)} times the bound. Allow more by --most.", "warning"))
     if made.restless:
-        found.add(Text(f"{made.restless} points do not stand still: they have the means of their last times.", "warning"))
+        found.add(Text(f"{made.restless} points do not settle: they have the means of their last cycles.", "warning"))
     found.add(*(Text(f"The FMU warns: {text}", "warning") for text in _warnings(made)))
     size = made.slipping[0, ..., 0].size
     runs = f"{made.new} new runs in {words.quantity(made.seconds, 's', 3)}" if made.new else "no new runs: all were kept from before"
@@ -64,8 +64,8 @@ def _head(made):
     rows = [(name, *(_shown(made, axis, end, 5) for end in (line[0], line[-1])), str(len(line)),
              ", ".join(words.number(_value(made, axis, at), 5) for at in line)) for axis, (name, line) in enumerate(zip(AXES, made.lines))]
     found.add(Table(("axis", "from", "to", "lines", "at"), rows,
-                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines lie closer where the map "
-                    "bends.",
+                    "Axes of the map. Each difference runs with the left and with the right wheel faster. Lines are closer where the map "
+                    "has more curvature.",
                     left=5))
     return found
 
@@ -79,7 +79,7 @@ def _shown(made, axis, at, digits=4):
 
 
 def _warnings(made):
-    """The FMU's warnings at the corners of the map, where torques, speeds and temperatures are extreme: the first of each variable."""
+    """Warnings of the FMU at the corners of the map, where torques, speeds and temperatures are extreme: the first of each variable."""
     corners = list(itertools.product(*({line[0], line[-1]} for line in made.lines)))
     task, found, count = PointTask(made.scene), {}, {}
     for torque, speed, difference, temperature in corners:
@@ -112,7 +112,7 @@ def _loss_table(made):
     at, where = _far_end(made)
     rows = []
     for temperature, left, right, stuck in at:
-        # what rounding leaves of nothing
+        # a small remainder is rounding
         rest = stuck[2] if abs(stuck[2]) > figures.NOTHING * abs(left[2]) else 0.0
         rows.append((warmth_text(made, temperature), *(words.number(loss) for loss in (left[2], right[2], rest))))
     return Table(("oil", "left wheel faster, W", "right wheel faster, W", "no difference, W"), rows, f"Power loss at {where}.")
@@ -133,7 +133,7 @@ def _bias_table(made):
 
 
 def _far_end(made):
-    """By temperature the rows of the map at the far end of torque, speed and difference, and where that is."""
+    """Rows of the map, by temperature, at the largest torque, speed and difference, and the text of this point."""
     torque, speed = (largest(made.lines[axis]) for axis in (0, 1))
     where = ", ".join(_shown(made, axis, made.lines[axis][place]) for axis, place in ((0, torque), (1, speed), (2, -1)))
     return [(temperature, *(values[torque, speed, -1, warmth] for values in made.slipping), made.stuck[torque, speed, 0, warmth])
@@ -179,7 +179,7 @@ def _setup(made):
     middle = inputs([line[len(line) // 2] for line in made.lines])
     found.say("The bench drives the carrier by torque and both wheels by speed, without the scene's changes over time; half-shafts are "
               "damped, which leaves their mean torques as they are, and all surfaces have the temperature of the oil. A point runs until "
-              "its means over whole mesh cycles stand still.")
+              "its means over whole mesh cycles settle.")
     found.say(f"The FMU says that it simulates: {made.scene.says(middle)}.")
     found.add(head.values(made.scene, DRIVEN))
     return found

@@ -1,4 +1,4 @@
-"""The map as tables: CSV or Parquet, and MATLAB arrays in the layout of Simulink's blocks."""
+"""Tables of the map: CSV or Parquet, and MATLAB arrays in the layout of Simulink's blocks."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -32,22 +32,22 @@ MEANINGS = {
 HEAD = list(MEANINGS)
 BETWEEN = ("between points of the map TL − TR, T − TL − TR and (P + (TL − TR) s/2) / (|w| + |s|/2) are linear; T, w carrier torque "
            "and speed, s speed_difference, TL, TR, P torques and loss")
-# least efficiency that a block is given
+# smallest efficiency in the table of a block
 LEAST = 0.01
-# what eta_tbl means, for readers of the script
+# meaning of eta_tbl, for readers of the script
 CONVENTION = [
     f"% eta is power out over power in, without a difference of wheel speeds, at least {LEAST:g}: for torque in the direction of the",
     "% speed wheels over carrier, 1 - P/(T w); for torque against the speed (overrun) carrier over wheels, |T w|/(|T w| + P).",
     "% The blocks' documentation names one table for both signs and no exchange of input and output; that of the Gearbox block, which",
     "% reads the same table, multiplies the torque by eta. For losses in overrun take the n-D tables below, right for both signs.",
 ]
-# a torque below this is none, N·m: what the usual bound allows as an error of the map
+# a torque below this counts as zero, N·m: the usual bound allows this error of the map
 NONE = 0.1
 
 
 def bias(left: float, right: float) -> tuple[float | None, float | None]:
     """Torque bias ratio T_high/T_low and locking effect 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817). Both are None if the
-    torques oppose each other or if one is below NONE: their difference over a sum that vanishes would say nothing."""
+    torques oppose each other or if one is below NONE, because their difference over a vanishing sum means nothing."""
     low, high = sorted(map(abs, (left, right)))
     if low < NONE or left * right < 0.0:
         return None, None
@@ -55,8 +55,7 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
 
 
 def save(made: MeasuredMap, file: FileName) -> Path:
-    """Writes points of the map, stuck points and unseen points. Where it is stuck, ratio and effect are those at which it breaks
-    loose."""
+    """Writes points of the map, stuck points and unseen points. Ratio and effect of a stuck point are those at breakaway."""
     return write(file, HEAD, _rows(made), made.error, made.scene.name, BETWEEN)
 
 
@@ -78,10 +77,10 @@ def _row(kind, point, figures, torques):
 
 
 def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
-    """Writes a MATLAB script with the arrays that the blocks' masks and n-D Lookup Tables take."""
+    """Writes a MATLAB script with the arrays for the masks of blocks and for n-D Lookup Tables."""
     torque, speed, slip, temperature = made.lines
     share = efficiency(places([torque, speed, np.zeros(1), temperature]), made.stuck[..., :MAPPED])[:, :, 0]
-    # over a signed difference, through the stuck means at 0
+    # over the signed difference, including the stuck means at 0
     slips = np.concatenate([-slip[::-1], [0.0], slip])
     whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
     torques = torques_of(whole, places([torque, speed, slips, temperature]))

@@ -9,7 +9,7 @@ from ..command.arguments import add_farm, add_fmu, add_quick, add_stop, farm
 from ..warned import warn
 from ..writing import in_folder, locked, write_whole
 
-# effort of --quick: enough for a front, not for a good one
+# effort of --quick: enough for a front, but not for an accurate one
 QUICK = {"population": 32, "generations": 12, "starts": 1}
 
 
@@ -18,12 +18,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("problem", type=Path, help="problem file (TOML), such as study_gears.toml of `bevel-differential examples`")
     parser.add_argument("--out", type=Path, help="folder of the results (default: target/optimise/NAME)")
     parser.add_argument("--population", type=int, help="designs of a generation")
-    parser.add_argument("--generations", type=int, help="how many generations")
+    parser.add_argument("--generations", type=int, help="number of generations")
     parser.add_argument("--starts", type=int, help="independent searches; with several, a last one starts from the best designs of all")
     parser.add_argument("--seed", type=int, help="seed of all random numbers; the same seed gives the same front")
     add_stop(parser)
     add_quick(parser, "a small search, and only the chosen designs are confirmed")
-    parser.add_argument("--resume", action="store_true", help="go on from the results in the folder")
+    parser.add_argument("--resume", action="store_true", help="continue from the results in the folder")
     add_farm(parser)
     add_fmu(parser)
 
@@ -48,12 +48,12 @@ def run(arguments: argparse.Namespace) -> int:
                 free = _optimise(arguments, problem, out, store, workers)
         except KeyboardInterrupt:
             raise KeyboardInterrupt(f"stopped: {len(store.rows)} designs are in {out}, the front of the last generation in "
-                                    f"{out / 'front.csv'}; go on by --resume") from None
+                                    f"{out / 'front.csv'}; continue with --resume") from None
     return DONE if free else FINDING
 
 
 def _optimise(arguments, problem, out, store, workers):
-    """Prints and writes all. Returns True if the gears of all chosen designs turn freely."""
+    """Runs the search; prints and writes its results. Returns true if the gears of all chosen designs turn freely."""
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
     from .report import LETTERS, choice_table, compared_with_front, picture, scene_text, to_csv, write_gears
@@ -62,7 +62,7 @@ def _optimise(arguments, problem, out, store, workers):
     total = problem.generations * (problem.starts + (problem.starts > 1))
 
     def after_generation(generation, best):
-        # whoever reads the line finds the front
+        # the file must be complete before the line is printed, because readers of the line may open it
         to_csv([Confirmed(row, {}) for row in best], problem, out / "front.csv")
         print(f"generation {generation} of {total}: {len(store.rows)} designs, {len(best)} on the front",
               flush=True)
@@ -80,7 +80,7 @@ def _optimise(arguments, problem, out, store, workers):
     notes += _confirmation(confirmed.values(), problem)
     print("\n".join(["", table, *notes]))
     if arguments.quick:
-        print(f"quick: {len(rows) - len(chosen)} designs of the front are not confirmed, and {problem.population} designs x {total} "
+        print(f"quick: {len(rows) - len(chosen)} designs of the front are not confirmed; {problem.population} designs x {total} "
               "generations are a small search")
     all_free = True
     with in_folder(out) as stage:
@@ -96,7 +96,7 @@ def _optimise(arguments, problem, out, store, workers):
 
 
 def _confirmation(confirmed, problem):
-    """A line for each richer model: how many designs still meet all conditions, and by how much objectives change."""
+    """Lines for each richer model: number of designs that still meet all conditions, and changes of the objectives."""
     for model in problem.confirm:
         ran = [each for each in confirmed if model in each.models]
         broken = [each for each in ran if each.models[model].refused]

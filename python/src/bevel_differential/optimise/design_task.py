@@ -1,5 +1,5 @@
-"""What an optimisation does for each design: checks of its dimensions first, then the run. Designs of a front run once more, with
-richer models of the same scene."""
+"""Evaluation of a design in an optimisation: checks of its dimensions first, then the run. Designs of a front run again with richer
+models of the same scene."""
 
 import math
 import time
@@ -14,32 +14,34 @@ from .pair import Pair, violations
 from .problem import Problem
 from .quantities import QUANTITIES
 
-# what the FMU warns of and a design must not have: gears that do not fit, pins and washers that do not
+# prefixes of warnings that a design must not cause: gears, pins and washers that do not fit
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
 # outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
 HISTORY = "_peak_to_peak"
-# a figure below this part of another one is none, so that there is no relative difference
+# a figure below this fraction of another one counts as zero, so that there is no relative difference
 VANISHES = 1e-9
 
 
 @dataclass
 class DesignRow(Row):
-    """`violation`: 0 for a feasible design; of two others the smaller one is nearer. `refused`: the checks that refuse it."""
+    """Design of an optimisation and its results. `violation`: 0 for a feasible design; of two others, the one with the smaller violation
+    is nearer to a feasible design. `refused`: names of the checks that refuse it."""
 
     violation: float = 0.0
     refused: tuple[str, ...] = ()
 
     def flat(self) -> dict:
-        """As a row of a table."""
+        """Design as a row of a table."""
         return {"run": self.run, **self.values, **self.figures, "feasible": self.feasible, "message": self.message,
                 "seconds": self.seconds, "violation": self.violation, "refused": "; ".join(self.refused)}
 
 
 class DesignTask(Task):
-    """The scene of a problem, and all that the problem wants of a design.
+    """Scene of a problem, with all wants of the problem.
 
-    Stages, as far as a design comes: gears that can be built; conditions on dimensions; the run; conditions on figures. A design
-    that fails in one is not looked at further, which saves the run, unless `thorough`. One that fails later is nearer."""
+    A design goes through these stages: gears that can be built; conditions on dimensions; the run; conditions on figures. A design
+    that fails in one stage skips the others, which saves the run, unless `thorough`. A design that fails in a later stage is nearer to
+    a feasible one."""
 
     def __init__(self, problem: Problem, thorough: bool = False):
         self.problem, self.thorough = problem, thorough
@@ -54,7 +56,7 @@ class DesignTask(Task):
         self.known = problem.known({})
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> DesignRow:
-        """The row of a design."""
+        """Evaluates a design."""
         begun = time.perf_counter()
         row = DesignRow(run, dict(values))
         try:
@@ -67,7 +69,7 @@ class DesignTask(Task):
         return row
 
     def failed(self, row: Row) -> DesignRow:
-        """The row of a design of which there are no figures, for the reason in its message."""
+        """Row of a design without figures, for the reason in its message."""
         found = row if isinstance(row, DesignRow) else DesignRow(row.run, row.values, message=row.message)
         self._fails(found, {_refusal(found.message): 1.0}, 1)
         return found
@@ -90,7 +92,7 @@ class DesignTask(Task):
         self._fails(row, _broken(self.on_figures, row.figures), 0)
 
     def _simulated(self, row, complete):
-        """Figures of the run go to the row; returns outputs by name."""
+        """Runs the scene and adds its figures to the row. Returns outputs by name."""
         figures, row.warnings = self._figures(complete), tuple(self.scene.warnings)
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
@@ -99,19 +101,19 @@ class DesignTask(Task):
                                     "faster")
         warned = [text for text in self.scene.warnings
                   if text.startswith(REFUSED_WARNINGS) and text.partition(":")[0] not in self.scene.unfelt
-                  # the checks of the dimensions may have found it already
+                  # the checks of the dimensions may already have found it
                   and (not row.refused or text.startswith("geometry.root_fillet"))]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
         return {name.rpartition(":")[0]: value for name, value in figures.items()}
 
     def _fails(self, row, found, stage):
-        """Notes violations; whether the design ends here."""
+        """Adds violations to the row. Returns true if the evaluation of the design ends here."""
         if not found:
             return False
         row.refused += tuple(found)
-        # a stage begins with more than all violations of later ones together
+        # the lowest violation in a stage is above the sum of all violations in later stages
         least = stage * (len(self.problem.conditions) + len(REFUSED_WARNINGS) + 1.0)
-        # each counts less than 1, so that one that is far off does not hide the others
+        # each violation counts less than 1, so that a large one does not hide the others
         row.violation = max(row.violation, least) + sum(excess / (1.0 + excess) for excess in found.values())
         return not self.thorough
 
@@ -121,7 +123,7 @@ def _on_dimensions(want: Want) -> bool:
 
 
 def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
-    """Relative excess of each condition that does not hold, by the condition."""
+    """Relative excess of each condition that is not met, by condition."""
     broken = {}
     for each in conditions:
         figure = figures[str(each.want)]
@@ -132,26 +134,26 @@ def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
 
 
 def _refusal(message: str) -> str:
-    """What a message is about: the parameter at its beginning, without the figures of this design."""
+    """Subject of a message: the parameter at its beginning, without the values of this design."""
     return message.partition(": ")[0].partition(" = ")[0]
 
 
 @dataclass(frozen=True)
 class Confirmed:
-    """A design and its rows by model: names of [[confirm]]."""
+    """Design and its rows by model: names of [[confirm]]."""
 
     row: DesignRow
     models: dict[str, DesignRow]
 
     def difference(self, model: str, want: str) -> float:
-        """Change of a figure by the model, relative to the search's own; NaN if the model did not run or if the search's figure
-        vanishes next to the model's."""
+        """Relative change of a figure by the model; NaN if the model did not run or if the figure of the search vanishes compared with that
+        of the model."""
         first = self.row.figures[want]
         other = self.models[model].figures.get(want, float("nan")) if model in self.models else float("nan")
         return other / first - 1.0 if abs(first) > VANISHES * abs(other) else float("nan")
 
     def flat(self, problem: Problem) -> dict:
-        """As a row of a table: the design, what follows from it, and for each model figures, differences and what it breaks."""
+        """Row of a table: the design, parameters that follow from it, and for each model figures, differences and broken conditions."""
         table_row = {**self.row.flat(), **problem.complete(self.row.values)}
         for model, row in self.models.items():
             for each in problem.objectives:
@@ -163,13 +165,13 @@ class Confirmed:
 
 
 def evaluated(farm: Farm, task: DesignTask, designs: Iterable[tuple[int, Mapping[str, Number]]]) -> Iterator[DesignRow]:
-    """Rows as they complete. Of a design whose worker process died each time the farm knows no more than that."""
+    """Rows in the order of completion. If the worker process of a design died each time, the row has only a message."""
     for row in farm.rows(task, designs):
         yield row if isinstance(row, DesignRow) else task.failed(row)
 
 
 def confirm(rows: Sequence[DesignRow], chosen: Sequence[DesignRow], problem: Problem, farm: Farm) -> list[Confirmed]:
-    """Runs rows with each model of the problem; with models for chosen designs alone only those."""
+    """Runs rows with each model of the problem. Models with `only_chosen` run only the chosen rows."""
     found: dict[int, dict[str, DesignRow]] = {row.run: {} for row in rows}
     for name, model in problem.confirm.items():
         task = DesignTask(problem.at(model), thorough=True)

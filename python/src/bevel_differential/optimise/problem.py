@@ -1,4 +1,4 @@
-"""Problem files: which gears may be chosen, what they are to be good at, and what must hold."""
+"""Problem files: the gears to choose from, the objectives, and the conditions."""
 
 import hashlib
 import json
@@ -17,26 +17,26 @@ from .quantities import QUANTITIES, Catalogue
 
 KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "starts", "seed", "front", "set", "vary",
         "follow", "compare", "confirm"}
-# of an entry of [follow]
+# keys of an entry of [follow]
 FOLLOW = {"from", "factor", "plus", "table"}
 NEEDED = ("description", "scene", "objectives", "vary")
 SENSES = {"minimise": 1.0, "maximise": -1.0, "minimize": 1.0, "maximize": -1.0}
-# outputs that add up, or keep the worst of, what was since ratings began
+# outputs that sum up, or keep the worst value, since rating began
 RATED = ("safety.", "damage.")
-# least effort; fewer than four designs do not make a generation with parents to choose from
+# smallest effort; with fewer than four designs, a generation has no parents to choose from
 EFFORT = {"population": 4, "generations": 1, "starts": 1, "seed": 0, "front": 1}
 
 
 @dataclass(frozen=True)
 class Objective:
-    """`sign`: 1 where less is better, -1 where more is."""
+    """Quantity to optimise. `sign`: 1 if smaller values are better, -1 if larger values are better."""
 
     want: Want
     sign: float
 
     @classmethod
     def parse(cls, catalogue: Variables, text: str) -> "Objective":
-        """Of "maximise safety.root_min" or "minimise gears.mass"."""
+        """Reads "maximise safety.root_min" or "minimise gears.mass"."""
         sense, _, what = text.strip().partition(" ")
         if sense not in SENSES:
             raise DifferentialError(f"objective {text!r}: write \"maximise OUTPUT\" or \"minimise OUTPUT\"")
@@ -48,7 +48,7 @@ class Objective:
 
 @dataclass(frozen=True)
 class Follower:
-    """A parameter that is not free: factor · another one + plus, or by a table of its values. SI."""
+    """Dependent parameter: factor · another parameter + plus, or a table of the other parameter's values. SI."""
 
     name: str
     source: str
@@ -58,7 +58,7 @@ class Follower:
 
     @classmethod
     def parse(cls, fmu: Fmu, name: str, given: Mapping[str, Any]) -> "Follower":
-        """Of { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
+        """Reads { from = "NAME", factor = 4.0, plus = 0.0 } or { from = "NAME", table = { 2 = 1.0 } }."""
         unknown = set(given) - FOLLOW if isinstance(given, Mapping) else {"?"}
         if unknown or "from" not in given or ("table" in given and len(given) > 2):
             raise DifferentialError(f"[follow] {name}: write {{ from = \"NAME\", factor = 1.0, plus = 0.0 }} or "
@@ -70,7 +70,7 @@ class Follower:
         return cls(variable.name, source.name, float(given.get("factor", 1.0)), float(given.get("plus", 0.0)), table)
 
     def of(self, values: Mapping[str, Number]) -> Number:
-        """Its value. Raises where the table has no entry."""
+        """Value of the parameter. Raises `DifferentialError` if the table has no entry."""
         given = values[self.source]
         if self.table is None:
             return self.factor * given + self.plus
@@ -81,8 +81,8 @@ class Follower:
 
 @dataclass(frozen=True)
 class Model:
-    """A richer model: settings of the scene, and conditions in the place of those on the same figure. `only_chosen`: it runs for
-    the designs to choose from alone, not for the whole front."""
+    """Richer model: settings of the scene, and conditions that replace those on the same figure. `only_chosen`: true if only the chosen
+    designs run with it, instead of the whole front."""
 
     settings: dict[str, Value]
     conditions: list[Condition] = field(default_factory=list)
@@ -91,8 +91,8 @@ class Model:
 
 @dataclass(frozen=True)
 class Problem:
-    """What a problem file says. `compare`: settings by name; `confirm`: models by name. `front`: designs of the front that are
-    confirmed and shown, spread over it."""
+    """Contents of a problem file. `compare`: settings by name; `confirm`: models by name. `front`: number of designs of the front that
+    are confirmed and shown, spread over the front."""
 
     description: str
     scene: Scene
@@ -110,15 +110,15 @@ class Problem:
 
     @classmethod
     def load(cls, file: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None) -> "Problem":
-        """The problem of a file; `stop`: another end of its scene. All errors in the file are reported together."""
+        """Reads the problem from a file; `stop`: another end of its scene. All errors in the file are reported together."""
         return _Reader(Path(file), Fmu.of(fmu), stop).problem()
 
     def known(self, values: Mapping[str, Number]) -> dict[str, Number]:
-        """All parameters by name, SI: these values, else those of the scene, else those of the FMU."""
+        """All parameters by name, SI: these values, or else those of the scene, or else those of the FMU."""
         return {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
 
     def complete(self, values: Mapping[str, Number]) -> dict[str, Number]:
-        """A design with the parameters that follow from it."""
+        """Design with the parameters that follow from it."""
         known = self.known(values)
         followed = {}
         for follower in self.followers:
@@ -126,7 +126,7 @@ class Problem:
         return {**followed, **values}
 
     def at(self, model: Model) -> "Problem":
-        """The same problem with a richer model. A parameter that the model sets follows no other one any more."""
+        """Copy of the problem with a richer model. Parameters that the model sets do not follow others."""
         state = self.scene.__getstate__()
         instead = {(each.want, each.relation): each for each in model.conditions}
         return replace(self, scene=Scene(**{**state, "set": {**state["set"], **model.settings}}),
@@ -134,7 +134,7 @@ class Problem:
                        conditions=[instead.get((each.want, each.relation), each) for each in self.conditions])
 
     def sized(self, **effort: int) -> "Problem":
-        """The same problem with another population, generations, starts, seed or front."""
+        """Copy of the problem with another population, generations, starts, seed or front."""
         problem = replace(self, **effort)
         for key, least in EFFORT.items():
             if getattr(problem, key) < least:
@@ -143,23 +143,23 @@ class Problem:
 
     @property
     def wants(self) -> list[Want]:
-        """What objectives and conditions are about, each once."""
+        """Wants of objectives and conditions, each once."""
         return list(dict.fromkeys(each.want for each in (*self.objectives, *self.conditions)))
 
     def start_warning(self) -> str:
-        """Which wanted figures are those of a start out of equilibrium, and what helps; empty where none is."""
+        """Warning about wanted figures that belong to a start out of equilibrium, with the remedy; empty if there are none."""
         rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)))
         known = self.known({})
         settled = known["scene.start"] == self.scene.fmu.variable("scene.start").literals["equilibrium"]
         chosen = {each.variable for each in self.space.dimensions} | {each.name for each in self.followers}
         if not rated or settled or known["strength.rate_from"] > 0.0 or "strength.rate_from" in chosen:
             return ""
-        return (f"{', '.join(rated)}: the scene does not start in equilibrium, and these figures are those of the blow with which "
+        return (f"{', '.join(rated)}: the scene does not start in equilibrium, so these values are those of the impact with which "
                 "teeth meet their load; set strength.rate_from after the run-in, or scene.start = \"equilibrium\"")
 
     @property
     def key(self) -> str:
-        """Of all that decides about results, but the number of generations, so that a search can go on."""
+        """Hash of everything that determines the results, except the number of generations, so that a search can continue."""
         state = self.scene.__getstate__()
         state["fmu"] = self.scene.fmu.description.guid
         decisive = [state, *map(str, self.objectives), *map(str, self.conditions), *map(repr, self.space.dimensions),
@@ -168,7 +168,7 @@ class Problem:
 
 
 class _Reader:
-    """Reads a file and collects what is wrong with it."""
+    """Reads a file and collects its errors."""
 
     def __init__(self, file: Path, fmu: Fmu, stop: str | None):
         self.file, self.fmu, self.stop, self.catalogue = file, fmu, stop, Catalogue(fmu)
@@ -177,7 +177,7 @@ class _Reader:
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
 
     def problem(self) -> Problem:
-        """The problem, or all errors."""
+        """Problem of the file. If there are errors, all are raised as one."""
         scene = self.attempt(self.scene)
         vary = flat(self.found.get("vary", {}))
         dimensions = [self.attempt(self.dimension, name, given) for name, given in vary.items()]
@@ -209,7 +209,7 @@ class _Reader:
             return None
 
     def scene(self):
-        """The scene of the file, which is looked for beside it too, with its changes."""
+        """Scene of the file, with its changes. It is also searched for next to the file."""
         scene = Scene.load(find_beside(self.file, self.found.get("scene", "")), self.fmu, self.stop)
         return scene.set(flat(self.found.get("set", {})))
 
@@ -218,18 +218,18 @@ class _Reader:
         if found.kind not in ("list", "range"):
             raise DifferentialError(f"{name} = {given}: an optimisation varies over FROM..TO or a list, not over a distribution")
         if found.count is not None:
-            raise DifferentialError(f"{name} = {given}: a search takes all values of a range; leave the count out, or "
+            raise DifferentialError(f"{name} = {given}: a search uses all values of a range; leave the count out, or "
                                     "write a list")
         return found
 
     def named(self, key, others=()):
-        """Settings of the entries of a key by name, SI; `others`: keys of an entry that are no settings."""
+        """Settings in the entries of a key, by name, SI; `others`: keys of an entry that are not settings."""
         found = {}
         for entry in self.found.get(key, []):
             values = {each: value for each, value in flat(entry).items() if each not in others}
             name = values.pop("name", None)
             if not name or name in found:
-                self.problems.append(f"[[{key}]] name = {name!r}: each entry needs a name of its own")
+                self.problems.append(f"[[{key}]] name = {name!r}: each entry needs a unique name")
             found[name] = {each: self.attempt(self.number, each, value) for each, value in values.items()}
         return found
 

@@ -1,4 +1,4 @@
-"""What an optimisation wants or bounds and the FMU does not give: calculated from its parameters and outputs.
+"""Quantities for objectives and conditions that the FMU does not give: calculated from its parameters and outputs.
 
 They are dimensions and loads of the parts around the gears: envelope, pin, washers."""
 
@@ -15,8 +15,8 @@ from .pair import Pair, tool_room
 
 @dataclass(frozen=True)
 class Quantity:
-    """`like`: a variable of the FMU with the same unit. `of`: its value in SI, from all parameters and the outputs by name, and the
-    pair. `outputs`: what it needs of the FMU."""
+    """Definition of a quantity. `like`: a variable of the FMU with the same unit. `of`: value in SI, from all parameters and outputs by
+    name, and the pair. `outputs`: the outputs of the FMU that it needs."""
 
     like: str
     of: Callable[[Mapping, Pair], float]
@@ -24,7 +24,7 @@ class Quantity:
 
 
 def _pin(values):
-    """Diameter of the pin, m: it fills the planet's bore."""
+    """Diameter of the pin, m, equal to the planet's bore."""
     diameter = values["geometry.planet_bore"]
     if not diameter > 0.0:
         raise DifferentialError("geometry.planet_bore = 0: a pin needs a bore; set or vary it")
@@ -32,8 +32,8 @@ def _pin(values):
 
 
 def _envelope(pair):
-    """2 √(R_e² + h²), h the larger of the planet's addendum and dedendum, as the corner of the back cone is farthest from the apex;
-    the side gears are smaller."""
+    """Envelope diameter, m: 2 √(R_e² + h²), with h the larger of the planet's addendum and dedendum. The corner of the back cone is the
+    point farthest from the apex; the side gears are smaller."""
     planet = pair.gears[0]
     return 2.0 * math.hypot(pair.outer_cone, max(planet.addendum, planet.dedendum))
 
@@ -56,14 +56,14 @@ QUANTITIES = {
     # tip lands at the heel, in modules
     "teeth.planet_land": Quantity(NUMBER, lambda _, pair: pair.land(0) / pair.module),
     "teeth.side_land": Quantity(NUMBER, lambda _, pair: pair.land(1) / pair.module),
-    # greatest common divisor of both numbers of teeth: 1 where each tooth meets each other one (hunting teeth)
+    # greatest common divisor of both numbers of teeth: 1 if each tooth meets every tooth of the mate (hunting teeth)
     "teeth.common_divisor": Quantity(NUMBER, lambda _, pair: float(math.gcd(pair.gears[0].teeth, pair.gears[1].teeth))),
     # room for the tip radius of the tool of the roots, in modules
     "teeth.tool_room": Quantity(NUMBER, lambda values, pair: tool_room(pair, values["strength.tool_radius"])),
     # rim of the planet between pin and root cone at the toe, in modules there
     "pin.rim": Quantity(NUMBER, lambda _, pair: pair.rim(0) / (pair.module * pair.inner_cone / pair.outer_cone)),
-    # largest shear stress of the pin beside the planet: 4/3 F/(π d²/4), of a solid round section (Shigley, Mechanical Engineering
-    # Design). The case holds the pin outside each planet, so that one section carries the planet's whole force
+    # largest shear stress of the pin next to the planet: 4/3 F/(π d²/4), of a solid round section (Shigley, Mechanical Engineering
+    # Design). The case supports the pin outside each planet, so one section transmits the planet's whole force
     "pin.shear": Quantity(STRESS, lambda values, _: 16.0 * values[PIN_FORCE] / (3.0 * pi * _pin(values) ** 2), (PIN_FORCE,)),
     # mean pressure between pin and planet: F/(d l), l = b cos δ_f the length of the bore
     "pin.pressure": Quantity(STRESS, lambda values, pair: values[PIN_FORCE] / (
@@ -80,7 +80,7 @@ QUANTITIES = {
 
 
 class Catalogue:
-    """Variables of the FMU and the quantities, by name, as `Want.parse` and `Condition.parse` look them up."""
+    """Variables of the FMU and the quantities, by name, for look-ups by `Want.parse` and `Condition.parse`."""
 
     def __init__(self, fmu: Fmu):
         self.fmu = fmu
@@ -90,7 +90,7 @@ class Catalogue:
         return {each.name: each.start for each in self.fmu.variables.values() if each.causality == "parameter" and each.start is not None}
 
     def variable(self, name: str) -> Variable:
-        """The variable, or the quantity as an output of its unit."""
+        """Variable, or the quantity as an output with its unit."""
         if name in QUANTITIES:
             found = copy.copy(self.fmu.variable(QUANTITIES[name].like))
             found.name, found.causality = name, "output"

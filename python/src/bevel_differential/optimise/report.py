@@ -1,4 +1,4 @@
-"""What is shown and written of a front: tables, a picture, and chosen designs for other programs, as scene files and gears."""
+"""Report of a front: tables, a picture, and chosen designs for other programs, as scene files and gears."""
 
 import json
 from collections.abc import Iterable, Sequence
@@ -22,13 +22,13 @@ NO_CHANGE = {"+0.0 %", "-0.0 %"}
 
 
 def to_csv(confirmed: Iterable[Confirmed], problem: Problem, file: FileName) -> None:
-    """Writes the front, SI; numbers read back to the same bits."""
+    """Writes the front, SI; numbers are read back to the same bits."""
     with whole(file) as part:
         pd.DataFrame([each.flat(problem) for each in confirmed]).to_csv(part, index=False)
 
 
 def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, DesignRow], problem: Problem) -> str:
-    """A Markdown table with a column for each chosen and each compared design, in the units that are usually shown."""
+    """Markdown table with a column for each chosen and each compared design, in display units."""
     columns = [each.row for _, each in chosen] + list(compared.values())
     lines = [["", *(LETTERS[k] for k in range(len(chosen))), *compared]]
     catalogue = Catalogue(problem.scene.fmu)
@@ -51,7 +51,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
 
 
 def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Problem) -> str:
-    """Where a compared design stands against a front."""
+    """Sentence that compares a design with a front."""
     checks = f"; refused by: {'; '.join(row.refused)}" if row.refused else "; it meets all conditions"
     if not all(str(each.want) in row.figures for each in problem.objectives):
         return f"{name}: it does not run{checks}. {row.message}".strip()
@@ -64,12 +64,12 @@ def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], pr
 
 
 def _unless(cells, nothing, label, compared):
-    """A row of the chosen designs, unless all its cells say nothing."""
+    """Row of the chosen designs, or nothing if all its cells are empty."""
     return [] if nothing.issuperset(cells) else [[label, *cells, *("" for _ in compared)]]
 
 
 def _with_heights(values):
-    """Parameters with the addenda and dedenda that the addendum system makes, in modules."""
+    """Parameters with the addenda and dedenda of the addendum system, in modules."""
     addenda, dedenda = heights({name.removeprefix("geometry."): value for name, value in values.items()})
     in_modules = {f"geometry.{gear}_{what}": height / values["geometry.module"]
                   for what, pair in (("addendum", addenda), ("dedendum", dedenda)) for gear, height in zip(("planet", "side"), pair)}
@@ -132,7 +132,7 @@ def _label(catalogue, objective: Objective) -> str:
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
-    """The problem's scene with the design in it, as a scene file."""
+    """Scene of the problem with the design in it, as a scene file."""
     scene = problem.scene
     held = scene.contents({**scene.values, **problem.complete(row.values)})
     head = {key: value for key, value in held.items() if key not in ("set", "at", "table")}
@@ -144,8 +144,8 @@ def scene_text(problem: Problem, row: DesignRow, description: str) -> str:
 
 
 def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
-    """Writes dimensions and curves of the design's gears, and with the extra `cad` solids, meshes and drawings; whether the check
-    with fillets finds them free of interference."""
+    """Writes dimensions and curves of the design's gears, and with the extra `cad` solids, meshes and drawings. Returns true if the check
+    with fillets finds no interference."""
     kinds = ("step", "glb", "dxf") if cad.available() else ()
     found = ask({"ask": "geometry", "set": settings(problem, row), "solids": bool(kinds)})
     cad.write(found, folder, kinds)
@@ -153,7 +153,7 @@ def write_gears(problem: Problem, row: DesignRow, folder: FileName) -> bool:
 
 
 def settings(problem: Problem, row: DesignRow) -> list[str]:
-    """What the design's gears have otherwise than the FMU's own, each "name=value"."""
+    """Geometry values of the design that differ from the FMU's start values, each "name=value"."""
     fmu = problem.scene.fmu
     values = {**problem.scene.values, **problem.complete(row.values)}
     changed = {name: value for name, value in values.items()
@@ -162,5 +162,5 @@ def settings(problem: Problem, row: DesignRow) -> list[str]:
 
 
 def _entries(table, *names):
-    """Lines of a table: what JSON writes of numbers, texts, truths and lists is TOML as well."""
+    """Lines of a table. Numbers, strings, booleans and lists in JSON are also TOML."""
     return [f"{name} = {json.dumps(table[name], ensure_ascii=False)}" for name in names or table]

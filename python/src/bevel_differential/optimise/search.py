@@ -1,5 +1,5 @@
-"""The search: NSGA-II of pymoo on the unit cube, a generation at a time; and the folder with all designs that were evaluated, so
-that it can go on."""
+"""Search by pymoo's NSGA-II on the unit cube, one generation at a time, and a folder with all evaluated designs, from which the search
+can continue."""
 
 import itertools
 import json
@@ -25,15 +25,15 @@ from .design_task import DesignRow, DesignTask, evaluated
 from .front import costs, front, thinned
 from .problem import Problem
 
-# index of the distribution of mutations, less is wider: whole numbers need steps as wide as their cells
+# index of the distribution of mutations; smaller is wider. Whole numbers need steps as wide as their cells
 WIDTH = 8
-# cost of a design that is not feasible
+# cost of an infeasible design
 OUT_OF_REACH = 1e30
 EVALUATIONS, PROBLEM = "evaluations.parquet", "problem.json"
 
 
 class Store:
-    """Rows of a problem in a folder. `rows`: by the values of a design, in order of run."""
+    """Rows of a problem in a folder. `rows`: rows by the values of the design, in order of run."""
 
     def __init__(self, folder: FileName, problem: Problem, resume: bool = False):
         self.folder, self.problem = Path(folder), problem
@@ -41,7 +41,7 @@ class Store:
         if resume:
             self._read()
         elif (self.folder / EVALUATIONS).exists():
-            raise DifferentialError(f"{self.folder} has results already: go on by --resume, or name another folder by --out")
+            raise DifferentialError(f"{self.folder} has results already: continue with --resume, or name another folder by --out")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
@@ -58,7 +58,7 @@ class Store:
             key = json.loads((self.folder / PROBLEM).read_text(encoding="utf-8"))["key"]
             table = pd.read_parquet(self.folder / EVALUATIONS)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise DifferentialError(f"{self.folder} has no results to go on from ({error}); leave out --resume") from None
+            raise DifferentialError(f"{self.folder} has no results to continue from ({error}); leave out --resume") from None
         if key != self.problem.key:
             raise DifferentialError(f"{self.folder} has the results of another problem, scene, seed or FMU; name another "
                                     "folder by --out")
@@ -67,7 +67,7 @@ class Store:
 
 
 def rows_of(table: pd.DataFrame, space: Space) -> list[DesignRow]:
-    """Rows from a table as `save` writes it."""
+    """Rows from a table that `save` has written."""
     figures = [name for name in table.columns if ":" in name]
     rows = []
     for entry in table.to_dict("records"):
@@ -80,7 +80,7 @@ def rows_of(table: pd.DataFrame, space: Space) -> list[DesignRow]:
 
 
 class _Cells(Repair):
-    """Moves shares of whole numbers and lists to the middles of their cells, so that equal designs are seen to be equal."""
+    """Moves shares of whole numbers and lists to the centres of their cells, so that equal designs have equal shares."""
 
     def __init__(self, space: Space):
         super().__init__()
@@ -94,7 +94,7 @@ class _Cells(Repair):
 
 
 def _cells(dimension: Dimension) -> float:
-    """How many values a dimension has; infinite for a range of real numbers."""
+    """Number of values of a dimension; infinite for a range of real numbers."""
     if dimension.kind == "list":
         return len(dimension.numbers)
     return dimension.numbers[1] - dimension.numbers[0] + 1.0 if dimension.whole else np.inf
@@ -102,11 +102,11 @@ def _cells(dimension: Dimension) -> float:
 
 def search(problem: Problem, farm: Farm, store: Store,
            each: Callable[[int, list[DesignRow]], None] = lambda *_: None) -> list[DesignRow]:
-    """The front of all designs evaluated; the store has them all, after each generation and where the search is interrupted.
+    """Front of all evaluated designs. The store has all designs, after each generation and when the search is interrupted.
 
-    With several starts each begins anew, as a population settles on few numbers of teeth; a last one begins with the best of all.
-    `each(generation, rows)` is told of the front so far. What the store knows is not evaluated again. Raises where no design is
-    feasible."""
+    A population settles on few numbers of teeth, so each of several starts begins with new designs; a last start begins with the best
+    designs of all. `each(generation, rows)` receives the front so far. Designs in the store are not evaluated again. Raises
+    `DifferentialError` if no design is feasible."""
     run = _Run(problem, farm, store, each)
     for start in range(problem.starts):
         run.start(LHS(), problem.seed + start)
@@ -118,18 +118,18 @@ def search(problem: Problem, farm: Farm, store: Store,
 
 
 class _Run:
-    """A search under way. `best`: the front so far."""
+    """Search in progress. `best`: the front so far."""
 
     def __init__(self, problem, farm, store, each):
         self.problem, self.farm, self.store, self.each = problem, farm, store, each
         self.task, self.best, self.generation = DesignTask(problem), [], 0
-        # points of the unit cube by run
+        # points of the unit cube by number of the run
         self.known = {}
         self.cube = PymooProblem(n_var=len(problem.space.dimensions), n_obj=len(problem.objectives), n_ieq_constr=1,
                                  xl=0.0, xu=1.0)
 
     def start(self, sampling, seed):
-        """All generations from a first one."""
+        """Runs all generations from a first one."""
         algorithm = NSGA2(pop_size=self.problem.population, sampling=sampling, mutation=PM(eta=WIDTH),
                           repair=_Cells(self.problem.space))
         algorithm.setup(self.cube, termination=("n_gen", self.problem.generations), seed=seed, verbose=False)
@@ -145,11 +145,11 @@ class _Run:
             self.each(self.generation, self.best)
 
     def shares(self, rows):
-        """Points of the unit cube that were evaluated as these rows, shape (rows, dimensions)."""
+        """Points of the unit cube from which these rows were evaluated, shape (rows, dimensions)."""
         return np.array([self.known[row.run] for row in rows])
 
     def _figures(self, rows):
-        """Costs and violations as pymoo takes them. It compares infeasible designs by their violation alone."""
+        """Costs and violations for pymoo, which compares infeasible designs only by their violation."""
         cost = np.full((len(rows), len(self.problem.objectives)), OUT_OF_REACH)
         sound = [i for i, row in enumerate(rows) if row.feasible]
         cost[sound] = costs([rows[i] for i in sound], self.problem.objectives)
@@ -157,10 +157,10 @@ class _Run:
 
 
 def _evaluated(designs, task, farm, store):
-    """Rows of designs, in their order; new ones are evaluated and stored."""
+    """Rows of designs, in their order; new designs are evaluated and stored."""
     keys = [tuple(values.values()) for values in designs]
     new = {key: values for key, values in zip(keys, designs) if key not in store.rows}
-    # of a generation that was interrupted some rows are there: the others get the numbers that are left, as without the interrupt
+    # after an interrupt, some rows of the generation exist: the others get the remaining numbers, as without the interrupt
     taken = {row.run for row in store.rows.values()}
     numbered = list(zip((run for run in itertools.count() if run not in taken), new.values()))
     arrived = []
@@ -176,10 +176,10 @@ def _evaluated(designs, task, farm, store):
 
 
 def no_design(rows: list[DesignRow]) -> str:
-    """What to say where no design is feasible: which checks refuse how many."""
+    """Message if no design is feasible: the number of designs that each check refuses."""
     counts = Counter(check for row in rows for check in row.refused)
     lines = [f"  {count:6d}  {check}" for check, count in counts.most_common()]
     nearest = min(rows, key=lambda row: row.violation)
-    return "\n".join([f"no feasible design among {len(rows)}. So many were refused by:", *lines,
+    return "\n".join([f"no feasible design among {len(rows)}. Designs refused by each check:", *lines,
                       f"The nearest one fails in: {'; '.join(nearest.refused)}.",
                       "Widen the ranges of [vary], loosen these conditions, or let more generations search."])

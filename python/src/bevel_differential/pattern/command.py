@@ -18,7 +18,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Simulates, writes files and pictures, prints what they show."""
+    """Simulates, writes files and pictures, and prints the results."""
     from ..answers import about, ask
     from ..progress import part, shown
     from ..values import DifferentialError

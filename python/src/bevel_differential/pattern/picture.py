@@ -9,7 +9,7 @@ from .. import style
 from ..records import read
 
 PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
-# what to see in the cases of the documentation
+# remarks on the cases of the documentation
 REMARKS = {
     "aligned": "even load; dark band: one pair alone carries",
     "crowned": "load moves from both ends to the middle",
@@ -27,19 +27,19 @@ REMARKS = {
 # kinds of teeth, for captions
 TEETH = {"solid": "solid teeth", "impact": "teeth with contact.law = impact", "line": "teeth with contact.law = line",
          "line_weber": "teeth with contact.law = line_weber"}
-# cases whose lines of contact are drawn, the first two that are there
+# cases whose lines of contact are drawn; the first two available ones count
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
-# relative radius of the flanks, over that at the pitch point, below which the foot is a seam (as in the report and on the page)
+# relative radius of the flanks over its value at the pitch point, below which the foot is a seam (as in the report and on the page)
 LEAST_RADIUS = 0.25
 COLUMNS = 3
-# inches: highest flank of a picture; room beside a flank, and above and below a flank with its line load
+# inches: largest height of a flank; room next to a flank, and above and below a flank with its line load
 HIGHEST, BESIDE, AROUND = 5.0, 0.55, 0.95
 # height of the panel of the line load, over the width of the flank
 LOAD_HEIGHT = 0.19
-# least half-width of a line of contact in the picture, mm
+# smallest half-width of a line of contact in the picture, mm
 THINNEST = 0.12
-# inches above the panels for the legend
+# height for the legend above the panels, inches
 LEGEND = 0.4
 
 
@@ -56,7 +56,7 @@ def draw(folder: Path) -> list[str]:
 
 
 def tooth(axes, outline, names=False):
-    """The flank unrolled: toe left, heel right, tip above, pitch line at zero."""
+    """Draws the unrolled flank: toe left, heel right, tip at the top, pitch line at zero."""
     toe, heel = outline["tip"]["toe_cone"], outline["tip"]["heel_cone"]
     corners = [(toe, outline["root"]["toe_height"]), (heel, outline["root"]["heel_height"]),
                (heel, outline["tip"]["heel_height"]), (toe, outline["tip"]["toe_height"])]
@@ -136,12 +136,12 @@ def patterns(folder, data, outlines, cases):
 
 
 def teeth_of(data):
-    """Kinds of teeth of all cases, for captions."""
+    """Kinds of teeth in all cases, for captions."""
     return " or ".join(dict.fromkeys(TEETH[row["teeth"]] for row in data["summary"]))
 
 
 def flank(axes, outline, rows, scale):
-    """The flank with the largest pressure at each spot."""
+    """Draws the flank with the largest pressure at each position."""
     cones = sorted({row["cone"] for row in rows})
     shape = (len(cones), len(rows) // len(cones))
     cone, height, pressure = [np.array([row[key] for row in rows]).reshape(shape) for key in ["cone", "height", "pressure"]]
@@ -151,7 +151,7 @@ def flank(axes, outline, rows, scale):
 
 
 def line_load(axes, tip, points, result, most):
-    """The load over the face, and the force with its centroid."""
+    """Draws the load over the face, and the force at its centroid."""
     axes.fill_between(*points.T, color=LOAD, alpha=0.25, lw=0)
     axes.plot(*points.T, color=LOAD, lw=1.5)
     middle = 0.5 * (tip["toe_cone"] + tip["heel_cone"])
@@ -169,9 +169,9 @@ def legend(figure, axes):
 
 
 def top_of(data, cases):
-    """Upper end of the colours, MPa: the largest pressure outside the seam at the foot, where flanks have lost their radius."""
+    """Upper end of the colours, MPa: the largest pressure outside the seam at the foot, where the flanks' radius vanishes."""
     shown = [row for row in data["contacts"] if row["followed"] and row["case"] in dict(cases)]
-    # relative radii per cone distance; that at the pitch point is that of the contact nearest to it
+    # relative radii per cone distance; the contact nearest to the pitch point gives the value there
     pitch = min(shown, key=lambda row: abs(row["s"]))
     least = LEAST_RADIUS * pitch["radius"] / pitch["cone"]
     sound = [row["pressure"] for row in shown if row["radius"] / row["cone"] > least and not row["corner"]]
@@ -179,7 +179,7 @@ def top_of(data, cases):
 
 
 def strip(data, name):
-    """Cone distance and line load at the instant nearest to the pitch point."""
+    """Cone distance and line load at the time nearest to the pitch point."""
     rows = [row for row in data["contacts"] if row["case"] == name and row["followed"]]
     time = min(rows, key=lambda row: abs(row["s"]))["time"]
     return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
@@ -218,7 +218,7 @@ def lines(folder, data, outlines, cases):
     bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
     bar.set_label("Hertz pressure, MPa")
     legend(figure, grid[0, 0])
-    # of the turn of the documentation
+    # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if names.keys() <= REMARKS.keys() else ""
     style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, in steps of {100 // (INSTANTS - 1)} %, "
@@ -229,7 +229,8 @@ def lines(folder, data, outlines, cases):
 
 
 def draw_line(axes, line, heel, colour, indent):
-    """One pair's line of contact, as wide as the contact and at least as wide as can be seen, with its force beyond the heel."""
+    """Draws the line of contact of one pair with its force beyond the heel. The line is as wide as the contact, or the smallest visible
+    width."""
     for row in line:
         half = max(row["half_width"], THINNEST)
         ends = [row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]]
@@ -249,5 +250,5 @@ def draw_line(axes, line, heel, colour, indent):
 
 
 def force_of(rows):
-    """N."""
+    """Force of the rows, N."""
     return sum(row["line_load"] * row["width"] for row in rows)

@@ -1,1 +1,1 @@
-"""A report of a scene: one HTML file with figures, tables and what they say (docs/results.md)."""
+"""Report of a scene: one HTML file with figures, tables and explanations (docs/results.md)."""

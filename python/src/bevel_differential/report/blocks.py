@@ -1,4 +1,4 @@
-"""What a report is made of: sections with sentences, tables and pictures."""
+"""Contents of a report: sections with sentences, tables and pictures."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 @dataclass(frozen=True)
 class Text:
-    """A paragraph. `kind` "warning" or "verdict" sets it apart; `good` colours a verdict."""
+    """Paragraph. `kind` "warning" or "verdict" highlights it; `good` colours a verdict."""
 
     text: str
     kind: str = ""
@@ -15,7 +15,7 @@ class Text:
 
 @dataclass(frozen=True)
 class Table:
-    """A table with a caption; columns from `left` on are numbers."""
+    """Table with a caption; columns from `left` on are numbers."""
 
     head: Sequence[str]
     rows: Sequence[Sequence[str]]
@@ -25,7 +25,7 @@ class Table:
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as SVG, and a caption that says what to see."""
+    """Picture as SVG, with a caption that describes it."""
 
     name: str
     svg: str
@@ -37,7 +37,7 @@ Block = Text | Table | Picture
 
 @dataclass
 class Section:
-    """A section; `name` is its anchor."""
+    """Section of a report; `name` is its anchor."""
 
     name: str
     title: str

@@ -5,14 +5,14 @@ import argparse
 from ..command import DONE
 from ..command.arguments import add_file, add_fmu, add_progress, add_quick, add_set, add_stop, add_units, once
 
-# what needs other runs
+# parts of a report that need other runs
 LEFT_OUT = "without the run-up, and without the effects that are off"
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene")
-    # as it was called before
+    # former name of the argument
     parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
     add_set(parser)
     add_units(parser)
@@ -24,7 +24,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Writes the report and says where."""
+    """Writes the report and prints its path."""
     from ..progress import shown
     from ..scene import Scene
     from ..values import DifferentialError

@@ -1,5 +1,5 @@
-"""Drawings of the gears: an axial section with cones, face, bodies and dimensions; and teeth in mesh at the heel, closed forms of
-the spherical involute, unrolled about the pitch point."""
+"""Drawings of the gears. One is an axial section with cones, face, bodies and dimensions. The other shows teeth in mesh at the heel:
+closed forms of the spherical involute, unrolled about the pitch point."""
 
 import math
 from typing import TYPE_CHECKING
@@ -16,15 +16,15 @@ if TYPE_CHECKING:
 MM = 1e3
 PLANET, SIDE = svg_style.OCHRE, svg_style.BLUE
 NODES = 24
-# teeth that are drawn on either side of the middle, and half the width of the picture in pitches
+# number of teeth drawn on either side of the middle, and half the width of the picture in pitches
 NEIGHBOURS, SHOWN = 3, 2.3
 
 
 @svg_style.drawn("section", 6.0)
 def draw_section(picture: "Figure", pair: Pair) -> None:
-    """The section in the plane of the carrier's axis (across the page) and the planets' axes (upright)."""
+    """Draws the section in the plane of the carrier's axis (horizontal) and the planets' axes (vertical)."""
     axes = picture.subplots()
-    # a gear in its own half plane: radius across, axis along; planets last, as the teeth cover each other in the mesh
+    # each gear is drawn in its half plane: radius across, axis along; planets last, because teeth overlap in the mesh
     for sense in (1.0, -1.0):
         _gear(axes, pair, 1, lambda radius, axis, sense=sense: (-sense * axis, radius), SIDE)
     for sense in (1.0, -1.0):
@@ -41,7 +41,7 @@ def draw_section(picture: "Figure", pair: Pair) -> None:
 
 
 def _gear(axes, pair, i, place, colour):
-    """Teeth and body on both sides of the axis, mirrored."""
+    """Draws teeth and body on both sides of the axis, mirrored."""
     gear = pair.gears[i]
     inner, outer = MM * pair.inner_cone, MM * pair.outer_cone
     bore = 0.5 * MM * gear.bore
@@ -61,11 +61,11 @@ def _gear(axes, pair, i, place, colour):
 
 
 def _dimensions(axes, pair):
-    """Cone distance along a pitch line, face beside it, diameters outside, angles in the middle."""
+    """Draws the cone distance along a pitch line, the face next to it, diameters outside, and angles in the middle."""
     planet, side = pair.gears
     reach = MM * pair.outer_cone
     along = np.array([math.cos(side.pitch), math.sin(side.pitch)])
-    # beyond the tips of the planet, outside both gears
+    # outside both gears, past the tips of the planet
     beyond = np.array([-along[1], along[0]]) * -(reach * math.sin(planet.tip - planet.pitch) + 7.0)
     _between(axes, along * MM * pair.inner_cone, along * reach, beyond, f"b = {words.mm(pair.face_width)}")
     down = along * (1.0, -1.0)
@@ -93,13 +93,13 @@ def _dimensions(axes, pair):
 
 
 def _between(axes, begin, end, offset, text, place=0.5):
-    """A dimension from point to point, moved aside, with its extension lines and its text at a place between."""
+    """Draws an offset dimension between two points, with extension lines. Its text is at the fraction `place` of its length."""
     for point in (begin, end):
         axes.plot(*zip(point, point + 1.04 * offset), color=svg_style.TEXT_COLOUR, lw=0.5, alpha=0.6)
     first, last = begin + offset, end + offset
     axes.annotate("", first, last, arrowprops={"arrowstyle": "<->", "color": svg_style.TEXT_COLOUR, "lw": 0.8, "shrinkA": 0, "shrinkB": 0})
     turned = math.degrees(math.atan2(*(last - first)[::-1]))
-    # letters stand upright, or read from below
+    # text is upright, or readable from below
     turned = 90.0 - (90.0 - turned) % 180.0
     axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom",
               fontsize=8.5)
@@ -107,13 +107,13 @@ def _between(axes, begin, end, offset, text, place=0.5):
 
 @svg_style.drawn("teeth", 4.3)
 def draw_teeth(picture: "Figure", run: Simulated, pair: Pair) -> None:
-    """Planet 1 and the left side gear as they stand at the end of the run, in the carrier's frame."""
+    """Draws planet 1 and the left side gear at the end of the run, in the carrier's frame."""
     last = run.record[-1]
     planet_turn = float(last["planet[1].spin_angle"])
     side_turn = float(last["left.angle"] - last["carrier.angle"])
     planet, side = pair.gears
     axes = picture.subplots()
-    # the planet's tooth 0 faces the left side gear, which has a gap there
+    # tooth 0 of the planet faces a gap of the left side gear
     _teeth(axes, pair, planet, 0.0, lambda polar, azimuth: _planet(polar, azimuth - planet_turn), svg_style.OCHRE, "planet 1")
     _teeth(axes, pair, side, math.pi / side.teeth, lambda polar, azimuth: _side(polar, azimuth + side_turn), svg_style.BLUE,
           "left side gear")
@@ -126,8 +126,8 @@ def draw_teeth(picture: "Figure", run: Simulated, pair: Pair) -> None:
 
 
 def outline(gear: Gear) -> np.ndarray:
-    """Polar angles and azimuths (rad) of one tooth with half a gap on each side, shape (points, 2): root land, straight to the base
-    circle where it lies above, involute, tip land, and back."""
+    """Polar angles and azimuths (rad) of one tooth with half a gap on each side, shape (points, 2). They are in this order: root land,
+    straight line to the base circle if it is above the root, involute, tip land, and back."""
     foot = max(gear.root, gear.base)
     flank = np.linspace(foot, gear.tip, NODES)
     halves = np.array([gear.half_angle(polar) for polar in flank])
@@ -140,9 +140,9 @@ def outline(gear: Gear) -> np.ndarray:
 
 
 def _teeth(axes, pair, gear, first, place, colour, label):
-    """The teeth near the pitch point as one closed shape, and the pitch circle."""
+    """Draws the teeth near the pitch point as one closed shape, and the pitch circle."""
     step = 2.0 * math.pi / gear.teeth
-    # the tooth that stands nearest to the pitch point
+    # tooth nearest to the pitch point
     middle = min(range(gear.teeth), key=lambda k: math.hypot(*unrolled(pair, place(gear.pitch, first + k * step))))
     points = np.vstack([outline(gear) + (0.0, first + (middle + k) * step) for k in range(-NEIGHBOURS, NEIGHBOURS + 1)])
     first_end, last_end = (unrolled(pair, place(*points[k]))[0] for k in (0, -1))
@@ -158,18 +158,18 @@ def _teeth(axes, pair, gear, first, place, colour, label):
 
 
 def _planet(polar, azimuth):
-    """A direction in the planet's frame (tooth 0 at azimuth 0) as (along the left half-shaft, along the planet's axis, third)."""
+    """Direction in the planet's frame (tooth 0 at azimuth 0) as (along the left half-shaft, along the planet's axis, third)."""
     return math.sin(polar) * math.cos(azimuth), math.cos(polar), -math.sin(polar) * math.sin(azimuth)
 
 
 def _side(polar, azimuth):
-    """The same for the left side gear, whose azimuth 0 is at the planet's axis."""
+    """Direction in the left side gear's frame (azimuth 0 at the planet's axis), in the components of `_planet`."""
     return math.cos(polar), math.sin(polar) * math.cos(azimuth), math.sin(polar) * math.sin(azimuth)
 
 
 def unrolled(pair: Pair, direction: tuple[float, float, float]) -> tuple[float, float]:
-    """Where a direction from the apex lies at the heel, mm from the pitch point: its distance on the sphere, in its direction, as
-    one sees it from outside."""
+    """Position of a direction from the apex on the heel, mm from the pitch point, as seen from outside. Its distance on the sphere and its
+    direction are kept."""
     along, up, third = direction
     sine, cosine = math.sin(pair.gears[0].pitch), math.cos(pair.gears[0].pitch)
     depth = sine * along + cosine * up
@@ -181,7 +181,7 @@ def unrolled(pair: Pair, direction: tuple[float, float, float]) -> tuple[float, 
 
 
 def _action(axes, pair):
-    """The great circle through the pitch point that is tangent to both base circles."""
+    """Draws the great circle through the pitch point that is tangent to both base circles."""
     planet, side = pair.gears
     ends = [MM * pair.outer_cone * planet.arc(planet.pitch), -MM * pair.outer_cone * side.arc(side.pitch)]
     slope = np.array([math.cos(pair.pressure_angle), math.sin(pair.pressure_angle)])

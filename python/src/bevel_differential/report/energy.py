@@ -1,4 +1,4 @@
-"""Where torque and power go: bias, power, heat by its causes, and what the balance of energy misses."""
+"""Torque and power of a run: bias, power, heat by its causes, and the error of the energy balance."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ from .blocks import Picture, Section
 from .head import energy_balance
 from .simulated import Simulated
 
-# bias ratios that are drawn as lines
+# bias ratios with lines
 RATIOS = (1.5, 2.0, 3.0, 5.0)
-# torques and heats below these, relative to the largest or absolute (N·m, J), are none
+# torques and heats below these values count as zero, relative to the largest or absolute (N·m, J)
 NONE, NO_HEAT = 1e-9, 1e-9
 
 
 def section(run: Simulated) -> Section:
-    """Both pictures, as far as there is something to show."""
+    """Section with both pictures, if there is something to show."""
     found = Section("energy", "Torque bias, power and heat")
     left, right = run.series("left.shaft_torque"), run.series("right.shaft_torque")
     if max(np.max(np.abs(left)), np.max(np.abs(right))) < NONE:
@@ -62,13 +62,13 @@ def _bias_caption(run, left, right):
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
              f"farthest apart at {words.moment(run.time[k], run.time[-1])}, left {words.number(left[k])} and right "
              f"{words.quantity(right[k], run.unit('right.shaft_torque'))}")
-    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that stands beside them; the large "
+    return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that is printed next to them; the large "
             f"dot is the end. The FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
             f"{words.number(bias.max(), 3)} in the run, its locking value {words.number(locked, 3)} at the end.")
 
 
 def _heats(run):
-    """Outputs of heat that is not zero at the end, by their causes."""
+    """Heat outputs that are not zero at the end."""
     names = [name for name in run.scene.fmu.variables if name.startswith("heat.")]
     return [name for name in names if abs(run.record[name][-1]) > NO_HEAT]
 
@@ -106,6 +106,6 @@ def _power_caption(run):
                          for name, heat in sorted(heats.items(), key=lambda pair: -pair[1]))
     heat = f"Heat by its causes, stacked: {by_cause}." if heats else "No heat arises."
     return (f"Power delivered to the differential and to the wheels; over time {words.quantity(work, 'J')} in and "
-            f"{words.quantity(out, 'J')} out, as the communication points tell. The rest speeds bodies up, winds shafts up or "
+            f"{words.quantity(out, 'J')} out, calculated from the communication points. The rest accelerates bodies, twists shafts or "
             f"is lost. {heat} Bottom: stored energy less work plus heat, {words.quantity(residual, 'J', 2)} at most, "
-            f"{words.percent(residual / throughput if throughput else 0.0, 2)} of what went through.")
+            f"{words.percent(residual / throughput if throughput else 0.0, 2)} of the throughput.")

@@ -1,5 +1,5 @@
-"""Force histories of the meshes, with the stretches in which teeth are in the lash; and the transmission error of planet 1's left
-mesh, over time and by orders of the mesh."""
+"""Force histories of the meshes, with the intervals in which teeth are in the backlash. Also the transmission error of planet 1's
+left mesh, over time and by orders of the mesh."""
 
 from itertools import pairwise
 
@@ -12,7 +12,7 @@ from . import svg_style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
 
-# inches
+# height of a panel, inches
 PANEL = 1.9
 SIDES = ("left", "right")
 SIGNAL, ANGLE = "planet[1].left_transmission_error", "planet[1].spin_angle"
@@ -21,7 +21,7 @@ UM = 1e6
 
 
 def section(run: Simulated) -> Section:
-    """A panel for each planet."""
+    """Section with a panel for each planet and side."""
     found = Section("forces", "Forces of the meshes")
     if not run.has_teeth:
         found.say("Ideal gears have no teeth, so that no mesh has a force or a lash.")
@@ -66,15 +66,15 @@ def _caption(run, drawn, alike):
             parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at {words.moment(run.time[k], run.time[-1])}, "
                          f"{lash}")
     same = f" Planet{'s' if len(alike) > 1 else ''} {words.listed(map(str, alike))}: the same to the last bit." if alike else ""
-    return (f"Normal force, its tooth pairs summed; shaded where neither drive nor coast flanks carry, as the points of every "
-            f"{words.quantity(1e3 * run.scene.step, 'ms')} tell. {'; '.join(parts)}.{same}")
+    return (f"Normal force, summed over tooth pairs; shaded if neither drive nor coast flanks are loaded, at communication points every "
+            f"{words.quantity(1e3 * run.scene.step, 'ms')}. {'; '.join(parts)}.{same}")
 
 
 def bands(times: np.ndarray, force: np.ndarray) -> list[tuple[float, float]]:
-    """Stretches of time in which a mesh carries nothing, neither on its drive nor on its coast flanks.
+    """Time intervals in which a mesh is unloaded, on both its drive and its coast flanks, in the unit of `times`.
 
-    `force`: normal force of the mesh at `times`, N; times may have any unit; a mesh in the lash has exactly none. A stretch reaches to the middle between
-    points with and without load, as more is not known."""
+    `force`: normal force of the mesh at `times`, N; in the backlash it is exactly zero. An interval ends in the middle between a point
+    with and a point without load, because the record has no points between them."""
     free = force == 0.0
     edges = np.flatnonzero(np.diff(free.astype(int)))
     middles = 0.5 * (times[edges] + times[edges + 1])
@@ -83,12 +83,12 @@ def bands(times: np.ndarray, force: np.ndarray) -> list[tuple[float, float]]:
 
 
 def share(times: np.ndarray, found: list[tuple[float, float]]) -> float:
-    """Part of the time that they take."""
+    """Fraction of the time in these intervals."""
     return sum(end - begin for begin, end in found) / (times[-1] - times[0])
 
 
 def transmission_error(run: Simulated) -> Section:
-    """The picture, or why there is none."""
+    """Section with the picture, or with the reason for its absence."""
     found = Section("error", "Transmission error and its orders")
     if not run.has_teeth:
         found.say("Ideal gears do not deflect: there is no transmission error.")
@@ -105,7 +105,7 @@ def transmission_error(run: Simulated) -> Section:
 
 
 def rolling(times: np.ndarray, angle: np.ndarray, teeth: int) -> slice:
-    """The longest stretch in which the planet turns one way, by at least one pitch. Raises `DifferentialError` with the reason."""
+    """Longest interval in which the planet turns in one direction, by at least one pitch. Raises `DifferentialError` with the reason."""
     sense = np.sign(np.diff(angle))
     edges = np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])
     best, turned = slice(0, 0), 0.0
@@ -121,7 +121,7 @@ def rolling(times: np.ndarray, angle: np.ndarray, teeth: int) -> slice:
 
 
 def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
-    """Amplitudes (m) of whole orders of the mesh over the last whole mesh cycles of a stretch: (orders, amplitudes)."""
+    """Amplitudes (m) of whole orders of the mesh over the last whole mesh cycles of an interval: (orders, amplitudes)."""
     teeth = int(run.value("geometry.planet_teeth"))
     phase, values = run.series(ANGLE)[part] * teeth, run.series(SIGNAL)[part]
     coarsest = float(np.abs(np.diff(phase)).max())
@@ -144,7 +144,7 @@ def _draw_error(picture, run, part, orders, sizes):
         panels[0].axvspan(times[part][0], times[part][-1], color=svg_style.GREEN, alpha=0.12, lw=0)
         panels[1].bar(orders, UM * sizes, color=svg_style.BLUE, width=0.5)
         panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
-        # a logarithmic axis within a decade has no round numbers to tell
+        # a logarithmic axis within a decade has no round numbers for its labels
         if sizes.max() > 10.0 * sizes.min():
             from .. import style
 

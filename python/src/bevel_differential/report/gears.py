@@ -1,4 +1,4 @@
-"""The gears: drawings and a table with the symbols of ISO 23509."""
+"""Gears of a scene: drawings and a table with the symbols of ISO 23509."""
 
 import math
 from dataclasses import replace
@@ -15,7 +15,7 @@ USUAL_FACE = 1.0 / 3.0
 
 
 def section(run: Simulated) -> Section:
-    """Both drawings and the table."""
+    """Section with both drawings and the table."""
     pair = pair_of(run)
     found = Section("gears", "The gears")
     found.add(Picture("section", draw_section(pair), _section_caption(pair)))
@@ -25,7 +25,7 @@ def section(run: Simulated) -> Section:
 
 
 def pair_of(run: Simulated) -> Pair:
-    """The pair with the cones that the FMU has."""
+    """Pair with the cones of the FMU."""
     names = [name for name in run.scene.fmu.variables if name.startswith("geometry.")]
     pair = Pair.of({name: run.value(name) for name in names})
     cones = ("pitch", "base", "tip", "root")
@@ -44,7 +44,7 @@ def _section_caption(pair):
     usual = "" if share <= USUAL_FACE else " Cut gears usually have at most a third of it, forged ones up to half."
     return (f"Axial section: side gears with {side.teeth} teeth on the carrier's axis, two of the {pair.planets} planets with "
             f"{planet.teeth} teeth across it" + ("" if pair.planets == 2 else " (turned into the section)") +
-            ". All cones meet in the apex. Teeth (the stronger colour) stand between root and tip cone over the face of "
+            ". All cones meet in the apex. Teeth (the stronger colour) are between root and tip cone over the face of "
             f"{words.mm(pair.face_width)}, {share:.2f} of the outer cone distance; dashed: pitch cones.{usual} Bodies end at "
             "planes through the root circles, as the FMU has them for masses.")
 

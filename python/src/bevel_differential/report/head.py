@@ -1,4 +1,4 @@
-"""The head of a report: what was run with what, how long it took, whether it can be trusted, and what the scene sets up."""
+"""Head of a report: program and scene, duration, verdicts, and set-up."""
 
 from collections.abc import Container
 
@@ -11,15 +11,15 @@ from . import strength, svg_style, words
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
-# work and heat that the balance of energy misses, as a share of what went through
+# largest error of the energy balance, as a fraction of the throughput
 BALANCED = 1e-4
 SOLVER = ("solver.method", "solver.relative_tolerance", "solver.fixed_step")
-# inches
+# height of a panel, inches
 PANEL = 1.7
 
 
 def section(run: Simulated) -> Section:
-    """Versions, solver and speed; warnings of the FMU; verdicts."""
+    """Section with versions, solver and speed, warnings of the FMU, and verdicts."""
     found = Section("head", "What was run")
     found.add(Table(("", ""), _facts(run), "Program and solver. Times were measured on the machine that wrote this report."))
     found.add(*verdicts(run))
@@ -28,11 +28,11 @@ def section(run: Simulated) -> Section:
 
 
 def verdicts(run: Simulated) -> list[Text]:
-    """Whether energy balances, whether the gears are strong enough, and how the torque is split."""
+    """Verdicts on the energy balance, the strength of the gears, and the split of the torque."""
     residual, throughput = energy_balance(run)
     share = residual / throughput if throughput else 0.0
     found = [Text(f"Energy balances to {words.quantity(residual, 'J', 2)} of the {words.quantity(throughput, 'J', 3)} that "
-                  f"went through ({words.percent(share, 2)}).", "verdict", share <= BALANCED)]
+                  f"passed through ({words.percent(share, 2)}).", "verdict", share <= BALANCED)]
     if "effects.strength" in run.refused:
         found.append(Text("No safety factor: there are no teeth whose stress could be rated.", "verdict"))
     else:
@@ -44,7 +44,7 @@ def verdicts(run: Simulated) -> list[Text]:
 
 
 def energy_balance(run: Simulated) -> tuple[float, float]:
-    """Largest residual of the energy, and the larger of the work that went in and the heat, J."""
+    """Largest residual of the energy balance, and the larger of input work and heat, J."""
     power = np.abs(run.series("power.in"))
     work = float(np.trapezoid(power, run.time))
     heat = sum(float(run.record[name][-1]) for name in run.scene.fmu.variables if name.startswith("heat."))
@@ -63,7 +63,7 @@ def _split(run):
 
 
 def program(fmu: Fmu) -> list[tuple[str, str]]:
-    """Package and FMU, by their names and versions."""
+    """Names and versions of package and FMU."""
     return [("package", f"bevel-differential {version() or '(from sources)'}"),
             ("FMU", f"{fmu.description.modelName} {fmu.description.version or ''}, FMI {fmu.description.fmiVersion}, co-simulation"),
             ("SHA-256 of the FMU", fmu.sha256)]
@@ -93,7 +93,7 @@ def _facts(run):
 
 
 def setup(run: Simulated) -> Section:
-    """Plan, values that differ from the start values, and inputs over time."""
+    """Section with plan, values that differ from the start values, and inputs over time."""
     found = Section("setup", "Set-up and plan")
     found.say(f"The FMU says that it simulates: {run.says}.")
     if not run.scene.values:
@@ -118,7 +118,7 @@ def setup(run: Simulated) -> Section:
 
 
 def values(scene: Scene, without: Container[str] = ()) -> Table:
-    """Values that a scene sets, beside those that the FMU starts with; `without` names that something else sets."""
+    """Values that a scene sets, next to the start values of the FMU; `without`: names to leave out, because something else sets them."""
     fmu = scene.fmu
     rows = []
     for name, value in scene.values.items():
@@ -145,6 +145,6 @@ def _inputs(run, names):
 
 @svg_style.drawn("inputs")
 def _draw(picture, run, names):
-    # the FMU holds an input between communication points
+    # the FMU holds inputs between communication points
     for panel in svg_style.over_time(picture, run, names, PANEL, held=True):
         panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))

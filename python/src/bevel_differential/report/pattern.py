@@ -1,4 +1,4 @@
-"""The contact pattern of planet 1 with the left side gear: the largest pressure that each place of a flank has seen."""
+"""Contact pattern of planet 1 with the left side gear: the largest pressure at each position of a flank during the run."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -13,11 +13,11 @@ from .simulated import Simulated
 
 PAIRS = 3
 ENDS = ("toe", "middle", "heel")
-# places along the profile and along the face
+# number of positions along the profile and along the face
 ROWS, COLUMNS = 240, 48
-# strips that are thinner than this part of the height (half of their width) are drawn so wide, to be seen
+# strips with a half width below this fraction of the height are drawn this wide, to be visible
 THINNEST = 0.006
-# relative radius of the flanks, over that at the pitch point, below which the foot of a flank is a seam: for the same load the
+# relative radius of the flanks over its value at the pitch point, below which the foot of a flank is a seam: for the same load, the
 # pressure is twice as high there
 LEAST_RADIUS = 0.25
 MM, MPA = 1e3, 1e6
@@ -28,10 +28,10 @@ FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 
 @dataclass(frozen=True)
 class Contacts:
-    """Loaded pairs on one kind of flank, by time and tooth: `time` (s), `tooth`, `force` (N), `height` (m, at the mean cone distance)
-    and `pressure` (Pa, shape (contacts, 3): toe, middle, heel); `half_width` of the strip of contact in the middle, m; `in_seam`: where
-    the flanks' relative radius is less than `LEAST_RADIUS` of that at the pitch point. Toward a base circle the radius vanishes, and
-    Hertz's pressure, which has no limit there, no longer has a meaning."""
+    """Loaded pairs on one kind of flank, by time and tooth: `time` (s), `tooth`, `force` (N), `height` (m, at the mean cone distance),
+    `pressure` (Pa, shape (contacts, 3): toe, middle, heel), and `half_width` of the strip of contact in the middle, m. `in_seam`: true
+    if the flanks' relative radius is less than `LEAST_RADIUS` of its value at the pitch point. Toward a base circle the radius vanishes,
+    so Hertz's pressure grows without limit and has no meaning."""
 
     time: np.ndarray
     tooth: np.ndarray
@@ -43,7 +43,7 @@ class Contacts:
 
     @classmethod
     def of(cls, run: Simulated, sign: float, pair: Pair) -> "Contacts":
-        """Those of a run on drive (+1) or coast flanks (−1)."""
+        """Contacts of a run on drive (+1) or coast flanks (−1)."""
         columns = []
         for k in range(1, PAIRS + 1):
             name = f"mesh.pair[{k}]"
@@ -62,12 +62,12 @@ class Contacts:
                    np.pi * pair.face_width * least * pressure[:, 1] ** 2 > force * modulus)
 
     def most(self) -> float:
-        """Largest pressure, Pa: of the flank without its seam, if there is such a contact."""
+        """Largest pressure, Pa, outside the seam if there is a contact outside."""
         return float((self.pressure if np.all(self.in_seam) else self.pressure[~self.in_seam]).max())
 
     def along(self, longest: float, step: float) -> Iterator[tuple[float, float, np.ndarray]]:
-        """(height, half width, pressures) at the contacts, and every `step` of height between those of one tooth that follow each other
-        within `longest` s."""
+        """Yields (height, half width, pressures) at the contacts, and interpolated values at most `step` of height apart between contacts
+        of one tooth that are at most `longest` s apart."""
         for k, height in enumerate(self.height):
             yield height, self.half_width[k], self.pressure[k]
             if k + 1 < len(self.height) and self.tooth[k + 1] == self.tooth[k] and self.time[k + 1] - self.time[k] <= longest:
@@ -78,7 +78,7 @@ class Contacts:
 
 
 def section(run: Simulated) -> Section:
-    """The picture, or why there is none."""
+    """Section with the picture, or with the reason for its absence."""
     found = Section("pattern", "Contact pattern")
     if not run.has_pairs:
         found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
@@ -96,14 +96,14 @@ def section(run: Simulated) -> Section:
 
 
 def radius_at_pitch(pair: Pair) -> float:
-    """Relative radius of curvature of the flanks at the pitch point, m at the mean cone distance: radii are R tan ψ."""
+    """Relative radius of curvature of the flanks at the pitch point, m at the mean cone distance. Each flank's radius is R tan ψ."""
     planet, side = (np.tan(gear.arc(gear.pitch)) for gear in pair.gears)
     return 0.5 * (pair.inner_cone + pair.outer_cone) * planet * side / (planet + side)
 
 
 def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longest: float) -> np.ndarray:
-    """Largest pressure (Pa), shape (heights, shares): at `heights` (m) along the profile at the mean cone distance, and at `shares`
-    of the face from the toe. Across the strip of contact it falls off as an ellipse."""
+    """Largest pressure (Pa), shape (heights, shares): at `heights` (m) along the profile at the mean cone distance, and at `shares` of
+    the face from the toe. Across the strip of contact, the pressure is elliptic."""
     # parabola through toe, middle and heel
     weights = np.array([(2.0 * shares - 1.0) * (shares - 1.0), 4.0 * shares * (1.0 - shares), shares * (2.0 * shares - 1.0)])
     largest, thinnest = np.zeros((len(heights), len(shares))), THINNEST * float(heights[-1] - heights[0])
@@ -163,7 +163,7 @@ def _caption(name, contacts, end):
     teeth = len(np.unique(contacts.tooth))
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:
-        return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth stand: contact is one line from toe to heel, "
+        return (f"{name.capitalize()} flanks: {who}, {peak}. The teeth do not roll: contact is one line from toe to heel, "
                 f"{words.quantity(low, 'mm', 3)} from the pitch line at the mean cone distance, as wide as "
                 f"Hertz's strip, {words.quantity(widest, 'mm', 2)}.")
     return (f"{name.capitalize()} flanks: {who}, {peak}; contact from {words.number(low, 3)} to {words.quantity(high, 'mm', 3)} "
@@ -179,6 +179,6 @@ def _reading(pair, loaded):
     seam = (f" The scale ends at the largest pressure outside the seam at the foot, where the flank's radius vanishes and Hertz's formula "
             f"gives up to {words.quantity(highest / MPA, 'MPa')}, which has no further meaning."
             if highest > max(contacts.most() for _, contacts in loaded) else "")
-    return (" Colour: the largest pressure that each place has seen, from the FMU's pressures at toe, middle and heel, all "
+    return (" Colour: the largest pressure at each position, from the FMU's pressures at toe, middle and heel, all "
             f"teeth laid on one flank of {words.quantity(MM * pair.face_width, 'mm')}. Teeth are straight: a line of contact "
-            f"runs along a ray through the apex. Right: how much one pair carries at which height.{thin}{seam}")
+            f"runs along a ray through the apex. Right: load of one pair over the height.{thin}{seam}")

@@ -1,8 +1,8 @@
-"""A run-up of the scene's gears: speeds rise in a constant ratio, under loads that stay.
+"""Run-up of the scene's gears: speeds rise in a constant ratio, under constant loads.
 
-The scene's drives are kept, because they decide which mesh orders there are: planets at imposed spin move together, so that with
-planets of alternating phase the odd orders cancel. Two speeds must be imposed for a constant ratio; a scene that imposes fewer gets
-that of the carrier, and then that of the left wheel."""
+The scene's drives are kept, because they decide on the mesh orders: planets at imposed spin move together, so that with planets of
+alternating phase the odd orders cancel. Two speeds must be imposed for a constant ratio. If the scene imposes fewer, the speed of
+the carrier is added, and then that of the left wheel."""
 
 from dataclasses import dataclass
 
@@ -15,42 +15,42 @@ from ..values import DifferentialError, Number
 from . import words
 from .simulated import Simulated
 
-# carrier speeds from and to, rad/s: 100 to 1000 rpm
+# lowest and highest carrier speed, rad/s: 100 and 1000 rpm
 SLOWEST, FASTEST = 100.0 * np.pi / 30.0, 1000.0 * np.pi / 30.0
-# spin of the planets over carrier speed where the scene has no steady one: a passenger car in a tight bend
+# spin of the planets over carrier speed if the scene has no steady ratio: a passenger car in a tight bend
 USUAL_RATIO = 0.2
-# planets roll where their spin is more than this part of the carrier's speed
+# planets roll if their spin is above this fraction of the carrier's speed
 ROLLING = 0.02
-# torque on each half-shaft where the scene has next to none, N·m, and what is next to none
+# torque on each half-shaft if the scene has next to none, N·m, and limit below which a torque counts as next to none, N·m
 USUAL_LOAD, LEAST_LOAD = 200.0, 5.0
-# turns of a planet in the run-up, and fewer where they would take more evaluations of the tooth forces than `MOST`
+# turns of a planet in the run-up, and fewer if they would take more evaluations of the tooth forces than `MOST`
 TURNS, FEWER, MOST = 80.0, 24.0, 4e6
-# s at the lowest speed until the start has died out, and s in which the speeds then begin to rise, so that shafts are not struck
+# time at the lowest speed until the start has died out, s; time over which the rise of the speeds then begins without a shock, s
 SETTLING, BEGINNING = 3.0, 1.0
-# points in a turn of a planet at the highest speed, and at least so many in a period of the highest order that theory expects
+# points per turn of a planet at the highest speed, and smallest number of points per period of the highest order of theory
 PER_TURN, PER_ORDER = 256, 6.0
-# where a scene has none, nothing dies out
+# if a scene has none of this damping, nothing dies out
 DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_damping")
-# multiples of the mesh order that count, and the beginning of the other order's name
+# number of multiples of the mesh order, and prefix of the other order's name
 MULTIPLES, RING = 6, "ring gear"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
 SHAFTS = ("left.shaft_torque", "right.shaft_torque")
 RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL, *SHAFTS)
 SPIN = "the planets' spin"
-# what may be driven at a speed: the literal that says so, and the command
+# possible speed drives: variable and literal that select the drive, and its command
 DRIVES = {"the carrier's speed": ("scene.carrier_drive", "speed", "carrier.speed_command"),
           "the left wheel's speed": ("scene.left_drive", "speed", "left.speed_command"),
           "the right wheel's speed": ("scene.right_drive", "speed", "right.speed_command"),
           SPIN: ("scene.planet_spin", "imposed", "spin.command")}
-# speeds that a differential has
+# number of independent speeds of a differential
 INDEPENDENT = 2
 
 
 @dataclass(frozen=True)
 class RunUp:
-    """Record of a run-up: `ratio` is spin over carrier speed; `imposed`: names of the speeds in DRIVES that are imposed; `loads`: mean
-    torques of the half-shafts; `changed` says what differs from the scene; `turns`: of a planet; `seconds`: how long it lasts;
+    """Record of a run-up. `ratio`: spin over carrier speed; `imposed`: names of the imposed speeds in DRIVES; `loads`: mean torques of
+    the half-shafts; `changed`: sentences about differences from the scene; `turns`: turns of a planet; `seconds`: duration, s;
     `is_driven_otherwise`: true if the scene imposes fewer speeds."""
 
     record: np.ndarray
@@ -69,7 +69,7 @@ class RunUp:
 
 
 def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
-    """Simulates it. Raises `DifferentialError` with the FMU's reason where it refuses."""
+    """Simulates the run-up. Raises `DifferentialError` with the FMU's reason if it refuses."""
     ratio, why_ratio = ratio_of(run)
     loads, why_loads = loads_of(run)
     imposed, why_imposed = imposed_of(run)
@@ -80,7 +80,7 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     per_turn = max(PER_TURN, int(PER_ORDER * max(theory(run, ratio).values())))
     step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
     for turns in (TURNS, FEWER):
-        # with a constant rate of all speeds the turns are mean spin times duration
+        # all speeds rise at a constant rate, so the turns are mean spin times duration
         seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
         record = _simulate(run.scene, values, commands, seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
@@ -90,8 +90,8 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
 
 
 def imposed_of(run: Simulated) -> tuple[list[str], list[str]]:
-    """Names of the speeds in DRIVES that the run-up imposes: those of the scene, with as many more as it takes to hold the ratio, and
-    a sentence for the added ones."""
+    """Names of the speeds in DRIVES that the run-up imposes, and a sentence about added ones. They are those of the scene, and others
+    until the ratio is fixed."""
     imposed = [name for name, (drive, literal, _) in DRIVES.items() if run.literal(drive) == literal]
     added = [name for name in DRIVES if name not in imposed][:INDEPENDENT - len(imposed)]
     if not added:
@@ -104,14 +104,14 @@ def imposed_of(run: Simulated) -> tuple[list[str], list[str]]:
 
 
 def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
-    """The commands of the imposed speeds over the speed of the carrier, by Willis' equation."""
+    """Commands of the imposed speeds over the speed of the carrier, by Willis' equation."""
     difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
     speeds = dict(zip(DRIVES, (1.0, 1.0 + difference, 1.0 - difference, ratio)))
     return {DRIVES[name][2]: speeds[name] for name in imposed}
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:
-    """Spin over carrier speed of the scene where its planets roll steadily, else the usual one and a sentence that says so."""
+    """Spin over carrier speed if the scene's planets roll steadily. Otherwise returns the usual ratio, and a sentence about it."""
     spin, carrier = run.series("planet[1].spin_speed"), run.series("carrier.speed")
     rolls = np.abs(spin) > ROLLING * np.max(np.abs(carrier), initial=1e-9)
     one_way = np.all(carrier > 0.0) or np.all(carrier < 0.0)
@@ -122,7 +122,7 @@ def ratio_of(run: Simulated) -> tuple[float, list[str]]:
 
 
 def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
-    """Mean torques of the half-shafts in the scene, else usual ones and a sentence that says so."""
+    """Mean torques of the half-shafts in the scene, or else usual loads and a sentence about them."""
     means = [float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right")]
     if min(abs(mean) for mean in means) >= LEAST_LOAD and means[0] * means[1] > 0.0:
         return (means[0], means[1]), []
@@ -131,10 +131,10 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
 
 
 def _values(run, commands, imposed, loads):
-    """What differs from the scene's values, and in words what a reader would not expect."""
+    """Values that differ from the scene's, and sentences about differences that a reader would not expect."""
     values: dict[str, Number | str] = {
         "scene.start": "rolling", "carrier.torque_command": sum(loads), "left.load_torque": loads[0], "right.load_torque": loads[1],
-        # the start takes the speed of a carrier that is driven by torque from here
+        # the start uses this speed for a carrier that is driven by torque
         "carrier.speed_command": SLOWEST, **{name: part * SLOWEST for name, part in commands.items()}}
     for name in imposed:
         drive, literal, _ = DRIVES[name]
@@ -156,7 +156,7 @@ def _values(run, commands, imposed, loads):
 
 
 def theory(run: Simulated, ratio: float) -> dict[str, float]:
-    """Orders per turn of a planet that theory expects, by name."""
+    """Orders per turn of a planet that theory predicts, by name."""
     teeth = int(run.value("geometry.planet_teeth"))
     found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
     if run.value("effects.final_drive"):
@@ -166,8 +166,8 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
 
 
 def _simulate(scene: Scene, values, commands, seconds, step, most, progress):
-    """Steps through with inputs that change straight with time, which the FMU follows between communication points as well. None
-    where it would take more than `most` evaluations, as far as its first tenth tells."""
+    """Simulates with inputs that change linearly, which the FMU follows between communication points. Returns None if the first tenth
+    predicts more than `most` evaluations."""
     points = int(np.ceil(seconds / step))
     rate = (FASTEST - SLOWEST) / (seconds - 0.5 * BEGINNING)
     record = np.empty(points + 1, [("time", float), *((name, float) for name in RECORDED)])

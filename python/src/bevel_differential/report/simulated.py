@@ -1,4 +1,4 @@
-"""The run that a report is about."""
+"""Run of the scene of a report."""
 
 import time
 from dataclasses import dataclass
@@ -9,27 +9,27 @@ import numpy as np
 from ..scene import Scene
 from ..values import DifferentialError, Number
 
-# effects that add outputs and change no motion; a test checks that the command `accuracy` has the same list
+# effects that only add outputs, without influence on motion; a test checks that the command `accuracy` has the same list
 ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history")
-# the fastest of several runs counts: most runs, and the time after which no further run begins, s
+# the fastest of several runs counts: maximum number of runs, and the total time after which no further run starts, s
 TIMED, SHORT = 3, 0.5
 # main speeds and torques, drawn in every report
 SPEEDS = ("carrier.speed", "left.speed", "right.speed", "planet[1].spin_speed")
 TORQUES = ("carrier.torque", "left.shaft_torque", "right.shaft_torque")
-# a curve is straight between its points if no more than MISSED of the points between leave it by more than LEFT of its range;
-# steps are halved until then, to MOST_POINTS points at most
+# lines between points are accurate if at most a fraction MISSED of the points in between deviates by more than the fraction LEFT of
+# the curve's range; until then steps are halved, up to MOST_POINTS points
 LEFT, MISSED, MOST_POINTS = 0.01, 0.02, 6000
 
 
 @dataclass(frozen=True)
 class Simulated:
-    """A scene and its record.
+    """Scene and its record.
 
-    `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: time of a run of the scene
-    as it is written. `says`: the FMU's own description of the simulated model. `added`: effects that only add outputs, switched
-    on for the record. `refused`: by such an effect, the FMU's reason to refuse it. `difference`: largest difference between the
-    scene's own outputs with and without the added effects, relative to their largest values. `drawn`: the scene's outputs, speeds and
-    torques at times so close that lines between them show how shafts ring."""
+    `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: time of a run of the scene as
+    it is written. `says`: the FMU's description of the simulated model. `added`: effects that only add outputs, switched on for the
+    record. `refused`: the FMU's reason to refuse such an effect, by effect. `difference`: largest difference between the scene's own
+    outputs with and without the added effects, relative to their largest values. `drawn`: the scene's outputs, speeds and torques at
+    times so close that lines between them show the oscillations of the shafts."""
 
     scene: Scene
     record: np.ndarray
@@ -68,27 +68,27 @@ class Simulated:
                    _difference(as_written, record), _drawn(scene))
 
     def value(self, name: str) -> Number:
-        """A parameter or the start of an input, SI."""
+        """Value of a parameter, or of an input at the start, SI."""
         return self.scene.value(name)
 
     def literal(self, name: str) -> str:
-        """The name of the choice that a parameter is set to."""
+        """Name of the choice that a parameter is set to."""
         return str(self.scene.fmu.variable(name).written(self.value(name)))
 
     def series(self, name: str) -> np.ndarray:
-        """An output over time, SI, as floats."""
+        """Output over time, SI, as floats."""
         return self.record[name].astype(float)
 
     def shown(self, name: str) -> np.ndarray:
-        """An output over time in the unit that it is usually shown in."""
+        """Output over time in its display unit."""
         return self.scene.fmu.variable(name).shown(self.series(name))[1]
 
     def unit(self, name: str) -> str:
-        """The unit that a variable is usually shown in."""
+        """Display unit of a variable."""
         return self.scene.fmu.variable(name).shown(0.0)[0]
 
     def constant(self, name: str) -> float:
-        """A calculated parameter, SI."""
+        """Value of a calculated parameter, SI."""
         return float(self.record[name][-1])
 
     @property
@@ -98,17 +98,17 @@ class Simulated:
 
     @property
     def has_teeth(self) -> bool:
-        """Whether forces come from meshes."""
+        """True if forces come from meshes."""
         return self.literal("scene.gear_contact") != "ideal"
 
     @property
     def has_pairs(self) -> bool:
-        """Whether teeth touch pair by pair."""
+        """True if forces are calculated for each tooth pair."""
         return self.literal("scene.gear_contact") in ("tooth", "solid")
 
 
 def reason_of(error: DifferentialError) -> str:
-    """The FMU's own reason in a refusal, in one line."""
+    """Reason of the FMU in a refusal, in one line."""
     lines = str(error).splitlines()
     return "; ".join(lines[1:] if len(lines) > 1 and lines[0].endswith(":") else lines)
 

@@ -1,5 +1,5 @@
-"""Stresses that the rating uses, each with the strength that it is compared with (docs/inside/theory.md, section 10), and safety; and
-whether safety and damage are those of the start, where teeth that carried nothing met their load with a blow."""
+"""Rated stresses with their strengths (docs/inside/theory.md, section 10), and safety. Warns if safety and damage belong to the start, when
+unloaded teeth met their load with an impact."""
 
 import math
 from dataclasses import dataclass
@@ -21,35 +21,35 @@ RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
          ("damage.planet_flank", "Miner sum of pitting, worst planet"),
          ("damage.side_flank", "Miner sum of pitting, worse side gear"))
-# what the FMU's message begins with where ratings count a start out of equilibrium
+# prefix of the FMU's message if ratings count a start out of equilibrium
 MESSAGE = "strength.rate_from: "
-# by how much the rest of the run must be better for the start to be the worst of it
+# the start counts as the worst part if the factor of the remaining run is better by at least this ratio
 BETTER = 1.1
 
 
 @dataclass(frozen=True)
 class Limited:
-    """A stress over time and its limit then, Pa; `output`: its name."""
+    """Stress over time and its limit, Pa; `output`: name of the stress."""
 
     output: str
     stress: np.ndarray
     limit: np.ndarray
 
     def worst(self) -> int:
-        """The point at which the stress is the largest part of its limit."""
+        """Index of the point at which stress over limit is largest."""
         return int(np.argmax(self.stress / self.limit))
 
 
 def limits(run: Simulated) -> tuple[Limited, ...]:
-    """Flanks, roots of the planets, roots of the side gears."""
+    """Stresses and limits of the flanks, the roots of the planets, and the roots of the side gears."""
     bending, contact = (np.full(len(run.time), float(run.value(f"strength.{kind}_strength"))) for kind in ("bending", "contact"))
-    # teeth of planets that roll are loaded on both flanks
+    # teeth of rolling planets are loaded on both flanks
     planets = np.where(rolls(run), float(run.value("strength.idler_factor")), 1.0) * bending
     return tuple(Limited(name, run.series(name), limit) for name, limit in zip(LABELS, (contact, planets, bending)))
 
 
 def rolls(run: Simulated) -> np.ndarray:
-    """At each point, whether a planet has rolled on since the one before: a tooth pitch of play is no rolling."""
+    """True for each point if a planet has rolled since the point before. Motion within a tooth pitch does not count as rolling."""
     pitch = 2.0 * math.pi / float(run.value("geometry.planet_teeth"))
     found = np.zeros(len(run.time), dtype=bool)
     for planet in range(1, int(run.value("geometry.planet_count")) + 1):
@@ -58,7 +58,7 @@ def rolls(run: Simulated) -> np.ndarray:
 
 
 def section(run: Simulated) -> Section:
-    """The picture and the ratings."""
+    """Section with the picture and the ratings."""
     found = Section("strength", "Stresses and safety")
     reason = run.refused.get("effects.strength")
     if reason:
@@ -90,7 +90,7 @@ def _draw(picture, run, stresses: tuple[Limited, ...]):
             label, colour = LABELS[limited.output]
             panel.plot(times, limited.stress / MPA, color=colour, label=label)
             top = max(top, float(np.max(limited.stress)) / MPA, float(np.max(limited.limit)) / MPA)
-            # rolling is told of the step that ends at a point
+            # rolling at a point describes the step that ends there
             panel.step(times, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
         panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -117,7 +117,7 @@ def _caption(run, stresses):
 
 
 def notes(run: Simulated) -> list[str]:
-    """A sentence for each of roots and flanks whose smallest safety factor is in the start; none where none is."""
+    """Sentences about the roots and the flanks if their smallest safety factor belongs to the start; otherwise none."""
     if not any(warning.startswith(MESSAGE) for warning in run.warnings):
         return []
     bending, contact = (float(run.value(f"strength.{kind}_strength")) for kind in ("bending", "contact"))
@@ -127,7 +127,7 @@ def notes(run: Simulated) -> list[str]:
                                  ("flanks", "safety.flank_min", {"stress.contact_rated": contact})):
         factor, half = run.series(name), len(run.time) // 2
         least = factor[-1]
-        # the factor only falls: it is the smallest from here on
+        # the factor never rises, so it has its smallest value from here on
         moment = int(np.argmax(factor <= least * (1.0 + 1e-6)))
         largest = max(float(np.max(run.series(stress)[half:])) / strength for stress, strength in stresses.items())
         if moment < half and largest > 0.0 and 1.0 / largest > BETTER * least:
@@ -138,7 +138,7 @@ def notes(run: Simulated) -> list[str]:
 
 
 def advice(run: Simulated) -> str:
-    """The same with what helps; empty where the start is not the worst of the run."""
+    """Text of `notes` with the remedy; empty if the start is not the worst part of the run."""
     found = notes(run)
     if not found:
         return ""
@@ -147,5 +147,5 @@ def advice(run: Simulated) -> str:
 
 
 def where(run: Simulated) -> str:
-    """What to add to figures of the whole run."""
+    """Addition to values of the whole run that belong to the start."""
     return " (in the start, see stresses and safety)" if notes(run) else ""

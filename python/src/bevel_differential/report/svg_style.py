@@ -1,4 +1,4 @@
-"""The style of all pictures in a report. Letters and axes take the colour of the page's text, light or dark."""
+"""Style of all pictures in a report. Letters and axes have the colour of the page's text, light or dark."""
 
 import io
 import re
@@ -20,9 +20,9 @@ BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY = "#2f7fc1", "#d1495b", "#4a9a5a", 
 CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d08cb0"]
 # width of a picture, inches
 WIDTH = 10.0
-# placeholder for the colour of the page's text: `_svg` writes `currentColor` in its place
+# placeholder for the colour of the page's text; `_svg` replaces it by `currentColor`
 TEXT_COLOUR = "#0a0b0d"
-# beginning of the ids of artists that show data, by which tests find empty pictures
+# prefix of the ids of artists that show data, by which tests find empty pictures
 MARK = "mark"
 
 
@@ -37,8 +37,8 @@ STYLE = {
 
 
 def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Callable[..., str]]:
-    """Decorates a function that draws into its first argument, an empty picture. The decorated function makes the picture and
-    returns it as an `svg` element, whose ids begin with `name`. Panels arrange themselves; `height` in inches."""
+    """Decorator for a function that draws into its first argument, an empty picture. The decorated function creates the picture and
+    returns it as an `svg` element, whose ids start with `name`. Panels are arranged automatically; `height` in inches."""
     def decorated(draw):
         @wraps(draw)
         def written(*arguments):
@@ -55,13 +55,13 @@ def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Cal
 
 
 def unit_prefix(values: Sequence[np.ndarray]) -> tuple[float, str]:
-    """Divisor of shown values and prefix of their unit: (1000, "k") where the largest magnitude is 1000 or more, else (1, "")."""
+    """Divisor of displayed values and prefix of their unit: (1000, "k") if the largest magnitude is 1000 or more, else (1, "")."""
     largest = max(float(np.max(np.abs(each), initial=0.0)) for each in values)
     return (1e3, "k") if largest >= 1e3 else (1.0, "")
 
 
 def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_height: float, held: bool = False) -> np.ndarray:
-    """Draws outputs over time, a panel for each unit; as steps if values are `held` between communication points."""
+    """Draws outputs over time, with a panel for each unit. Values that are `held` between communication points are drawn as steps."""
     names = list(names)
     record = run.record if held or not set(names) <= set(run.drawn.dtype.names or ()) else run.drawn
     panels = by_unit(run.scene.fmu, record, names)
@@ -75,8 +75,8 @@ def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_h
 
 
 def _svg(picture: "Figure", name: str) -> str:
-    """The picture as an `svg` element. Its ids begin with `name`, so that they do not clash with those of other pictures."""
-    # artists that show data; grids, axes and letters are not among them
+    """Picture as an `svg` element. Its ids start with `name`, so that they do not clash with those of other pictures."""
+    # artists that show data, without grids, axes and letters
     shown = [artist for axes in picture.get_axes() if axes.get_label() != "<colorbar>"
              for artist in (*axes.lines, *axes.collections, *axes.patches, *axes.images)]
     for number, artist in enumerate(shown, 1):
@@ -92,4 +92,3 @@ def _svg(picture: "Figure", name: str) -> str:
     # further fonts for machines without DejaVu Sans
     text = text.replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, sans-serif")
     return text.replace(TEXT_COLOUR, "currentColor").strip()
-

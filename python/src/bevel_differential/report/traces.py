@@ -1,4 +1,4 @@
-"""The outputs of the scene over time and by their statistics; speeds; torques."""
+"""Outputs of the scene over time, with their statistics; speeds; torques."""
 
 import numpy as np
 
@@ -8,11 +8,11 @@ from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import SPEEDS, TORQUES, Simulated
 
-# inches
+# height of a panel, inches
 PANEL = 1.55
 ROUNDING = 1e-12
 STATISTICS = ("mean", "min", "max", "rms", "peak_to_peak", "final")
-# besides the scene's own outputs; those of meshes where there are some
+# shown in addition to the scene's own outputs; those of meshes only if there are teeth
 MAIN = ("carrier.speed", "left.speed", "right.speed", "planet[1].spin_speed", "carrier.torque", "left.shaft_torque",
         "right.shaft_torque", "power.in", "power.out", "power.loss")
 OF_MESHES = ("planet[1].left_normal_force", "planet[1].right_normal_force", "left.tangential_force", "right.tangential_force",
@@ -20,7 +20,7 @@ OF_MESHES = ("planet[1].left_normal_force", "planet[1].right_normal_force", "lef
 
 
 def section(run: Simulated) -> Section:
-    """All three pictures."""
+    """Section with all three pictures."""
     found = Section("traces", "Traces")
     for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds),
                                    ("torques", TORQUES, _torques)):
@@ -29,7 +29,7 @@ def section(run: Simulated) -> Section:
 
 
 def _draw(picture, run, names):
-    """Outputs over time. The range of a curve that is constant but for rounding, which would be drawn as noise, is widened."""
+    """Draws outputs over time. A constant curve gets a wider range, so that its rounding errors are not drawn as noise."""
     axes = svg_style.over_time(picture, run, names, PANEL)
     if len(axes) == 1:
         picture.set_figheight(1.6 * PANEL + 0.6)
@@ -49,7 +49,7 @@ def _ranges(run):
         low, high = words.number(values.min()), words.number(values.max())
         parts.append(f"{name} {words.quantity(values[-1], unit)}" if low == high
                      else f"{name} {low} to {words.quantity(values.max(), unit)}")
-    return f"What the scene records: {'; '.join(parts)}."
+    return f"Recorded by the scene: {'; '.join(parts)}."
 
 
 def _speeds(run):
@@ -60,7 +60,7 @@ def _speeds(run):
     mean = float(np.max(np.abs(0.5 * (left + right) - carrier)))
     size = max(float(np.max(np.abs(carrier))), float(np.max(np.abs(left))), 1e-300)
     if np.abs(apart[k]) < 1e-6 * size:
-        split = "Both side gears turn alike all the time"
+        split = "Both side gears turn equally all the time"
     else:
         split = (f"The side gears are farthest apart at {words.moment(run.time[k], run.time[-1])}: left {words.number(left[k])}, right "
                  f"{words.quantity(right[k], unit)}")
@@ -74,20 +74,20 @@ def _torques(run):
     unit = words.unit_text(run.unit("carrier.torque"))
     means = [words.number(float(np.mean(values))) for values in (carrier, left, right)]
     return (f"Torque of the drive on the carrier and of the half-shafts on the wheels; on the mean carrier {means[0]}, left "
-            f"{means[1]} and right {means[2]} {unit}; what is missing between them speeds bodies up or is lost. Largest: carrier "
+            f"{means[1]} and right {means[2]} {unit}; the difference accelerates bodies or is lost. Largest: carrier "
             f"{words.number(np.max(np.abs(carrier)))}, left "
             f"{words.number(np.max(np.abs(left)))}, right {words.quantity(np.max(np.abs(right)), unit)}.")
 
 
 def key_figures(run: Simulated) -> Section:
-    """The key table: outputs by their statistics."""
+    """Section with the key table: outputs and their statistics."""
     found = Section("key", "Key figures")
     rows = []
     for name in main_outputs(run):
         variable = run.scene.fmu.variable(name)
         unit, _ = variable.shown(0.0)
         figures = figures_of(STATISTICS, run.time, run.series(name))
-        # what is left of a difference of large numbers is rounding
+        # small remainders of large numbers are rounding errors
         rounding = ROUNDING * max(map(abs, figures))
         quantities = [Want(name, Statistic(word)).quantity(run.scene.fmu) for word in STATISTICS]
         rounded = [quantity.shown(figure if abs(figure) > rounding else 0.0)[1] for quantity, figure in zip(quantities, figures)]
@@ -100,5 +100,5 @@ def key_figures(run: Simulated) -> Section:
 
 
 def main_outputs(run: Simulated) -> list[str]:
-    """The scene's outputs, and those that count in every scene."""
+    """Outputs of the scene, and those that are important in every scene."""
     return list(dict.fromkeys([*run.scene.outputs, *MAIN, *(OF_MESHES if run.has_teeth else ())]))

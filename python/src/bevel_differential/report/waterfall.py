@@ -1,6 +1,6 @@
-"""The waterfall of a run-up: orders of the transmission error against speed, with the orders that theory expects.
+"""Waterfall of a run-up: orders of the transmission error against speed, with the orders that theory predicts.
 
-Order tracking: a signal over time becomes one over an angle, and its spectra count periods per turn."""
+Order tracking resamples a signal from time to an angle, so its spectra count periods per turn."""
 
 from dataclasses import dataclass
 
@@ -14,18 +14,18 @@ from .blocks import Picture, Section, Table
 from .runup import ANGLE, FASTEST, MULTIPLES, RING, SIGNAL, SLOWEST, RunUp, run_up, theory
 from .simulated import Simulated, reason_of
 
-# turns of a planet in a window: lines are 1/8 of an order apart
+# turns of a planet in a window: spectral lines are 1/8 of an order apart
 WINDOW = 8
-# lines that are listed, and how far below the strongest they may be
+# maximum number of listed lines, and their smallest amplitude relative to the strongest
 STRONGEST, FLOOR = 8, 2e-3
-# decades of amplitude that colours show
+# decades of amplitude in the colour scale
 DECADES = 3.0
 UM, RPM = 1e6, 30.0 / np.pi
 TURN = 2.0 * np.pi
-# points in a period of the highest order: of a record at least, and of the signal over the angle. These are many, so that what the
-# record has above the orders of interest does not come back among them
+# points in a period of the highest order: minimum of a record, and of the signal over the angle. The second number is large, so
+# that content above the orders of interest is not aliased to them
 PER_PERIOD, FINER = 4, 16
-# of neighbouring windows
+# overlap of neighbouring windows
 OVERLAP = 0.75
 
 
@@ -33,8 +33,8 @@ OVERLAP = 0.75
 class Waterfall:
     """Spectra of windows along an angle.
 
-    `orders`: periods per turn, shape (orders,). `speeds`: mean of the speed that goes with each window, shape (windows,).
-    `amplitudes`: of the signal, shape (windows, orders). `resolution`: distance of two lines, periods per turn."""
+    `orders`: periods per turn, shape (orders,). `speeds`: mean speed in each window, shape (windows,). `amplitudes`: amplitudes of the
+    signal, shape (windows, orders). `resolution`: distance of two lines, periods per turn."""
 
     orders: np.ndarray
     speeds: np.ndarray
@@ -43,26 +43,26 @@ class Waterfall:
 
     @property
     def mean(self) -> np.ndarray:
-        """Effective amplitude over all windows, shape (orders,)."""
+        """Root mean square of the amplitudes over all windows, shape (orders,)."""
         return np.sqrt(np.mean(np.square(self.amplitudes), axis=0))
 
     def strongest(self, count: int, floor: float) -> list[tuple[float, float]]:
-        """(order, amplitude) of the strongest peaks above `floor` times the highest, the strongest first. A peak is higher than all
-        within two lines, which is the width that the window gives to a pure tone."""
+        """(order, amplitude) of the strongest peaks above `floor` times the highest, the strongest first. A peak is higher than all lines
+        within two lines of it, because the window spreads a pure tone this far."""
         mean = self.mean
         peaks = [k for k in range(2, len(mean) - 2) if mean[k] == max(mean[k - 2:k + 3]) and mean[k] > floor * mean.max()]
         found = sorted(((self._place(k), float(mean[k])) for k in peaks), key=lambda peak: -peak[1])
         return found[:count]
 
     def _place(self, k):
-        """Order of a peak, by a parabola through the logarithms of it and its neighbours."""
+        """Order of a peak, by a parabola through the logarithms of the peak and its neighbours."""
         low, middle, high = np.log(np.maximum(self.mean[k - 1:k + 2], 1e-300))
         bend = low - 2.0 * middle + high
         return float(self.orders[k] + (0.5 * (low - high) / bend if bend < 0.0 else 0.0) * self.resolution)
 
 
 def section(run: Simulated, progress: Progress = silent) -> Section:
-    """The picture and the table of orders, or why there are none."""
+    """Section with the picture and the table of orders, or with the reason why there are none."""
     found = Section("waterfall", "Waterfall of a run-up")
     if not run.has_pairs:
         found.say(f"With scene.gear_contact = {run.literal('scene.gear_contact')} there are no single tooth pairs, so that "
@@ -75,7 +75,7 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
         spectra = waterfall(up.record[ANGLE], up.record[SIGNAL], np.abs(up.record["carrier.speed"]), WINDOW,
                             1.06 * max(expected.values()))
     except DifferentialError as reason:
-        found.say(f"The run-up could not be made: {reason_of(reason)}.")
+        found.say(f"The run-up failed: {reason_of(reason)}.")
         return found
     found.say(_how(up))
     found.add(Picture("waterfall", _draw(run, spectra, expected), _caption(run, up, spectra, expected)))
@@ -91,7 +91,7 @@ def _how(up: RunUp):
             f"carry {words.number(up.loads[0])} (left) and "
             f"{words.quantity(up.loads[1], 'N·m')} (right) on the mean.{unlike_scene} The signal is the transmission error of planet 1 "
             "with the left side gear: loads are imposed, which leaves little to see in the forces of the mesh, while the deflection "
-            "shows every change of stiffness. It is resampled over the planet's angle, so that orders stand upright.")
+            "shows every change of stiffness. It is resampled over the planet's angle, so that orders are vertical lines.")
 
 
 def _drives(up):
@@ -148,7 +148,7 @@ def _caption(run, up, spectra, expected):
             f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}{named}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
             f"{words.quantity(course[k], 'µm', 3)}, the most at {words.quantity(spectra.speeds[k] * RPM, 'rpm', 3)}."
-            f"{' It hardly changes with the speed: no critical speed lies in this range.' if course[k] < 1.2 * course.min() else ''} "
+            f"{' It hardly changes with the speed: there is no critical speed in this range.' if course[k] < 1.2 * course.min() else ''} "
             f"Theory has no free constant: {marks}.")
 
 
@@ -171,7 +171,7 @@ def _table(run, spectra, expected):
 
 
 def _named(run, expected, side, order):
-    """Orders of theory near an order, with names; turns of single gears beside those of the mesh, where teeth are not alike."""
+    """Orders of theory near an order, with names. If teeth differ, turns of single gears are added to the mesh orders."""
     teeth = int(run.value("geometry.planet_teeth"))
     nearest = max(1, round(order / teeth))
     named = [*expected.items(), (f"mesh {nearest} × {teeth}", float(nearest * teeth))]
@@ -187,16 +187,16 @@ def _named(run, expected, side, order):
 
 
 def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np.ndarray, np.ndarray]:
-    """`values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
+    """Resamples `values` at equal steps of a monotone `angle` (rad): (angles, values), `per_turn` points in a turn.
 
-    A point is the mean over its step, so that orders far above do not come back as low ones: those at multiples of `per_turn`,
-    which would fall on the lowest, vanish in it. Of the others it leaves sin x / x with x = π order / per_turn."""
+    A point is the mean over its step, which avoids aliasing: orders at multiples of `per_turn`, which would be aliased to the lowest
+    orders, vanish in the mean. The amplitudes of other orders are multiplied by sin x / x with x = π order / per_turn."""
     angle, values = (angle, values) if angle[-1] > angle[0] else (-angle, values)
     if np.any(np.diff(angle) <= 0.0):
         raise DifferentialError("orders are counted by an angle that turns one way")
     step = TURN / per_turn
     edges = angle[0] + np.arange(int((angle[-1] - angle[0]) / step) + 1) * step
-    # the integral over the angle, by cubic pieces whose slopes are the values
+    # the integral over the angle by cubic pieces, whose slopes are the values
     slopes = np.gradient(values, angle)
     widths = np.diff(angle)
     pieces = 0.5 * widths * (values[1:] + values[:-1]) + widths**2 / 12.0 * (slopes[:-1] - slopes[1:])
@@ -210,11 +210,11 @@ def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np
 
 
 def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: int, highest: float) -> Waterfall:
-    """Spectra up to the order `highest` over windows (Hann) of so many turns of `angle` (rad), which overlap; `speed` labels them."""
+    """Spectra up to the order `highest` over overlapping windows (Hann) of `turns` turns of `angle` (rad); `speed` labels them."""
     coarsest = float(np.abs(np.diff(angle)).max()) / TURN
     if coarsest * highest * PER_PERIOD > 1.0:
         raise DifferentialError(f"a period of order {highest:.4g} has only {1.0 / (coarsest * highest):.2g} points of the "
-                                f"record, and needs {PER_PERIOD}: take shorter steps")
+                                f"record, and needs {PER_PERIOD}: use shorter steps")
     per_turn = int(2 ** np.ceil(np.log2(FINER * highest)))
     even, resampled = over_angle(angle, values, per_turn)
     ordered = np.argsort(angle)
@@ -228,12 +228,12 @@ def waterfall(angle: np.ndarray, values: np.ndarray, speed: np.ndarray, turns: i
     spectra = []
     for begin in begins:
         part = resampled[begin:begin + size]
-        # the slow trend is not an order
+        # a linear trend is not an order
         swing = part - np.polynomial.Polynomial.fit(np.arange(size), part, 1)(np.arange(size))
         spectra.append(2.0 * np.abs(np.fft.rfft(window * swing)) / window.sum())
     speeds = np.array([labels[begin:begin + size].mean() for begin in begins])
     orders = np.arange(size // 2 + 1) / turns
     shown = orders <= highest
-    # what the mean over a step leaves of orders
+    # corrects the attenuation by the mean over a step
     amplitudes = np.array(spectra)[:, shown] / np.sinc(orders[shown] / per_turn)
     return Waterfall(orders[shown], speeds, amplitudes, 1.0 / turns)

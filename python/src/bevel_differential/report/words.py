@@ -1,4 +1,4 @@
-"""Numbers and units as the report writes them."""
+"""Texts of numbers and units in the report."""
 
 from collections.abc import Iterable
 
@@ -9,7 +9,7 @@ DIGITS = 4
 
 
 def number(value: float, digits: int = DIGITS) -> str:
-    """A number with so many significant digits; below 1e7 all digits before the point are kept, without an exponent."""
+    """Text of a number with `digits` significant digits. Below 1e7, all digits before the point are kept, without an exponent."""
     text = f"{value:.{digits}g}"
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
@@ -17,12 +17,12 @@ def number(value: float, digits: int = DIGITS) -> str:
 
 
 def unit_text(unit: str) -> str:
-    """A unit as it is printed."""
+    """Printed form of a unit."""
     return unit.replace(".", "·").replace("um", "µm").replace("^1·5", "^1.5")
 
 
 def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
-    """A number with its unit."""
+    """Text of a number with its unit."""
     return f"{number(value, digits)} {unit_text(unit)}".strip()
 
 
@@ -33,12 +33,12 @@ def moment(time: float, duration: float) -> str:
 
 
 def mm(length: float) -> str:
-    """A length, m, in millimetres."""
+    """Text of a length, m, in millimetres."""
     return quantity(1e3 * length, "mm")
 
 
 def shown(variable: Variable, value: Number, digits: int = DIGITS) -> str:
-    """A value of a variable in the unit that it is usually shown in; a literal by its name."""
+    """Text of a variable's value in its display unit, or of a literal by its name."""
     if variable.kind == "Boolean":
         return str(bool(value)).lower()
     if variable.literals:
@@ -48,16 +48,16 @@ def shown(variable: Variable, value: Number, digits: int = DIGITS) -> str:
 
 
 def percent(part: float, digits: int = 3) -> str:
-    """A fraction in per cent."""
+    """Text of a fraction in per cent."""
     return f"{number(100.0 * part, digits)} %"
 
 
 def signed(value: float, digits: int = 3) -> str:
-    """A number with its sign."""
+    """Text of a number with its sign."""
     return f"{'+' if value > 0.0 else ''}{number(value, digits)}"
 
 
 def listed(words: Iterable[str], last: str = "and") -> str:
-    """"a, b and c"."""
+    """Joined words, such as "a, b and c"."""
     words = list(words)
     return f"{', '.join(words[:-1])} {last} {words[-1]}" if len(words) > 1 else "".join(words)

@@ -1,4 +1,4 @@
-"""What effects that the scene leaves off would change, and what they would cost."""
+"""Changes and costs of the effects that are off in the scene."""
 
 import re
 import time
@@ -15,25 +15,25 @@ from .blocks import Picture, Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
 from .traces import main_outputs
 
-# effects that say what is built in, broken or driven: part of the question, not of how closely it is looked at. A test holds the
-# command `accuracy` to the same ones
+# effects that describe what is installed, broken or driven. They are part of the question, not of the accuracy of the answer. A test
+# checks that the command `accuracy` has the same list
 PART_OF_THE_QUESTION = ("effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake")
-# the largest changes that the table names
+# number of largest changes in the table
 NAMED = 3
 PREFIX = "effects."
 TOGETHER = "all of these together"
-# a run that should change nothing: what it changes is what rounding and the solver do
+# a run that should change nothing: its changes show the influence of rounding and of the solver
 CONTROL = "tolerance halved"
 TOLERANCE = "solver.relative_tolerance"
-# changes up to so many times the solver's tolerance are its own
+# changes up to this multiple of the solver's tolerance are attributed to the solver
 NOISE = 10.0
 
 
 @dataclass(frozen=True)
 class Tried:
-    """A run with an effect on. `mean` and `swing`: by output the change of its mean and of its peak-to-peak value, relative to the
+    """Run with an effect switched on. `mean` and `swing`: change of the mean and of the peak-to-peak value by output, relative to the
     largest value of its kind in the scene; `nothing`: changes up to this are within the solver's tolerance; `calls` and `seconds`:
-    evaluations and time, times those of the scene; `refused`: why there is none."""
+    evaluations and time, relative to those of the scene; `refused`: reason if the FMU refused the run."""
 
     name: str
     nothing: float
@@ -45,12 +45,12 @@ class Tried:
 
     @property
     def changes(self) -> bool:
-        """Whether it changes anything."""
+        """True if the effect changes any output."""
         return any(abs(change) > self.nothing for change in (*self.mean.values(), *self.swing.values()))
 
 
 def section(run: Simulated, progress: Progress = silent) -> Section:
-    """A run for each effect that is off, and one with all of them."""
+    """Section with a run for each effect that is off, and a run with all of them."""
     found = Section("worth", "What is switched off, and what it is worth")
     variables = run.scene.fmu.variables
     switches = [name for name, variable in variables.items() if name.startswith(PREFIX) and variable.kind == "Boolean"]
@@ -68,13 +68,13 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
     if any(one.changes for one in tried if one.name != CONTROL):
         found.add(Picture("worth", _draw(tried), _caption(tried)))
     found.add(_table(run, tried))
-    found.say("What accuracy of what quantity needs which of these is the question of the command accuracy: "
+    found.say("The command accuracy finds the effects that a quantity needs for a given accuracy: "
               "bevel-differential accuracy NAME --want OUTPUT:STATISTIC --within 1%.")
     return found
 
 
 def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
-    """The scene with these values."""
+    """Runs the scene with these values."""
     outputs = list(dict.fromkeys([*main_outputs(run), "solver.rhs_calls"]))
     begin = time.perf_counter()
     try:
@@ -94,7 +94,7 @@ def attempt(run: Simulated, label: str, values: dict[str, Number]) -> Tried:
 
 
 def _sizes(run):
-    """By output the largest value of all outputs of its unit; without a unit its own."""
+    """Largest value of all outputs with the same unit, by output. An output without a unit has its own largest value."""
     names = main_outputs(run)
     largest = {name: float(np.max(np.abs(run.series(name)))) for name in names}
     units = {name: run.scene.fmu.variable(name).unit for name in names}
@@ -106,7 +106,7 @@ def _sizes(run):
 
 
 def together(run: Simulated, names: list[str]) -> Tried:
-    """All effects at once; those that the FMU names in a refusal go, and are named."""
+    """Runs all effects together. Effects that the FMU refuses are left out, and listed in the name of the run."""
     left, gone = list(names), []
     while True:
         found = attempt(run, TOGETHER, dict.fromkeys(left, True))
@@ -123,11 +123,11 @@ def _named(run, switches, off):
     on = [name.removeprefix(PREFIX) for name in switches if run.value(name) and name not in ONLY_GIVE_OUTPUTS]
     question = [name.removeprefix(PREFIX) for name in PART_OF_THE_QUESTION if name in off]
     return (f"On in the scene: {words.listed(on) or 'nothing'}. " + (
-        f"Not tried: {words.listed(question)}, as what is built in, broken or driven is part of the question and not of how "
-        "closely it is looked at. " if question else "") +
-        "Each other effect that is off was switched on by itself, with its parameters as the scene has them; its change is "
-        "that of the whole run, start included. The first run only halves the solver's tolerance: where that changes "
-        "something, as where teeth strike again and again, changes of this size by an effect tell nothing.")
+        f"Not tried: {words.listed(question)}, because what is installed, broken or driven is part of the question and not of the "
+        "accuracy of the answer. " if question else "") +
+        "Each other effect that is off was switched on separately, with the parameters of the scene; its change is that of the whole "
+        "run, including the start. The first run only halves the solver's tolerance: if that changes something, for example because "
+        "teeth strike again and again, changes of this size by an effect mean nothing.")
 
 
 @svg_style.drawn("worth")
@@ -136,7 +136,7 @@ def _draw(picture, tried):
     outputs = list(rows[0].mean)
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
 
-    # clear in the middle, so that the page's colour shows
+    # transparent in the middle, so that the page's colour shows
     scale = [to_rgba(svg_style.BLUE, 0.7), to_rgba(svg_style.GREY, 0.0), to_rgba(svg_style.RED, 0.7)]
     colours = LinearSegmentedColormap.from_list("change", scale)
     picture.set_figheight(0.34 * len(outputs) + 1.9)
@@ -164,13 +164,13 @@ def _cell(percent, nothing):
 
 
 def _caption(tried):
-    # a mean tells more than a swing, which is large where hardly anything swings
+    # a mean is more informative than a swing, whose relative change is large if hardly anything swings
     strongest = max((one for one in tried if not one.refused and one.name != CONTROL and not one.name.startswith(TOGETHER)),
                     key=lambda one: max(map(abs, one.mean.values())))
     what, change = max(strongest.mean.items(), key=lambda pair: abs(pair[1]))
     return ("Each column is one effect switched on. Changes are relative to the largest value that any output of the same unit "
-            "has in the scene: that of a loss to the power. A dot is no change beyond the solver's tolerance, ~0 less than "
-            f"0.01 %. The largest change by one effect is that of {strongest.name}: the mean of {what} changes by "
+            "has in the scene: changes of a loss are relative to the power. A dot is no change beyond the solver's tolerance, ~0 is less "
+            f"than 0.01 %. The largest change by one effect is that of {strongest.name}: the mean of {what} changes by "
             f"{words.signed(100.0 * change)} %.")
 
 
@@ -192,12 +192,12 @@ def _table(run, tried):
             largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in changes]
             rows.append((trial.name, "; ".join(largest), f"{words.number(trial.calls, 2)} ×", f"{words.number(trial.seconds, 2)} ×"))
     return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
-                 "Evaluations of the tooth forces and time, times those of the scene. Times of short runs hold the start of the "
-                 "simulation, in which the tables of new gears are made.", left=2)
+                 "Evaluations of the tooth forces and time, relative to those of the scene. Times of short runs include the start of the "
+                 "simulation, in which the tables of new gears are calculated.", left=2)
 
 
 def _nothing(run, trial):
-    # its own parameters, and those of others that say that they belong to it
+    # parameters of the effect, and others whose descriptions name the effect
     own = [variable for variable in run.scene.fmu.variables.values()
            if variable.name.startswith(f"{trial.name}.") or f"{PREFIX}{trial.name}" in (variable.description or "")]
     zero = [variable.name for variable in own

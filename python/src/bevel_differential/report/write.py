@@ -1,4 +1,4 @@
-"""All sections of a report, in their order, and the page: one HTML file that needs nothing else."""
+"""Sections of a report in their order, and the page: one self-contained HTML file."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -13,10 +13,10 @@ from . import energy, forces, gears, head, pattern, strength, traces, waterfall,
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
-# sections that need no other run, before and after those that do
+# sections that need no further run, before and after those that do
 FIRST = (head.section, head.setup, gears.section, traces.key_figures, traces.section, forces.section, forces.transmission_error)
 LAST = (pattern.section, strength.section, energy.section)
-# parts of the work when pictures of the scene, the run-up and the other effects begin
+# fractions of the work at which pictures of the scene, the run-up, further pictures and the other effects begin
 PICTURES, RUN_UP, REST, EFFECTS = 0.05, 0.3, 0.5, 0.65
 
 
@@ -24,7 +24,7 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
     """Simulates `scene` and writes its report to `file`; returns its path.
 
     `quick` leaves out the run-up and the effects that are off, which need other runs. Raises `DifferentialError` with the FMU's
-    message where it refuses the scene."""
+    message if it refuses the scene."""
     need()
     progress(0.0, "the scene")
     run = Simulated.of(scene)
@@ -42,15 +42,15 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
 
 
 def need() -> None:
-    """Refuses to begin a report without the packages that write it."""
+    """Fails if a package that writes reports is missing."""
     for module in ("matplotlib", "jinja2"):
         require(module, "report")
 
 
 def page(title: str, description: str, sections: Sequence[Section]) -> str:
-    """The page as text."""
+    """HTML text of a page."""
     jinja2 = require("jinja2", "report")
-    # what scenes and the FMU say is text, never markup; a name that is missing in the template is an error
+    # text of scenes and of the FMU is escaped; a missing name in the template is an error
     environment = jinja2.Environment(loader=jinja2.PackageLoader(__package__, ""), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.tests.update(text=lambda block: isinstance(block, Text), table=lambda block: isinstance(block, Table),

@@ -8,20 +8,20 @@ from .result import ORDERS, spectrum
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Adds the options of the sub-command to an `argparse` parser."""
+    """Adds the arguments of the command."""
     parser.add_argument("cycle", help="CSV file of the duty cycle: a line for each event")
-    parser.add_argument("--scene", help="name or file of the scene whose [set] holds for all events")
+    parser.add_argument("--scene", help="name or file of the scene whose [set] applies to all events")
     parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=assignment,
                         help="parameter of the FMU or quantity of the vehicle for all events, such as \"wheel_radius=334 mm\"; "
                              "may be repeated")
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
-                        help="of the events: unknown takes the worst one, written the one of the file (default: %(default)s)")
+                        help="order of the events: unknown assumes the worst one, written is that of the file (default: %(default)s)")
     add_files(parser, "the damage by event", "damage by event and the load spectrum", csv="--table", plot="--picture")
     add_fmu(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Prints damage and life, and writes the requested files. Gears that do not live through the cycle are a finding."""
+    """Prints damage and life, and writes the requested files. Gears that do not survive one cycle are a finding."""
     result = spectrum(arguments.cycle, once("--set", arguments.set), arguments.scene, order=arguments.order, fmu=arguments.fmu)
     print(result.summary())
     for file, write in ((arguments.csv, result.save), (arguments.plot, result.plot)):

@@ -1,6 +1,6 @@
-"""A duty cycle from a CSV file: a line for each event.
+"""Duty cycle from a CSV file: a line for each event.
 
-Speed, torque and turn of the vehicle give the inputs of the differential. With a speed-driven carrier and torque-driven sides:
+Speed, torque and turn of the vehicle determine the inputs of the differential. With a speed-driven carrier and torque-driven sides:
 
 ```text
 carrier.speed_command = v/r                      v speed, r radius of the wheels
@@ -9,11 +9,11 @@ spin.command   = (ω_left − ω_right)/2 · z_side/z_planet
 load torques          = T/2 on each side         T torque of the ring gear; an open differential halves it
 ```
 
-A torque-driven carrier has T as its command and starts at v/r. Speed-driven sides have v/r ± (ω_left − ω_right)/2, and the
+A torque-driven carrier has the command T and starts at v/r. Speed-driven sides have the speeds v/r ± (ω_left − ω_right)/2, and the
 planets' spin is free.
 
-In a turn to the left the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive
-when the engine drives forward, the speed when the vehicle goes forward."""
+In a turn to the left, the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive if
+the engine drives forward, the speed is positive if the vehicle goes forward."""
 
 from collections.abc import Container, Mapping
 from math import nan, pi
@@ -42,7 +42,7 @@ SIDES = {"left": 1.0, "right": -1.0}
 _COLUMNS: list[Quantity | Text] = [
     Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
 OWN = {column.name: column for column in _COLUMNS}
-# beginnings of parameters that cannot be columns, because the gears are the same in all events
+# prefixes of parameters that cannot be columns, because the gears are the same in all events
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
 # quantities for the turn of the vehicle; an event has at most one of them
 TURNS = {"turn_radius", "speed_difference"}
@@ -52,9 +52,9 @@ LONGEST, SHORTEST = 0.01, 1e-4
 
 def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int],
                drives: Mapping[str, int], given: Container[str] = ()) -> list[Event]:
-    """The events of the duty cycle in `file`, a list of `Event`. `vehicle`: quantities that hold for all events, {name: number},
-    SI; `teeth` of planet and side gear; `drives`: values of `driven.DRIVES` where an event does not set them; `given`: names of
-    variables that the scene or the parameters set. Raises `DifferentialError` with file, line, column and value."""
+    """Events of the duty cycle in `file`. `vehicle`: quantities for all events, {name: number}, SI; `teeth` of planet and side gear;
+    `drives`: values of `driven.DRIVES` for events that do not set them; `given`: names of variables that the scene or the parameters
+    set. Raises `DifferentialError` with file, line, column and value."""
     def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
 
@@ -100,7 +100,7 @@ def _step(history):
 
 
 def _driven(vehicle, given, gears):
-    """Values of the FMU that are `given`, and those that follow from the quantities of the vehicle."""
+    """Values of the FMU that are `given`, and values that follow from the quantities of the vehicle."""
     values = {name: value for name, value in given.items() if name not in OWN and name not in QUANTITIES and name != "time"}
     for name, value in inputs_of(vehicle, *gears).items():
         if name in values:
@@ -139,7 +139,7 @@ def _speed(known, row):
 
 
 def _history(table, line, row, fmu):
-    """Columns of a time history by name, SI, arrays of shape (points,); "time" begins at 0."""
+    """Columns of a time history by name, SI, arrays of shape (points,); "time" starts at 0."""
     file = table.file.parent / row["history"]
 
     def known(name):
@@ -202,7 +202,7 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
 
 
 def wheel_radius(vehicle: Mapping[str, float | np.ndarray], needed_by: str) -> float | np.ndarray:
-    """Radius of the wheels [m], given or from the circumference of the tyres."""
+    """Radius of the wheels [m], either given or from the circumference of the tyres."""
     if "wheel_radius" not in vehicle and "tyre_circumference" not in vehicle:
         raise DifferentialError(f"{needed_by}: it needs wheel_radius or tyre_circumference; give one as a column or a parameter")
     if "wheel_radius" in vehicle:
@@ -213,7 +213,7 @@ def wheel_radius(vehicle: Mapping[str, float | np.ndarray], needed_by: str) -> f
 def _difference(vehicle):
     """Speed of the left side gear minus that of the right one [rad/s], or None if not given."""
     if "turn_radius" in vehicle and "speed_difference" in vehicle:
-        raise DifferentialError("turn_radius: speed_difference says the same; leave one of them empty")
+        raise DifferentialError("turn_radius: speed_difference gives the same turn; leave one of them empty")
     if "speed_difference" in vehicle:
         return vehicle["speed_difference"]
     if "turn_radius" not in vehicle:

@@ -1,4 +1,4 @@
-"""Events of a duty cycle, and the damage of one, from a short simulation by the FMU."""
+"""Events of a duty cycle, and the damage of an event from a short simulation by the FMU."""
 
 from dataclasses import dataclass, field
 from math import ceil, isfinite, nan, pi
@@ -12,22 +12,23 @@ from ..values import DifferentialError, Value
 MODES = ("damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank")
 OUTPUTS = (*MODES, "safety.root_min", "safety.flank_min", "stress.root_planet_max", "stress.root_side_max",
            "left.tangential_force", "right.tangential_force", "planet[1].spin_angle")
-# settling, which does not count, and the whole first run [s]
+# duration of settling, which does not count, and of the first run including it [s]
 SETTLING, LOOK = 0.1, 0.5
 POINTS = 50
-# mesh cycles of the steady state: first so many, then twice as many until both halves agree to STEADY
+# mesh cycles of the steady state: the first number, doubled until both halves agree to STEADY or the maximum is reached
 FEWEST_CYCLES, MOST_CYCLES, STEADY = 4, 64, 0.01
-# a time history: rows of a halt that does not end a roll, and the least roll, in pitches
+# in a time history: rows of a halt that does not end rolling, and smallest roll, in pitches
 HALT, LEAST_ROLL = 5, 0.05
 
 
 @dataclass(frozen=True)
 class Event:
-    """An event of a duty cycle.
+    """Event of a duty cycle.
 
-    `count`: how often it occurs in a cycle, 0 or more; `duration` [s] and `distance` [m, NaN if not known] of one occurrence;
-    `values`: inputs and parameters of the FMU that it sets, as `Differential` takes them; `signals`: inputs over time
-    {name: (times [s], values)} of an event that is a time history, from 0 to `duration`; `step` [s]: of its simulation."""
+    `count`: number of occurrences in a cycle, 0 or more; `duration` [s] and `distance` [m, NaN if not known] of one occurrence;
+    `values`: inputs and parameters of the FMU that it sets, as for `Differential`; `signals`: inputs over time
+    {name: (times [s], values)} of an event that is a time history, from 0 to `duration`; `step`: communication step of its
+    simulation [s]."""
 
     name: str
     count: float
@@ -48,12 +49,12 @@ class Event:
 
 @dataclass(frozen=True)
 class EventDamage:
-    """What one occurrence of an event does to the gears.
+    """Damage of one occurrence of an event to the gears.
 
-    `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the
-    same teeth stand in mesh, signed by the flank, shape (points,), empty if teeth roll on all the time; `side_ratio`: root
-    stress of the side gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the
-    carrier that load new teeth; `root_stress` of the planets [Pa] and `safety_root`, `safety_flank` of all gears: the worst;
+    `meshing`: Miner sums of the FMU, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the same
+    teeth stay in mesh, signed by the flank, shape (points,), empty if teeth roll all the time; `side_ratio`: root stress of the side
+    gears over that of the planets, NaN without load; `turns`: revolutions of a planet relative to the carrier that load new teeth;
+    `root_stress`: largest root stress of the planets [Pa]; `safety_root`, `safety_flank`: smallest factors of all gears;
     `warnings` of the FMU."""
 
     event: Event
@@ -68,10 +69,10 @@ class EventDamage:
 
 
 def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -> EventDamage:
-    """Damage of one occurrence of `event`, an `EventDamage`, to a `differential` with `teeth` of planet and side gear. It changes
-    nothing, and it and its arguments can be sent to other processes."""
+    """Damage of one occurrence of `event` to a `differential` with `teeth` of planet and side gear. The function changes nothing; it and
+    its arguments can be sent to other processes."""
     found = _history(differential, event, teeth) if event.signals else _steady(differential, event, teeth)
-    # the FMU takes without an error what it cannot feel in this event; a signal that stays has its value from the start
+    # the FMU accepts values that have no effect in this event without an error; a constant signal has its value from the start
     changing = {name for name, (_, values) in event.signals.items() if np.ptp(values) > 0.0}
     for name, why in differential.unfelt.items():
         if name in event.values or name in changing:
@@ -80,14 +81,14 @@ def evaluate(event: Event, differential: Differential, teeth: tuple[int, int]) -
 
 
 def _steady(differential, event, teeth):
-    """Damage in the steady state times the duration."""
+    """Damage rate in the steady state times the duration."""
     look = differential._record(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
     settled = look[round(POINTS * SETTLING / LOOK):]
     span = settled["time"][-1] - settled["time"][0]
     frequency = abs(settled["planet[1].spin_angle"][-1] - settled["planet[1].spin_angle"][0]) / span * teeth[0] / (2.0 * pi)
     pitches, warnings = frequency * event.duration, tuple(differential.warnings)
     if pitches <= 1.0:
-        # within a pitch no new tooth comes into mesh; what a load that swings does to those in mesh the FMU counts itself
+        # within a pitch, no new tooth comes into mesh; the FMU itself counts the damage of a swinging load to teeth in mesh
         rate = (_damage(settled)[-1] - _damage(settled)[0]) / span
         stress = _signed_stress(settled)
         return _result(event, settled, rate * event.duration, stress[np.argmax(abs(stress))][None], 0.0, warnings)
@@ -107,21 +108,21 @@ def _steady(differential, event, teeth):
 
 
 def _history(differential, event, teeth):
-    """Damage while teeth roll; while they stand, their stress."""
+    """Damage of a time history: Miner sums while teeth roll, and the stress while the same teeth stay in mesh."""
     record = differential._record(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
-    # of the planets, which stay where side gears turn as teeth bend under a load
+    # planets, because they stay in place when bending teeth let the side gears turn
     angle, pitch = record["planet[1].spin_angle"], 2.0 * pi / teeth[0]
     pushed = pushed_along(angle, pitch)
     rolls = _rolls(pushed, pitch)
     meshing = np.sum(np.diff(_damage(record), axis=0) * rolls[:, None], axis=0)
     moves = _with_approach(np.diff(angle), rolls)
-    # a tooth that rolls out of mesh loses its load
+    # a tooth that rolls out of mesh is unloaded
     standing = np.where(np.append(moves[0], moves), 0.0, _signed_stress(record)) if not np.all(moves) else np.empty(0)
     return _result(event, record, meshing, standing, float(np.sum(pushed * rolls)) / (2.0 * pi), tuple(differential.warnings))
 
 
 def pushed_along(angle: np.ndarray, pitch: float) -> np.ndarray:
-    """Angles by which a gear pushes a window of one pitch along, from row to row: what the FMU counts as rolling."""
+    """Angles by which a gear pushes a window of one pitch along, from row to row. The FMU counts this motion as rolling."""
     place, found = 0.0, []
     for step in np.diff(angle):
         wanted = place + step
@@ -131,8 +132,8 @@ def pushed_along(angle: np.ndarray, pitch: float) -> np.ndarray:
 
 
 def _rolls(pushed, pitch):
-    """Where a gear rolls on: stretches of rows, with short halts in them, that push the window along by more than teeth that bend
-    or cross their lash do."""
+    """Rows in which a gear rolls: intervals, with short halts in them, that push the window along by more than the bending of teeth or
+    the crossing of their backlash can do."""
     places = np.flatnonzero(pushed > 0.0)
     found = np.zeros(len(pushed), bool)
     for stretch in np.split(places, np.flatnonzero(np.diff(places) > HALT) + 1):
@@ -142,7 +143,7 @@ def _rolls(pushed, pitch):
 
 
 def _with_approach(steps, rolls):
-    """Where a gear rolls, and where it moved on to the edge of its window before it did: there no tooth stands."""
+    """Rows in which a gear rolls, or moves to the edge of its window just before it rolls: no tooth stays in mesh there."""
     found = rolls.copy()
     for i in range(len(steps) - 2, -1, -1):
         found[i] |= found[i + 1] and steps[i] * steps[i + 1] > 0.0
@@ -154,7 +155,7 @@ def _damage(record):
 
 
 def _signed_stress(record):
-    """Root stress of the planets, positive while the drive flanks of the more loaded side carry [Pa]."""
+    """Root stress of the planets [Pa], positive while the drive flanks of the more loaded side are loaded."""
     left, right = record["left.tangential_force"], record["right.tangential_force"]
     return record["stress.root_planet_max"] * np.sign(np.where(abs(left) >= abs(right), left, right))
 

@@ -1,7 +1,8 @@
-"""Loads and speeds that an event needs for the drives of its shafts, and where they come from.
+"""Loads and speeds that an event needs for the drives of its shafts, and their sources.
 
-A start value of the FMU is nobody's value. A command that neither the event nor the scene nor the parameters give is therefore an
-error. A load that comes from the scene or the parameters is named in the result, because the duty cycle does not show it."""
+Start values of the FMU are not used, because nobody has chosen them. A command that is neither in the event nor in the scene nor in
+the parameters is therefore an error. A load from the scene or the parameters is named in the result, because the duty cycle does not
+show it."""
 
 from collections.abc import Container, Iterable, Mapping
 from typing import Any
@@ -13,18 +14,18 @@ from .damage import Event
 
 # parameters for the drive of each shaft
 DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
-# load of each shaft that is driven by torque, and speed of each shaft that is driven by speed
+# load of each torque-driven shaft, and speed of each speed-driven shaft
 LOADS = dict(zip(DRIVES, ("carrier.torque_command", "left.load_torque", "right.load_torque")))
 SPEEDS = dict(zip(DRIVES, ("carrier.speed_command", "left.speed_command", "right.speed_command")))
 
 
 def drives_of(values: Mapping[str, Any], usual: Mapping[str, Any], fmu: Fmu) -> dict[str, str]:
-    """Literals of `DRIVES` where an event has these `values`, {name: literal}; `usual`: values where it has none."""
+    """Literals of `DRIVES` for an event with these `values`, {name: literal}; `usual`: values for drives that it does not set."""
     return {name: fmu.variable(name).written(fmu.variable(name).number(values.get(name, usual[name]))) for name in DRIVES}
 
 
 def needed(drives: Mapping[str, str]) -> dict[str, str]:
-    """Commands that act with these `drives`, and the column of a duty cycle from which each follows."""
+    """Commands that take effect with these `drives`, and the column of a duty cycle from which each follows."""
     by_speed = [name for name in DRIVES[1:] if drives[name] == "speed"]
     found = {LOADS[name]: "torque" for name in DRIVES if drives[name] == "torque"}
     # with two speed-driven sides the carrier's speed follows from both
@@ -33,7 +34,7 @@ def needed(drives: Mapping[str, str]) -> dict[str, str]:
 
 
 def missing(values: Container[str], drives: Mapping[str, str], given: Container[str]) -> dict[str, str]:
-    """The `needed` commands that are neither in `values` of an event nor `given` for all events."""
+    """Commands in `needed` that are neither in `values` of an event nor `given` for all events."""
     return {command: column for command, column in needed(drives).items() if command not in values and command not in given}
 
 
@@ -44,13 +45,13 @@ def wanted(command: str) -> str:
 
 
 def check_commands(event: Event, drives: Mapping[str, str], given: Container[str]) -> None:
-    """Refuses an event without a command that it needs."""
+    """Refuses an event that lacks a command."""
     for command in missing({*event.values, *event.signals}, drives, given):
         raise DifferentialError(f"{command}: event {event.name!r} does not give it; {wanted(command)}")
 
 
 def open_loads(events: Iterable[Event], usual: Mapping[str, Any], differential: Differential, sources: Mapping[str, str]) -> tuple[str, ...]:
-    """A line for each load that events take from elsewhere: its value, its source and the names of the events."""
+    """Lines about loads that events take from elsewhere: value, source and names of the events."""
     fmu, found = differential.fmu, dict[str, list[str]]()
     events = list(events)
     for event in events:

@@ -1,4 +1,4 @@
-"""The picture of a duty cycle: damage by event, and the load spectrum of the critical mode with its S–N curves. A `result` is a
+"""Picture of a duty cycle: damage by event, and the load spectrum of the critical mode with its S–N curves. A `result` is a
 `SpectrumResult`."""
 
 from pathlib import Path
@@ -12,7 +12,7 @@ from ..values import FileName
 from .slow import SnCurve
 
 MPA = 1e6
-# most events with a bar of their own, and least part of the damage for one; all others share a bar
+# maximum number of events with separate bars, and their smallest share of the damage; all others share a bar
 MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 
@@ -31,7 +31,7 @@ def draw(result: Any, file: FileName) -> Path:
 
 
 def _draw_events(axes, result, colour):
-    """Bars of the damage by event, the worst event on top, and the cumulative damage."""
+    """Draws bars of the damage by event, the worst event at the top, and the cumulative damage."""
     table = result.table()
     named = max(1, min(MOST_BARS, np.count_nonzero(table["share"] >= LEAST_SHARE)))
     names, shares = list(table["event"][:named]), 100.0 * table["share"][:named]
@@ -51,7 +51,7 @@ def _draw_events(axes, result, colour):
 
 
 def _draw_spectrum(axes, result, colours):
-    """Stress over the number of load cycles in one life that reach it, with the S–N curves."""
+    """Draws the stress over the number of load cycles in one life that reach it, with the S–N curves."""
     duty_cycles = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
     of_rolling, of_standing = curves(result)
     parts = [("of rolling teeth", colours[0], rolling_spectrum(result), of_rolling),
@@ -86,7 +86,7 @@ def _caption(result):
 
 
 def curves(result: Any) -> tuple[SnCurve, SnCurve]:
-    """S–N curves of the critical mode: of teeth that roll, and of teeth that stand in mesh."""
+    """S–N curves of the critical mode: of teeth that roll, and of teeth that stay in mesh."""
     strength = result.strength
     if result.is_flank:
         return strength.pitting, strength.pitting
@@ -94,8 +94,8 @@ def curves(result: Any) -> tuple[SnCurve, SnCurve]:
 
 
 def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Largest stress [Pa] of each event in which teeth roll, and its number of load cycles on a tooth of the critical gear in a
-    duty cycle; shapes (events that roll,). The stress is that of the root or, for flanks, the rated contact pressure."""
+    """Largest stress [Pa] of each event with rolling teeth, and its number of load cycles on a tooth of the critical gear in a duty
+    cycle; shapes (events with rolling,). The stress is the root stress or, for flanks, the rated contact pressure."""
     rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
     if result.is_flank:
         stresses = [result.strength.pitting.strength / one.safety_flank for one in rolling]

@@ -1,4 +1,4 @@
-"""What a duty cycle does to the gears: its events one by one, and the slow cycles between them."""
+"""Damage of a duty cycle to the gears: that of its events, and that of the slow cycles between them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ HOUR, KM = 3600.0, 1000.0
 NAMES = ("planet root", "side root", "planet flank", "side flank")
 TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
-# ranges of stress up to this part of the strength are no cycles, as in the FMU
+# ranges of stress up to this fraction of the strength do not count as cycles, as in the FMU
 GATE = 0.01
 
 
@@ -33,10 +33,10 @@ GATE = 0.01
 class SpectrumResult:
     """Damage and life over a duty cycle.
 
-    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`:
-    their Miner sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves;
-    `teeth` of planet and side gear; `planets`: how many; `side_ratio`: root stress of the side gears over that of the planets;
-    `order`: in which events follow each other; `loads`: values and sources of loads that the duty cycle leaves open, a line each."""
+    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`: their Miner
+    sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves; `teeth` of
+    planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the planets; `order`: order
+    of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
     slow: SlowCycles
@@ -50,34 +50,34 @@ class SpectrumResult:
 
     @property
     def by_event(self) -> np.ndarray:
-        """Miner sums per duty cycle, shape (events, 4): roots of planet and side gear, their flanks. Slow cycles are in it."""
+        """Miner sums per duty cycle, shape (events, 4): roots of planet and side gear, then their flanks. Slow cycles are included."""
         found = np.array([one.event.count * one.meshing for one in self.events])
         found[:, :2] += self.slow_damage
         return found
 
     @property
     def damage(self) -> dict[str, float]:
-        """Miner sums per duty cycle by the FMU's names of damage."""
+        """Miner sums per duty cycle by the FMU's names of damage outputs."""
         return dict(zip(MODES, self.by_event.sum(axis=0).tolist()))
 
     @property
     def critical(self) -> int:
-        """Place in `MODES` of the largest damage."""
+        """Index in `MODES` of the largest damage."""
         return int(np.argmax(self.by_event.sum(axis=0)))
 
     @property
     def critical_name(self) -> str:
-        """What is damaged most, such as "planet root"."""
+        """Name of the largest damage, such as "planet root"."""
         return NAMES[self.critical]
 
     @property
     def is_flank(self) -> bool:
-        """Whether a flank is damaged most."""
+        """True if a flank has the largest damage."""
         return self.critical >= 2
 
     @property
     def hours(self) -> float:
-        """Length of a cycle, h."""
+        """Duration of a cycle, h."""
         return sum(one.event.count * one.event.duration for one in self.events) / HOUR
 
     @property
@@ -103,20 +103,20 @@ class SpectrumResult:
 
     @property
     def worst(self) -> EventDamage:
-        """The event with the largest damage of the critical mode in a cycle."""
+        """Event with the largest damage of the critical mode in a cycle."""
         return self.events[int(np.argmax(self.by_event[:, self.critical]))]
 
     @property
     def warnings(self) -> list[str]:
-        """What the FMU warned of, each warning once: with the name of its event, or with the number of its events."""
+        """Warnings of the FMU, each once, with the name of its event or with the number of its events."""
         return by_owner(((one.event.name, one.warnings) for one in self.events), "events")
 
     def table(self) -> np.ndarray:
-        """A row for each event, the worst first: a structured array, which pandas takes as it is.
+        """A row for each event, the worst first: a structured array that pandas can read.
 
-        Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names, "slow.planet" and "slow.side" that
-        are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa), safety.root_min and
-        safety.flank_min of the event."""
+        Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names of damage outputs, "slow.planet" and
+        "slow.side" that are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa),
+        safety.root_min and safety.flank_min of the event."""
         damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
         rows = []
         for event_damage, damage, slow in zip(self.events, damages, self.slow_damage):
@@ -133,13 +133,13 @@ class SpectrumResult:
         return found[np.argsort(-found["share"], kind="stable")]
 
     def save(self, file: FileName) -> Path:
-        """Writes the table: CSV, or Parquet by the name's end."""
+        """Writes the table, as CSV or Parquet by the file's ending."""
         table = self.table()
         return write(file, table.dtype.names or (), table.tolist(),
                      "Miner sums per duty cycle; hours and km per duty cycle; root_stress in Pa")
 
     def plot(self, file: FileName) -> Path:
-        """Draws damage by event and the load spectrum into a picture; the file's end is its format."""
+        """Draws damage by event and the load spectrum into a picture, in the format of the file's ending."""
         from .picture import draw
         return draw(self, file)
 
@@ -164,7 +164,7 @@ class SpectrumResult:
         return [lines[0], f"|---{7 * '|--:'}|---|--:|--:|", *lines[1:]]
 
     def cells(self) -> list[tuple[str, ...]]:
-        """The table as text, its head first, with the columns that tell most."""
+        """Most important columns of the table as text, its head first."""
         rows = [("event", "count", "km", "planet root", "side root", "planet flank", "side flank", "share", "worst mode", "S_F", "S_H")]
         for row in self.table():
             km = f"{row['km']:.3g}" if isfinite(row["km"]) else "–"
@@ -177,16 +177,16 @@ class SpectrumResult:
 def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value] | None = None, scene: FileName | None = None, *,
              order: str = "unknown", fmu: FileName | Fmu | None = None,
              mapper: Callable[..., Iterable[EventDamage]] = map) -> SpectrumResult:
-    """Damage and life of the gears over a duty cycle, a `SpectrumResult`.
+    """Calculates damage and life of the gears over a duty cycle.
 
-    `cycle`: a CSV file (docs/design.md), or a sequence of `Event`. `parameters`: {name: value} for all events, of the FMU as
-    `Differential` takes them, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene
-    whose `[set]` comes before. `order`: of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: evaluates events,
-    as `map` does; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
+    `cycle`: a CSV file (docs/design.md), or a sequence of `Event`. `parameters`: {name: value} for all events: of the FMU, as for
+    `Differential`, and quantities of the vehicle such as "wheel_radius": "334 mm". `scene`: name or file of a scene whose `[set]`
+    `parameters` override. `order`: order of the events, see `slow.count_slow_cycles`. `fmu`: its file. `mapper`: function like `map`
+    that evaluates events; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     parameters = by_present_names(parameters or {})
-    # events begin in their steady state, not as the scene does
+    # events start in their steady state, unlike the scene
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}
     of_scene.pop("scene.start", None)
     sources = {**dict.fromkeys(of_scene, f"scene {scene}"), **dict.fromkeys(parameters, "the parameters (--set)")}
@@ -197,7 +197,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     for name in values.keys() - variables.keys():
         raise DifferentialError(f"{name}: there is no such variable or quantity{variable_suggestion(name, [*QUANTITIES, *variables])}")
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
-        # no event has the loads of this run
+        # no event has the loads of this run, so its warnings do not matter
         with silenced():
             facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES], stop=1e-3)
         teeth = int(facts[TEETH[0]]), int(facts[TEETH[1]])
@@ -208,7 +208,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
         damages = tuple(mapper(partial(_evaluated, differential=differential, teeth=teeth), events))
-    # both roots follow one force, so that the ratio is the same in all events under load
+    # both roots follow one force, so the ratio is the same in all loaded events
     ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
     strength = Strength.of(facts)
     histories, counts = [damage.standing for damage in damages], [event.count for event in events]
@@ -228,7 +228,7 @@ def _evaluated(event, differential, teeth):
 
 
 def _slow_by_event(cycles, strength, events):
-    """Damage of slow cycles at the root of the worse flank, shape (events,): that of each cycle is shared in proportion to the
+    """Damage of slow cycles at the root of the worse flank, shape (events,). The damage of each cycle is divided in proportion to the
     stresses of the events at its ends."""
     damage = cycles.count * strength.bending.damage(cycles.pulsating(strength))
     found = np.zeros(events)

@@ -1,9 +1,9 @@
-"""Slow cycles: what the torque does to the roots of teeth that stand in mesh, counted by rainflow (ASTM E1049).
+"""Slow cycles: damage of torque changes to the roots of teeth that stay in mesh, counted by rainflow (ASTM E1049).
 
-Every occurrence of an event is a history of root stress [Pa], signed: positive on the drive flank. It begins and ends without
+Every occurrence of an event is a history of root stress [Pa], which is positive on the drive flank. It begins and ends without
 load. Cycles are counted for a duty cycle that repeats, so that all of them close.
 
-S–N curves of the gears and the effect of mean stress, as the FMU has them (docs/inside/theory.md, section 10):
+S–N curves of the gears and the effect of mean stress are those of the FMU (docs/inside/theory.md, section 10):
 
 ```text
 N_f = N_ref (S/σ)^k,   k = ln(N_ref/N_static)/ln Y_N            ISO 6336-2, -3, -5; the same slope below the knee
@@ -22,15 +22,15 @@ from ..extras import require
 from ..values import DifferentialError
 
 ORDERS = ("unknown", "written")
-# cycles up to which the standards hold the strength constant: bending (ISO 6336-3), pitting (ISO 6336-2)
+# number of cycles up to which the standards keep the strength constant: bending (ISO 6336-3), pitting (ISO 6336-2)
 STATIC_BENDING, STATIC_PITTING = 1e3, 1e5
-# the most of M, as the FMU limits it
+# upper limit of M, as in the FMU
 MOST_SENSITIVE = 0.99
 
 
 @dataclass(frozen=True)
 class SnCurve:
-    """Cycles to failure of a stress: `strength` [Pa] at the knee of `cycles`, with `slope`."""
+    """S–N curve, cycles to failure over stress: `strength` [Pa] at the knee of `cycles`, with `slope`."""
 
     strength: float
     cycles: float
@@ -38,7 +38,7 @@ class SnCurve:
 
     @classmethod
     def through(cls, strength: float, cycles: float, life_factor: float, static_cycles: float) -> Self:
-        """The curve through `strength` at `cycles` and `life_factor` times it at `static_cycles`."""
+        """Curve through `strength` at `cycles`, and through `life_factor` times `strength` at `static_cycles`."""
         return cls(strength, cycles, log(cycles / static_cycles) / log(life_factor))
 
     def damage(self, stress: np.ndarray) -> np.ndarray:
@@ -66,7 +66,7 @@ class Strength:
 
     @classmethod
     def of(cls, values: Mapping[str, float]) -> Self:
-        """From the FMU's parameters `PARAMETERS`: a mapping from name to number, SI."""
+        """Reads the FMU's parameters `PARAMETERS` from a mapping from name to number, SI."""
         bending, cycles, factor, contact, contact_cycles, contact_factor, idler = (values[name] for name in cls.PARAMETERS)
         return cls(SnCurve.through(bending, cycles, factor, STATIC_BENDING),
                    SnCurve.through(bending * idler, cycles, factor, STATIC_BENDING),
@@ -74,8 +74,8 @@ class Strength:
                    min(max(2.0 * idler - 1.0, 0.0), MOST_SENSITIVE))
 
     def pulsating(self, span: np.ndarray, mean: np.ndarray) -> np.ndarray:
-        """The cycle from 0 to its peak that does the damage of a cycle of the range `span` > 0 about `mean` [Pa], tension
-        positive. Same shape."""
+        """Peak of the cycle from 0 that does the same damage as a cycle of the range `span` > 0 about `mean` [Pa], tension positive. Same
+        shape."""
         m, ratio = self.sensitivity, 2.0 * np.asarray(mean) / np.asarray(span)
         permissible = np.select(
             [ratio <= 1.0, ratio < 3.0],
@@ -88,7 +88,7 @@ class Strength:
 class SlowCycles:
     """Cycles of root stress of a planet in one pass of the duty cycle; all arrays have the shape (cycles,).
 
-    `low`, `high` [Pa]: both ends; `count`: how many; `low_event`, `high_event`: numbers of the events that have the ends."""
+    `low`, `high` [Pa]: both ends; `count`: number of cycles; `low_event`, `high_event`: numbers of the events at the ends."""
 
     low: np.ndarray
     high: np.ndarray
@@ -103,32 +103,32 @@ class SlowCycles:
 
     @property
     def mean(self) -> np.ndarray:
-        """Middle between both [Pa]."""
+        """Mean of peak and valley [Pa]."""
         return 0.5 * (self.high + self.low)
 
     def scaled(self, factor: float) -> "SlowCycles":
-        """The same cycles at `factor` times the stress: those of the mating gear."""
+        """Copy with `factor` times the stress, for the mating gear."""
         return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
 
     def pulsating(self, strength: Strength) -> np.ndarray:
-        """The cycles from 0 to their peak [Pa] that do the same damage to the root of the worse flank: at the other flank the
-        mean has the other sign."""
+        """Peaks of cycles from 0 [Pa] that do the same damage to the root of the worse flank. At the other flank the mean has the opposite
+        sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
     def matrix(self, bins: int = 10) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """The rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
+        """Rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
         counts, spans, means = np.histogram2d(self.span, self.mean, bins, weights=self.count)
         return spans, means, counts
 
 
 def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0) -> SlowCycles:
-    """Slow cycles of events with `histories` (a list of arrays of stress [Pa], empty where teeth do not stand) that occur
-    `counts` times; ranges up to `least` [Pa] are left out.
+    """Slow cycles of events with `histories` (arrays of stress [Pa], empty if no teeth stay in mesh) that occur `counts` times. Ranges
+    up to `least` [Pa] are left out.
 
-    `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is
-    the worst order. "written": events follow each other as listed, without unloading in between; those that occur n times
-    unload in between their occurrences."""
+    `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
+    worst order. "written": events follow each other as listed, without unloading in between. Between the occurrences of an event with
+    several occurrences, the teeth are unloaded."""
     if order == "unknown":
         rows = _in_the_worst_order(histories, counts)
     elif order == "written":
@@ -142,7 +142,7 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
 
 
 def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
-    """Cycles (low, high, count, place of low, place of high) of a history that repeats; they all close."""
+    """Cycles (low, high, count, index of low, index of high) of a history that repeats; all of them close."""
     rainflow = require("rainflow", "design")
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
@@ -161,7 +161,7 @@ def _in_the_worst_order(histories, counts):
         block = _occurrence(history)
         low, high = block.min(), block.max()
         inner = list(closed_cycles(block))
-        # the widest cycle opens: its ends meet those of other occurrences
+        # the widest cycle opens: its ends pair with those of other occurrences
         widest = [row for row in inner if (row[0], row[1]) == (low, high)]
         once = sum(row[2] for row in widest) - 1.0
         rows += [(row[0], row[1], row[2] * count, event, event) for row in inner if (row[0], row[1]) != (low, high)]
@@ -172,7 +172,7 @@ def _in_the_worst_order(histories, counts):
 
 
 def _pairs(peaks, valleys):
-    """Highest peaks with deepest valleys, as often as they occur."""
+    """Pairs the highest peaks with the deepest valleys, as often as they occur."""
     rows, place = [], 0
     for high, count, high_event in peaks:
         while count > 0.0 and place < len(valleys):
@@ -195,7 +195,7 @@ def _as_written(histories, counts):
             continue
         if count > 1:
             rows += [(low, high, n * (count - 1), event, event) for low, high, n, *_ in closed_cycles(_occurrence(history))]
-        # teeth that roll out of mesh lose their load
+        # teeth that roll out of mesh are unloaded
         block = _occurrence(history) if count > 1 or len(history) == 0 else history
         stress += list(block)
         events += [event] * len(block)

@@ -6,7 +6,7 @@ from pathlib import Path
 from ..command import DONE
 from ..command.arguments import add_fmu, add_progress, add_quick
 
-# shares of the work at which simulating and drawing end; the rest is reports
+# fractions of the work at which simulation and drawing end; the rest is reports
 SIMULATED, DRAWN = 0.25, 0.3
 
 

@@ -13,32 +13,32 @@ from .theory import Theory
 HEAD = ["quantity", "study", "theory", "this program", "program / theory"]
 # width of notes in a terminal
 WIDTH = 118
-# numbers of the notes that rows name; the last note, on the geometry, belongs to no row
+# numbers of the notes to which rows refer; no row refers to the last note, on the geometry
 INPUTS, STIFFNESS, RIPPLE, FORCE, START, FREQUENCY, ENERGY = range(1, 8)
 
 
 class Comparison:
-    """The comparison of both `runs`, by case, with theory and with the study; `start`: start values of the FMU, SI, by name."""
+    """Comparison of both `runs`, by case, with theory and with the study; `start`: start values of the FMU, SI, by name."""
 
     def __init__(self, start: Mapping[str, Any], runs: Mapping[str, Run]):
         forms = Theory(start)
         self.rows, self.notes = _rows(forms, runs), _notes(forms, runs["straight"].results)
 
     def terminal(self) -> str:
-        """The table and its notes for a terminal."""
+        """Table and notes for a terminal."""
         head, *rows = aligned([HEAD, *self.rows], 1)
         notes = [textwrap.fill(note, WIDTH, initial_indent=f"[{i}] ", subsequent_indent=" " * len(f"[{i}] "), break_on_hyphens=False,
                                break_long_words=False) for i, note in enumerate(self.notes, 1)]
         return "\n".join([head, "-" * len(head), *rows, "", *notes, ""])
 
     def document(self) -> str:
-        """The table and its notes in Markdown, for docs/study.md."""
+        """Table and notes in Markdown, for docs/study.md."""
         notes = "".join(f"{i}. {note}\n" for i, note in enumerate(self.notes, 1))
         return f"{markdown([HEAD, *self.rows])}\n{notes}"
 
 
 def signed_percent(fraction: float) -> str:
-    """A fraction in percent with two significant digits and its sign."""
+    """Text of a fraction in percent with two significant digits and its sign."""
     percent = fraction * 100.0
     if abs(percent) < 1e-12:
         return "0 %"
@@ -89,7 +89,7 @@ def _speed_rows(name, run):
 
 def _row(quantity: str, note: int | None, study: str | None, expected: float | str | None, program: float | str,
          form: Callable[[float], str] = str) -> list[str]:
-    """Texts of a row, with the difference between theory and program if both are numbers; None: nothing to say."""
+    """Texts of a row, with the difference between theory and program if both are numbers. Cells with None contain a dash."""
     comparable = isinstance(expected, float) and isinstance(program, float) and expected != 0.0
     texts = ("–" if cell is None else cell if isinstance(cell, str) else form(cell) for cell in (study, expected, program))
     return [f"{quantity} [{note}]" if note else quantity, *texts, signed_percent(program / expected - 1.0) if comparable else ""]
@@ -100,13 +100,13 @@ def _fixed(decimals):
 
 
 def _scientific(value, form=".3e"):
-    """A number with a power of ten, without the zeros and the plus sign that Python writes before an exponent."""
+    """Text of a number with a power of ten, without the zeros and the plus sign that Python writes before an exponent."""
     mantissa, exponent = format(value, form).split("e")
     return f"{mantissa}e{int(exponent)}"
 
 
 def _per_mm(stiffness):
-    """A stiffness per m^1.5 as one per mm^1.5."""
+    """Stiffness per mm^1.5 from a stiffness per m^1.5."""
     return stiffness / 1e3 ** 1.5
 
 

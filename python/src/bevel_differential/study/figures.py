@@ -14,11 +14,11 @@ from .stated import DURATION, INTERVAL, LOAD, MESH_FREQUENCY, RIPPLE
 
 # highest frequency shown [Hz]
 SPECTRUM_END = 120.0
-# a line of the spectrum is drawn where it is above this share of the mean force
+# lines of the spectrum are drawn if they are above this fraction of the mean force
 SPECTRUM_FLOOR = 1e-5
-# the start: what is shown of it [s]
+# intervals of the start that are shown [s]
 THROWN, STRUCK = 0.5e-3, 0.12e-3
-# time that the start takes to be over in the panels that begin after it [s]
+# end of the start, in panels that begin after it [s]
 SETTLED = 1.5e-3
 THEORY = {"color": INK, "ls": (0, (5, 3)), "lw": 1.2}
 
@@ -142,7 +142,7 @@ def mesh_forces(axes, expected, record):
 
 
 def pairs(axes, expected, record):
-    # the lines are a little apart so that both show
+    # the lines are shifted slightly so that both are visible
     for side, color, shift in [("left", BLUE, 0.03), ("right", RED, -0.03)]:
         axes.step(record["time"], record[f"planet[1].{side}_pairs"] + shift, where="post", color=color, label=f"{side} mesh")
     axes.set(title="Turn: pairs of teeth under load", xlabel="time, s", ylabel="pairs", yticks=[0, 1, 2], ylim=(0, 2.9),
@@ -182,7 +182,7 @@ FORCES = [("left.thrust_force", PALE_BLUE, "thrust"), ("left.normal_force", BLUE
 
 
 def forces_in_time(axes, straight, turning):
-    """What the spectrum is of: three teeth of the turn, and the same force straight ahead."""
+    """Draws the signals of the spectrum: three teeth of the turn, and the same force straight ahead."""
     end = 3.0 / turning.expected.mesh_frequency
     begin = RECORD - end
     for run in [turning, straight]:
@@ -215,7 +215,7 @@ def lines_of_force(axes, spectrum, floor):
 
 
 def period(axes, begin, frequency, height, text_height=None):
-    """A double arrow as long as a mesh period, with its name on it or at `text_height`."""
+    """Draws a double arrow with the length of a mesh period, with its name on it or at `text_height`."""
     end = begin + 1.0 / frequency
     axes.annotate("", (begin, height), (end, height), arrowprops={"arrowstyle": "<->", "color": FAINT})
     axes.text(0.5 * (begin + end), height if text_height is None else text_height,

@@ -1,4 +1,4 @@
-"""The study's two cases: simulated and evaluated."""
+"""Simulation and evaluation of the study's two cases."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,12 +26,12 @@ OUTPUTS = [
     "mesh.frequency", "power.in", "power.out", "power.loss", "heat.contact",
     "solver.steps", "solver.rhs_calls", "solver.step_size", "solver.energy_residual",
 ]
-# a spectral line counts above LINE_SHARE times the strongest line and above LINE_FLOOR times the mean force
+# lines of the spectrum count above LINE_SHARE times the strongest line and above LINE_FLOOR times the mean force
 LINE_SHARE = 0.02
 LINE_FLOOR = 1e-6
-# length of the record for the spectrum [s], whose window is the end of it: this many mesh periods of the turn
+# length of the record [s], and mesh periods of the turn in the window at its end from which the spectrum is calculated
 RECORD, SPECTRUM_PERIODS = 2.0, 10.0
-# record of the start and its interval [s]: the teeth meet and settle within it, and move at some 10 kHz
+# length and interval of the record of the start [s]: the teeth meet and settle within it, and move at some 10 kHz
 START_RECORD, START_INTERVAL = 1e-3, 1e-6
 # after the start, speeds within this fraction of theory count as settled
 SETTLED_BAND = 0.01
@@ -39,7 +39,7 @@ SETTLED_BAND = 0.01
 
 @dataclass
 class Run:
-    """A case as simulated. `record`, `start`: outputs at every communication point of the whole run, and of its beginning; `spectrum`:
+    """Simulated case. `record`, `start`: outputs at every communication point of the whole run, and of its beginning; `spectrum`:
     amplitudes of forces; `results`: numbers for the comparison."""
 
     case: Case
@@ -77,13 +77,13 @@ def start_values(fmu: Fmu) -> dict[str, Any]:
 
 
 def cut(record):
-    """The study's own duration of a record."""
+    """Part of a record within the study's duration."""
     return record[record["time"] <= DURATION + 1e-9]
 
 
 def settled_part(record, frequency):
-    """The settled part of the record over the study's duration: straight ahead the second half, in the turn the last whole mesh
-    periods."""
+    """Settled part of the record within the study's duration: the second half straight ahead, the last whole mesh periods in the
+    turn."""
     own = cut(record)
     begin = DURATION / 2.0
     if frequency > 0.0:
@@ -93,7 +93,7 @@ def settled_part(record, frequency):
 
 
 def evaluate(expected, record, start, spectrum):
-    """Means over the settled part, and figures of the start from its finely sampled record. Speeds in deg/s, otherwise SI; ripple in
+    """Means over the settled part, and values of the start from its finely sampled record. Speeds in deg/s, otherwise SI; ripple in
     % from peak to peak."""
     own, part = cut(record), settled_part(record, expected.mesh_frequency)
     speeds = [np.degrees(part[f"{side}.speed"]) for side in ["left", "right"]]
@@ -117,7 +117,7 @@ def evaluate(expected, record, start, spectrum):
 
 
 def settling_time(start, expected):
-    """Last time at which a speed was off its theoretical value by more than `SETTLED_BAND`."""
+    """Last time at which a speed deviated from its theoretical value by more than `SETTLED_BAND`."""
     speeds = zip(["left", "right"], expected)
     far = [np.abs(np.degrees(start[f"{side}.speed"]) / speed - 1.0) > SETTLED_BAND for side, speed in speeds]
     outside = np.any(far, axis=0)
@@ -125,22 +125,22 @@ def settling_time(start, expected):
 
 
 def force_spectra(record, window):
-    """Amplitudes of the forces over the last `window` [s] of the record. The window has whole mesh periods of the turn, so a
-    rectangular window leaks nothing."""
+    """Amplitudes of the forces over the last `window` [s] of the record. The window contains whole mesh periods of the turn, so a
+    rectangular window causes no leakage."""
     count = round(window / INTERVAL)
     part = record[-count - 1:-1]
     spectra = {"frequency": np.fft.rfftfreq(count, INTERVAL)}
     for name in ["left.normal_force", "right.normal_force", "left.thrust_force", "right.thrust_force",
                  "left.tangential_force"]:
         amplitude = 2.0 / count * np.abs(np.fft.rfft(part[name]))
-        # neither the mean nor, in an even count, the highest frequency has a mirror image
+        # the mean and, in an even count, the highest frequency have no mirror image
         amplitude[[0, -1] if count % 2 == 0 else 0] /= 2.0
         spectra[name] = amplitude
     return spectra
 
 
 def first_line(spectra, mean_force):
-    """Lowest frequency of a line in the spectrum of the left normal force; None where no line stands out."""
+    """Lowest frequency of a line in the spectrum of the left normal force, or None without a line."""
     amplitude = spectra["left.normal_force"][1:]
     threshold = max(LINE_SHARE * np.max(amplitude), LINE_FLOOR * mean_force)
     lines = np.flatnonzero(amplitude >= threshold)

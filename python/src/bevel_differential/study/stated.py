@@ -1,6 +1,6 @@
-"""The study's data and results: a passenger car's differential, modelled in SolidWorks and simulated in Adams.
+"""Data and results of the study: a passenger car's differential, modelled in SolidWorks and simulated in Adams.
 
-Numbers as the study prints them. Its gears, loads and contact constants are the start values of the FMU."""
+The numbers are those printed in the study. Its gears, loads and contact constants are the start values of the FMU."""
 
 from dataclasses import dataclass
 
@@ -22,8 +22,8 @@ DURATION, INTERVAL = 0.5, 1e-3
 
 @dataclass(frozen=True)
 class Case:
-    """A case of the study. `scene`: the shipped scene that runs it; speeds of vehicle [km/h], carrier, planet spin, and the study's
-    results for left and right side gear [deg/s]."""
+    """Case of the study. `scene`: the shipped scene of the case; speeds of vehicle [km/h], carrier, planet spin, and the study's results
+    for left and right side gear [deg/s]."""
 
     scene: str
     vehicle_speed: float

@@ -25,8 +25,8 @@ def load_torque() -> float:
 
 @dataclass(frozen=True)
 class Expected:
-    """Theory for a case: speeds of left and right side gear [deg/s], tangential force of all planets on a side gear at its outer
-    pitch circle, normal force of one mesh [N], mesh frequency [Hz]."""
+    """Theoretical values of a case: speeds of left and right side gear [deg/s], tangential force of all planets on a side gear at its
+    outer pitch circle [N], normal force of one mesh [N], mesh frequency [Hz]."""
 
     side_speeds: tuple[float, float]
     tangential_force: float
@@ -59,7 +59,7 @@ class Theory:
         return stated.LOAD / (self.pair.planets * mean_cone * sin(self.pair.gears[1].base))
 
     def expected(self, case: Case) -> Expected:
-        """Theory for a case. Side gears turn at ω_c ± ω_p z_p/z_s, and a tooth meshes z_p |ω_p|/360° times a second."""
+        """Theoretical values of a case. Side gears turn at ω_c ± ω_p z_p/z_s, and a tooth meshes z_p |ω_p|/360° times a second."""
         planet, side = (gear.teeth for gear in self.pair.gears)
         difference = case.planet_spin * planet / side
         return Expected((case.carrier_speed + difference, case.carrier_speed - difference), stated.LOAD / self.side_radius,
@@ -74,13 +74,13 @@ class Theory:
 
     @property
     def standard_addenda_interfere(self) -> tuple[bool, bool]:
-        """True if standard addenda undercut the planet; and if they jam in the side gear."""
+        """Two truths: standard addenda undercut the planet, and they jam in the side gear."""
         standard = Pair.of({**self.start, "geometry.addendum_system": STANDARD})
         return standard.addendum_over_limit(1) > 0.0, standard.addendum_over_limit(0) > 0.0
 
     @property
     def planar_contact_ratio(self) -> float:
-        """Contact ratio by Tredgold's approximation: of virtual spur gears with z/cos δ teeth."""
+        """Contact ratio by Tredgold's approximation with virtual spur gears of z/cos δ teeth."""
         pair, alpha, length = self.pair, self.pair.pressure_angle, 0.0
         for gear in pair.gears:
             radius = gear.teeth / cos(gear.pitch) * pair.module / 2.0

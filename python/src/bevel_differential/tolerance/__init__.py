@@ -1,3 +1,3 @@
-"""What manufacturing tolerances do: spread of figures, yield, the part of each tolerance, and which is worth its money.
+"""Effects of manufacturing tolerances: spread of results, yield, share of each tolerance, and which tolerance is worth its money.
 
-`plan` reads tolerance files, `study` draws and runs, `figures` judges alternatives, `report` shows results."""
+`plan` reads tolerance files, `study` draws and runs, `figures` evaluates alternatives, `report` shows results."""

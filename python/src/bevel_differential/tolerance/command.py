@@ -1,4 +1,4 @@
-"""The command `tolerance`: what manufacturing tolerances do."""
+"""The command `tolerance`: effects of manufacturing tolerances."""
 
 import argparse
 from pathlib import Path
@@ -10,13 +10,13 @@ QUICK = 64
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """What the command takes."""
+    """Adds the arguments of the command."""
     parser.add_argument("file", help="tolerance file (TOML), such as tolerances.toml of `bevel-differential examples`")
-    parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of what the file says")
+    parser.add_argument("--runs", type=int, help="differentials to draw, a power of two, instead of the number in the file")
     parser.add_argument("--seed", type=int, help="another draw")
     add_stop(parser)
     add_quick(parser, f"{QUICK} draws")
-    parser.add_argument("--no-indices", action="store_true", help="spread and yield alone: a fraction of the runs")
+    parser.add_argument("--no-indices", action="store_true", help="only spread and yield, with a fraction of the runs")
     add_farm(parser)
     add_units(parser)
     add_files(parser, "all runs", "spread, yield and indices", plot="--picture")

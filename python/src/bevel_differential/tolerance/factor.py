@@ -1,4 +1,4 @@
-"""Factors: variables that manufacture spreads, and the tolerances that are written for them."""
+"""Factors: variables that vary in production, and their tolerances."""
 
 import re
 from dataclasses import dataclass
@@ -16,13 +16,13 @@ RUNOUT = {"tooth_errors.planet_runout": "planet", "tooth_errors.side_runout": "s
 _GRADE = re.compile(r"grade\s+(\S+)$")
 _USAGE = ("write \"grade 7\", \"0.1 mm +- 0.02 mm\", normal(MEAN, SD), uniform(A, B), triangular(A, PEAK, B), "
           "lognormal(MEDIAN, FACTOR), \"A..B\", a list or one value")
-# what the words do: the spread is so many times as large, or the grade so many steps coarser; how the former is said
+# effect of each word: factor of the spread, steps of the grade, and the factor in words
 WORDS = {"finer": (0.5, -1, "half the spread of"), "coarser": (2.0, 1, "twice the spread of")}
 
 
 @dataclass(frozen=True)
 class Factor:
-    """A variable and the law of its values; `text` is how it was written."""
+    """Variable and the law of its values; `text` is the tolerance as written."""
 
     variable: str
     text: str
@@ -34,7 +34,7 @@ class Factor:
 
 
 class Reader:
-    """Reads tolerances for the gears of a scene. `capability`: C_p of bands and grades; 1 makes a tolerance ± 3 standard
+    """Reads tolerances for the gears of a scene. `capability`: C_p of bands and grades; with 1, a tolerance is ± 3 standard
     deviations."""
 
     def __init__(self, scene: Scene, capability: float = 1.0):
@@ -45,7 +45,7 @@ class Reader:
         self._gears: dict[str, Gear] | None = None
 
     def read(self, name: str, given: GivenValues) -> Factor:
-        """The factor of a tolerance as it is written in a file."""
+        """Factor of a tolerance as written in a file."""
         variable = self.fmu.variable(name)
         if variable.causality not in ("parameter", "input"):
             raise DifferentialError(f"{name}: it is calculated and has no tolerance")
@@ -57,7 +57,7 @@ class Reader:
             raise DifferentialError(f"{'' if known else name + ': '}{error}") from None
 
     def other(self, factor: Factor, given: GivenValues) -> Factor:
-        """The factor with another tolerance: as in a file, or "finer" or "coarser" (a grade, or half and twice the spread)."""
+        """Factor with another tolerance, written as in a file, or as "finer" or "coarser" (a grade, or half and twice the spread)."""
         if not isinstance(given, str) or given not in WORDS:
             return self.read(factor.variable, given)
         ratio, steps, said = WORDS[given]

@@ -1,4 +1,4 @@
-"""Distribution of a figure, and yield, with intervals of 95 % confidence; and from them which tolerance is worth its money."""
+"""Distribution of a figure, and yield, with intervals of 95 % confidence, from which alternatives are evaluated."""
 
 from dataclasses import dataclass
 from functools import cache
@@ -15,7 +15,7 @@ RESAMPLES = 2000
 
 @dataclass(frozen=True)
 class Estimate:
-    """A value and the ends of its interval; an end is nan where the runs are too few for one."""
+    """Value and the ends of its interval; an end is nan if the runs are too few for it."""
 
     value: float
     low: float
@@ -24,7 +24,7 @@ class Estimate:
 
 @dataclass(frozen=True)
 class Spread:
-    """How a figure is spread, SI. `quantiles`: by share of probability. `runs`: how many it is from."""
+    """Distribution of a figure, SI. `quantiles`: values by share of probability. `runs`: number of values."""
 
     runs: int
     mean: Estimate
@@ -33,7 +33,7 @@ class Spread:
 
     @classmethod
     def of(cls, figures: np.ndarray, seed: int = 1) -> "Spread | None":
-        """Of figures of runs, shape (runs,), nan where a run failed; None with fewer than two."""
+        """Distribution of the figures of runs, shape (runs,), nan if a run failed; None with fewer than two values."""
         sound = figures[np.isfinite(figures)]
         if len(sound) < 2:
             return None
@@ -42,24 +42,24 @@ class Spread:
 
 
 def proportion(good: np.ndarray) -> Estimate:
-    """Part of runs that are good, shape (runs,), with the interval of Wilson."""
+    """Fraction of good runs, shape (runs,), with the interval of Wilson."""
     count, runs = int(np.sum(good)), len(good)
     return Estimate(count / runs, *_wilson(count, runs))
 
 
 @cache
 def _wilson(count, runs):
-    # slow, and alternatives ask for the same counts again and again
+    # cached, because it is slow and alternatives often have the same counts
     between = stats.binomtest(count, runs).proportion_ci(LEVEL, method="wilson")
     return between.low, between.high
 
 
 def gain(before: np.ndarray, after: np.ndarray, cost: float) -> Estimate:
-    """Y′ − (1 + cost) Y for yields Y before and Y′ after of runs in pairs, shape (runs,), with an interval.
+    """Gain Y′ − (1 + cost) Y from yields Y before and Y′ after of paired runs, shape (runs,), with an interval.
 
-    It follows from the parts that become good, become bad and stay good: p − (1 + cost) q − cost g. Their Wilson intervals are
-    put together by the method of variance estimates recovery (Donner and Zou 2012). Where no run changes, p and q may still be
-    above 0, and the interval says so."""
+    It follows from the fractions of runs that become good, become bad and stay good: p − (1 + cost) q − cost g. Their Wilson intervals
+    are combined by the method of variance estimates recovery (Donner and Zou 2012). If no run changes, p and q may still be above 0,
+    which widens the interval."""
     parts = [proportion(each) for each in (after & ~before, before & ~after, before & after)]
     weight = np.array([1.0, -(1.0 + cost), -cost])
     value, low, high = (np.array([getattr(part, end) for part in parts]) for end in ("value", "low", "high"))
@@ -70,7 +70,7 @@ def gain(before: np.ndarray, after: np.ndarray, cost: float) -> Estimate:
 
 
 def _together(value, reaches, weight):
-    """How far the weighted sum of parts that exclude each other reaches, from how far each term does, shape (parts,)."""
+    """Half width of the weighted sum of mutually exclusive fractions, from the half width of each term, shape (parts,)."""
     odds = np.sqrt(value / np.maximum(1.0 - value, 1e-300))
     correlation = -np.outer(odds, odds)
     np.fill_diagonal(correlation, 1.0)
@@ -84,7 +84,7 @@ def _deviation(values, axis=-1):
 
 def _resampled(values, statistic, seed):
     value = float(statistic(values))
-    # figures that differ by rounding alone have no spread
+    # figures that differ only by rounding have no spread
     if np.ptp(values) <= 1e-12 * np.abs(values).max():
         value = float(values[0]) if statistic is np.mean else 0.0
         return Estimate(value, value, value)
@@ -94,19 +94,19 @@ def _resampled(values, statistic, seed):
 
 
 def _quantile(values, share):
-    # by order statistics, which need no distribution
+    # by order statistics, which assume no distribution
     between = stats.quantile_test(values, p=share).confidence_interval(LEVEL)
     return Estimate(float(np.quantile(values, share)), float(between.low), float(between.high))
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """Judgement on an alternative.
+    """Evaluation of an alternative.
 
     `word`: "worth its money", "not worth its money" or "undecided"; without costs "raises the yield", "lowers the yield" or
-    "no change seen". `yield_`: its yield. `gain`: this less (1 + cost) times the yield before: above 0 where a good
-    differential becomes cheaper, (1 + cost)/yield being its price if the others are scrapped. `why`: the factor's part in a
-    variance."""
+    "no change seen". `yield_`: yield of the alternative. `gain`: this yield less (1 + cost) times the yield before. It is above 0 if a
+    good differential becomes cheaper, because its price is (1 + cost)/yield if the others are scrapped. `why`: share of the factors in
+    a variance."""
 
     alternative: Alternative
     word: str
@@ -115,7 +115,7 @@ class Verdict:
     why: str
 
     def line(self, before: float) -> str:
-        """The answer in a line; `before`: the yield with the tolerances as they are."""
+        """Text of the evaluation in a line; `before`: the yield with the given tolerances."""
         cost = "" if self.alternative.cost is None else f" at {100.0 * self.alternative.cost:+.3g} % of the price"
         gain = f"{self.gain.value:+.3f} [{self.gain.low:+.3f}, {self.gain.high:+.3f}]"
         return (f"{self.word}: {self.alternative.name}{cost} (yield {self.yield_.value:.3f} for {before:.3f}, gain {gain}"
@@ -123,7 +123,7 @@ class Verdict:
 
 
 def verdicts(study: Study, result: Result) -> list[Verdict]:
-    """Judgements on all alternatives, the best first; none without limits, as there is no yield then."""
+    """Evaluations of all alternatives, the best first; none without limits, which define the yield."""
     if not study.limits:
         return []
     found = [_verdict(study, result, one, draws) for one, draws in zip(study.alternatives, result.others)]
@@ -142,7 +142,7 @@ def _verdict(study, result, one: Alternative, draws: Draws):
 
 
 def _why(study, result, one):
-    """Where its factors take the largest part in the variance of a figure that has a limit."""
+    """Text about the limited figure in whose variance the factors have the largest share."""
     places = [result.names.index(name) for name in one.factors if name in result.names]
     parts = []
     for limit in study.limits:

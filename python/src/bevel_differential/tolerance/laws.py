@@ -1,7 +1,7 @@
-"""Laws by which a factor is spread over the differentials that are made, and accuracy grades of bevel gears by ISO 17485:2006.
+"""Laws for the distribution of a factor in production, and accuracy grades of bevel gears by ISO 17485:2006.
 
-Each law has `at(shares)`: values (SI) at shares of probability in (0, 1), shape (runs,); `varies`; `scaled(ratio)`: the same law
-with a spread `ratio` times as large; and `graded(steps)`: the same with a grade that is so many steps coarser."""
+Each law has `at(shares)`: values (SI) at shares of probability in (0, 1), shape (runs,); `varies`; `scaled(ratio)`: a law with a
+spread `ratio` times as large; and `graded(steps)`: a law with a grade that is `steps` steps coarser."""
 
 import math
 from abc import ABC, abstractmethod
@@ -15,7 +15,7 @@ from ..scene import Scene
 from ..values import DifferentialError, Number
 
 GRADES = range(2, 12)
-# in which the standard gives its equations: mean normal module and tolerance diameter in m, number of teeth
+# ranges of the standard's equations: mean normal module and tolerance diameter in m, number of teeth
 MODULES, DIAMETERS, TEETH = (1e-3, 50e-3), (5e-3, 2.5), (5, 400)
 _GEOMETRY = ("geometry.outer_cone_distance", "geometry.planet_pitch_angle", "geometry.side_pitch_angle", "geometry.face_width",
              "geometry.module", "geometry.planet_teeth", "geometry.side_teeth", "geometry.addendum_system",
@@ -23,7 +23,7 @@ _GEOMETRY = ("geometry.outer_cone_distance", "geometry.planet_pitch_angle", "geo
 
 
 def grade(name: str, number: int) -> int:
-    """`number` if it is an accuracy grade; `name` is the variable that it is for."""
+    """Returns `number` if it is an accuracy grade; `name` is the variable with this grade."""
     if number not in GRADES:
         raise DifferentialError(f"{name} = grade {number}: ISO 17485 has the grades {GRADES[0]} (finest) to {GRADES[-1]}")
     return number
@@ -31,10 +31,10 @@ def grade(name: str, number: int) -> int:
 
 @dataclass(frozen=True)
 class Gear:
-    """What the tolerances of a gear follow from.
+    """Dimensions of a gear from which its tolerances follow.
 
-    `diameter`: tolerance diameter d_T, m, where the mean cone distance meets the middle of the working depth. `module`: mean
-    normal module m_mn, m. `teeth`: their number."""
+    `diameter`: tolerance diameter d_T, m, at the intersection of the mean cone distance and the middle of the working depth. `module`:
+    mean normal module m_mn, m. `teeth`: number of teeth."""
 
     diameter: float
     module: float
@@ -49,7 +49,7 @@ class Gear:
         return 0.8 * self.cumulative_pitch(number)
 
     def check(self, name: str) -> None:
-        """Raises what lies outside the ranges of the standard; `name` is the variable that a grade is given for."""
+        """Raises `DifferentialError` for a value outside the ranges of the standard; `name` is the variable with a grade."""
         ranges = (("mean module", self.module, MODULES, " m"), ("number of teeth", self.teeth, TEETH, ""),
                   ("tolerance diameter", self.diameter, DIAMETERS, " m"))
         for what, value, (low, high), unit in ranges:
@@ -59,7 +59,7 @@ class Gear:
 
 
 def gears(scene: Scene) -> dict[str, Gear]:
-    """The gears of a scene, "planet" and "side"."""
+    """Gears of a scene, "planet" and "side"."""
     first = scene.run(_GEOMETRY, stop=scene.step)[0]
     value = {name.removeprefix("geometry."): first[name].item() for name in _GEOMETRY}
     at_mean = 1.0 - 0.5 * value["face_width"] / value["outer_cone_distance"]
@@ -73,7 +73,7 @@ def gears(scene: Scene) -> dict[str, Gear]:
 
 
 def _addendum_difference(system, ratio, value):
-    """Addendum of a planet less that of a side gear, in modules: twice the distance of the pitch cone from the middle of the
+    """Addendum of a planet less that of a side gear, in modules. It is twice the distance of the pitch cone from the middle of the
     working depth. `ratio`: virtual teeth of a side gear over those of a planet."""
     if system == "explicit":
         return value["planet_addendum"] - value["side_addendum"]
@@ -83,7 +83,7 @@ def _addendum_difference(system, ratio, value):
 
 
 class Law(ABC):
-    """A law, of no grade."""
+    """Distribution without a grade."""
 
     varies = True
 
@@ -93,16 +93,16 @@ class Law(ABC):
 
     @abstractmethod
     def scaled(self, ratio: float) -> "Law":
-        """The same law with a spread `ratio` times as large. Raises `DifferentialError` where there is none."""
+        """Law with a spread `ratio` times as large. Raises `DifferentialError` if such a law does not exist."""
 
     def graded(self, steps: int) -> "Law | None":
-        """None: this law is no grade's."""
+        """Law with a coarser grade; None for laws without a grade."""
         return None
 
 
 @dataclass(frozen=True)
 class Fixed(Law):
-    """One value for all."""
+    """Law with a single value."""
 
     value: Number
     varies = False
@@ -116,7 +116,7 @@ class Fixed(Law):
 
 @dataclass(frozen=True)
 class Given(Law):
-    """A distribution, a range or a list."""
+    """Law of a distribution, a range or a list."""
 
     dimension: Dimension
 
@@ -126,7 +126,7 @@ class Given(Law):
     def scaled(self, ratio: float) -> Law:
         numbers, whole = self.dimension.numbers, self.dimension.whole
         if self.dimension.kind == "lognormal":
-            # the logarithm is what is spread
+            # the logarithm has the spread
             return self._with(numbers[0], numbers[1]**ratio)
         if self.dimension.kind == "normal":
             return self._with(numbers[0], numbers[1] * ratio)
@@ -140,11 +140,11 @@ class Given(Law):
 
 
 class PitchGrade(Fixed):
-    """Gears that just meet a grade of pitch deviations. Which deviations they have is for the seed to say."""
+    """Gears that just meet a grade of pitch deviations. The seed determines the deviations."""
 
     @property
     def number(self) -> Number:
-        """The grade."""
+        """Grade of the gears."""
         return self.value
 
     def graded(self, steps: int) -> Law:
@@ -155,8 +155,8 @@ class PitchGrade(Fixed):
 class RunoutGrade(Law):
     """Runout of gears that are made for a grade.
 
-    Both components of the eccentricity are normal and alike, so that the runout is a Rayleigh variable. The part of gears
-    beyond the tolerance is that of a centred normal characteristic beyond its limits at the same capability C_p."""
+    Both components of the eccentricity have the same normal distribution, so that the runout is a Rayleigh variable. The fraction of
+    gears beyond the tolerance equals that of a centred normal characteristic beyond its limits at the same capability C_p."""
 
     number: int
     gear: Gear
@@ -179,12 +179,12 @@ class RunoutGrade(Law):
 
 
 def beyond(capability: float) -> float:
-    """Part of a centred normal characteristic beyond its limits, which are ± 3 C_p standard deviations from the middle."""
+    """Fraction of a centred normal characteristic beyond its limits, which are ± 3 C_p standard deviations from the middle."""
     return 2.0 * stats.norm.sf(3.0 * capability)
 
 
 def band(variable: str, middle: float, half: float, capability: float) -> Law:
-    """Normal law of a tolerance `middle` ± `half`: a standard deviation of half/(3 C_p)."""
+    """Normal law of a tolerance `middle` ± `half`, with the standard deviation half/(3 C_p)."""
     if half < 0.0:
         raise DifferentialError(f"{variable}: a tolerance of ± {half:g} is negative")
     return Given(Dimension(variable, "normal", (middle, half / (3.0 * capability)))) if half > 0.0 else Fixed(middle)

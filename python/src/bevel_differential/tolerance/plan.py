@@ -1,4 +1,4 @@
-"""Tolerance files: a scene, the tolerances of what is made, what is wanted, limits and alternatives."""
+"""Tolerance files: a scene, tolerances, wanted figures, limits and alternatives."""
 
 import contextlib
 from pathlib import Path
@@ -20,26 +20,26 @@ NEEDED = ("description", "scene", "factors", "wants")
 KINDS = {str: ("text", ("description", "scene")), dict: ("a table", ("set", "factors")),
          list: ("a list", ("wants", "limits", "alternative"))}
 INDIVIDUAL = "tooth_errors.seed"
-# draws of which the FMU says what the scene cannot feel
+# number of draws for which the FMU reports values without effect
 TRIED = 4
 
 
 class Plan:
-    """A tolerance file that has been read.
+    """Tolerance file that has been read.
 
-    `scene`, `task` and `study` are what it says; `notes` what a reader of the results should know."""
+    `scene`, `task` and `study` are its contents; `notes` are remarks for readers of the results."""
 
     def __init__(self, name: str, description: str, scene: Scene, task: Task, study: Study):
         self.name, self.description, self.scene, self.task, self.study = name, description, scene, task, study
         self._check_ranges()
-        self._check_felt()
+        self._check_effect()
         self.notes = self._remarks()
 
     @classmethod
     def load(cls, file: FileName, fmu: FileName | Fmu | None = None, runs: int | None = None, seed: int | None = None,
              indices: bool = True, stop: str | None = None) -> "Plan":
-        """The plan of a file; `runs` and `seed` instead of those in it, `stop` another end of its scene. All errors of the factors are
-        reported at once."""
+        """Reads a plan from a file; `runs` and `seed` replace those of the file, `stop` the end of its scene. All errors of the factors are
+        reported together."""
         file, fmu = Path(file), Fmu.of(fmu)
         if not file.is_file():
             raise DifferentialError(f"{file}: there is no such file; `bevel-differential examples` writes one to begin with")
@@ -48,7 +48,7 @@ class Plan:
         problems += [f"{key} is missing" for key in NEEDED if key not in found]
         problems += [f"{key} = {found[key]!r}: it is {what}" for kind, (what, keys) in KINDS.items() for key in keys
                      if key in found and not isinstance(found[key], kind)]
-        problems += [f"{key}: it has text alone, such as \"torque_bias_ratio:mean\"" for key in ("wants", "limits")
+        problems += [f"{key}: it contains only texts, such as \"torque_bias_ratio:mean\"" for key in ("wants", "limits")
                      if not all(isinstance(entry, str) for entry in found.get(key, []))]
         if problems:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
@@ -63,30 +63,30 @@ class Plan:
             raise DifferentialError("\n".join(f"{file}: {line}" for line in str(error).splitlines())) from None
 
     def run(self, farm: Farm) -> Result:
-        """The result, its runs made by a `Farm`."""
+        """Result of the study, whose runs a `Farm` evaluates."""
         return self.study.run(lambda designs: farm.evaluate(self.task, designs))
 
-    def _check_felt(self):
-        """Factors that the scene feels in no draw would change nothing."""
-        unfelt = []
+    def _check_effect(self):
+        """Refuses a factor that has no effect in any draw."""
+        without_effect = []
         for _, values in self.study.designs()[:TRIED]:
-            # a design that the FMU refuses shows in the results
+            # the results show a design that the FMU refuses
             with contextlib.suppress(DifferentialError):
-                unfelt.append(self.scene.unfelt_of(values))
+                without_effect.append(self.scene.unfelt_of(values))
         for name in self.study.factors:
-            if unfelt and all(name in each for each in unfelt):
-                raise DifferentialError(f"{name} has a tolerance, but {unfelt[0][name]}; set that in the scene or in [set], or leave "
-                                        "the factor out")
+            if without_effect and all(name in each for each in without_effect):
+                raise DifferentialError(f"{name} has a tolerance, but {without_effect[0][name]}; set that in the scene or in [set], "
+                                        "or leave the factor out")
 
     def _remarks(self):
         factors = self.study.factors
         individual = [name for name in (PITCH, *RUNOUT) if name in factors]
         if individual and INDIVIDUAL not in factors:
-            return [f"all gears have the same teeth and phases of runout, as {INDIVIDUAL} is no factor: give it \"seed\""]
+            return [f"all gears have the same teeth and phases of runout, because {INDIVIDUAL} is not a factor: give it \"seed\""]
         return []
 
     def _check_ranges(self):
-        """Draws that the FMU would refuse are an error of the tolerances."""
+        """Refuses tolerances with draws that the FMU would refuse."""
         designs = [values for _, values in self.study.designs()]
         for name in self.study.factors:
             variable = self.scene.fmu.variable(name)
@@ -104,7 +104,7 @@ class Plan:
 
 
 class _Reading:
-    """Reads factors and collects what is wrong with them."""
+    """Reads factors and collects their errors."""
 
     def __init__(self, scene, found):
         self.reader, self.problems = Reader(scene, found.get("capability", 1.0)), []
@@ -125,11 +125,11 @@ class _Reading:
         name, cost = entry.pop("name", None), entry.pop("cost", None)
         place = "[[alternative]]"
         if cost is not None and (isinstance(cost, bool) or not isinstance(cost, (int, float)) or not -1.0 < cost < 100.0):
-            self.problems.append(f"{place} cost = {cost!r}: it is a part of the price of a differential, such as 0.02")
+            self.problems.append(f"{place} cost = {cost!r}: it is a fraction of the price of a differential, such as 0.02")
         given = flat(entry)
         if not given:
             self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
-        # a factor that is wrong itself has been reported
+        # errors of the factor itself have already been reported
         sound = {variable: text for variable, text in given.items() if self.factors.get(variable, True) is not None}
         others = {variable: self.attempt(place, self.other, variable, text) for variable, text in sound.items()}
         written = ", ".join(f"{variable} = {other.text}" for variable, other in others.items() if other)
@@ -137,7 +137,7 @@ class _Reading:
 
     def other(self, variable, text) -> Factor:
         if variable not in self.factors:
-            raise DifferentialError(f"{variable}: it is none of the factors{suggestion(variable, self.factors)}")
+            raise DifferentialError(f"{variable}: it is not one of the factors{suggestion(variable, self.factors)}")
         return self.reader.other(self.factors[variable], text)
 
 

@@ -1,4 +1,4 @@
-"""Results in words and tables; and a picture: how figures are spread, what spreads them, and what the alternatives give."""
+"""Results as text, as tables and as a picture: spread of figures, its causes, and the effects of the alternatives."""
 
 import math
 import textwrap
@@ -17,16 +17,16 @@ from .figures import Estimate, Spread, proportion, verdicts
 from .plan import Plan
 from .study import Indices, Result
 
-# inches: a row of panels, what a factor or an alternative adds to it
+# heights in inches: of a row of panels, and of each factor or alternative in it
 ROW, LINE = 1.6, 0.16
 
 
-# half of an interval of a Sobol index from which on it says little
+# half width of the interval of a Sobol index above which the index is uncertain
 WIDE = 0.3
 
 
 def text(plan: Plan, result: Result) -> str:
-    """All of a result: tolerances, spread of the figures, yield, indices and what each alternative gives."""
+    """Text of a result: tolerances, spread of the figures, yield, indices and alternatives."""
     tolerances = [("factor", "tolerance"), *((name, factor.text) for name, factor in plan.study.factors.items())]
     parts = [f"{plan.name}: {plan.description}", _table(tolerances), _table(_spreads(plan, result)), _yields(plan, result)]
     parts += [_indices(plan, result), _alternatives(plan, result)]
@@ -38,7 +38,7 @@ def text(plan: Plan, result: Result) -> str:
 
 
 def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
-    """Writes all runs: number, factors, figures, message; SI, or in the display units of the scene."""
+    """Writes all runs: number, factors, figures, message; in SI, or in the display units of the scene."""
     fmu, rows = plan.scene.fmu, result.rows
     columns = [("run", [row.run for row in rows])]
     columns += [fmu.variable(name).column(name, [row.values[name] for row in rows], fmu.display_units) for name in plan.study.factors]
@@ -49,7 +49,7 @@ def write_runs(plan: Plan, result: Result, file: FileName) -> Path:
 
 
 def shown(plan: Plan, want: Want, estimate: Estimate) -> tuple[str, Estimate]:
-    """Unit in which a wanted figure is usually shown, and the estimate in it."""
+    """Display unit of a wanted figure, and the estimate in this unit."""
     return _shown(want.quantity(plan.scene.fmu), estimate)
 
 
@@ -87,7 +87,7 @@ def _yields(plan, result):
 
 
 def limit_text(plan: Plan, limit: Condition) -> str:
-    """A limit in the usual unit."""
+    """Text of a limit in the display unit."""
     unit, value = limit.want.quantity(plan.scene.fmu).shown(limit.limit)
     return f"{limit.want} {limit.relation} {value:.6g} {unit}".strip()
 
@@ -133,7 +133,7 @@ def _table(lines):
 
 
 def draw(plan: Plan, result: Result, file: FileName) -> Path:
-    """Writes a PNG: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
+    """Draws the result: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
     require("matplotlib", "plot")
     from .. import style
 

@@ -1,4 +1,4 @@
-"""Which differentials are drawn, at which shares of probability, and run; and what they give."""
+"""Study of tolerances: drawn differentials by shares of probability, their runs and results."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -14,8 +14,8 @@ from .factor import Factor
 
 @dataclass(frozen=True)
 class Alternative:
-    """Other tolerances of some factors, by variable. `cost`: what they add to the price of a differential, as a part of it;
-    None if it is not known."""
+    """Other tolerances of some factors, by variable. `cost`: their additional cost as a fraction of the price of a differential; None
+    if it is not known."""
 
     name: str
     factors: dict[str, Factor]
@@ -24,10 +24,10 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Draws:
-    """What drawn differentials gave.
+    """Results of drawn differentials.
 
-    `figures`: by want, SI, shape (runs,), nan where a run failed. `good`: those that ran and are within all limits, shape
-    (runs,). `failures`: messages of those that failed."""
+    `figures`: by want, SI, shape (runs,), nan if a run failed. `good`: true for runs that succeeded and are within all limits, shape
+    (runs,). `failures`: messages of failed runs."""
 
     figures: dict[str, np.ndarray]
     good: np.ndarray
@@ -38,7 +38,7 @@ class Draws:
 class Indices:
     """Sobol indices of a figure for each factor that varies, with the half widths of their intervals; shape (factors,).
 
-    `first`: part of the variance that the factor causes by itself; `total`: part that it takes part in."""
+    `first`: fraction of the variance that the factor causes by itself; `total`: fraction to which it contributes."""
 
     first: np.ndarray
     first_half: np.ndarray
@@ -50,8 +50,8 @@ class Indices:
 class Result:
     """Result of a study.
 
-    `names`: factors that vary, in the order of the indices. `indices`: by want; text says why there are none. `others`: draws
-    of each alternative, in their order. `rows`: all runs, in order of run."""
+    `names`: factors that vary, in the order of the indices. `indices`: by want, or the reason why there are none. `others`: draws of
+    each alternative, in their order. `rows`: all runs, in order of run."""
 
     names: list[str]
     base: Draws
@@ -61,11 +61,11 @@ class Result:
 
 
 class Study:
-    """Tolerances, what is wanted under them, and what else could be made.
+    """Study with tolerances, wanted figures and alternatives.
 
-    `runs`: draws of all factors together, a power of two; indices take half of it more for each factor that varies. `limits`
-    are for figures that are wanted. Alternatives are drawn at the same shares of probability: where a factor keeps its
-    tolerance, its values are the same, run by run."""
+    `runs`: number of draws of all factors together, a power of two; indices need half of this number more for each factor that varies.
+    `limits` must be on wanted figures. Alternatives are drawn at the same shares of probability: if a factor keeps its tolerance, its
+    values are the same, run by run."""
 
     def __init__(self, factors: Sequence[Factor], wants: Sequence[Want], limits: Sequence[Condition] = (),
                  alternatives: Sequence[Alternative] = (), runs: int = 512, seed: int = 1, indices: bool = True):
@@ -84,11 +84,11 @@ class Study:
                 raise DifferentialError(f"limit {limit}: {limit.want} is not wanted; wanted are {known}")
         for one in self.alternatives:
             for name in one.factors.keys() - self.factors.keys():
-                raise DifferentialError(f"alternative {one.name!r}: {name} is none of the factors {', '.join(self.factors)}")
+                raise DifferentialError(f"alternative {one.name!r}: {name} is not one of the factors {', '.join(self.factors)}")
 
     @property
     def names(self) -> list[str]:
-        """Factors that vary, here or in an alternative."""
+        """Factors that vary, in the study or in an alternative."""
         sets = [self.factors, *(one.factors for one in self.alternatives)]
         return [name for name in self.factors if any(name in each and each[name].law.varies for each in sets)]
 
@@ -102,7 +102,7 @@ class Study:
         return list(enumerate(designs))
 
     def run(self, evaluate: Callable[[list], list[Row]]) -> Result:
-        """The result. `evaluate` takes numbered designs [(run, values)] and gives a row for each, in order of run."""
+        """Result of the study. `evaluate` receives numbered designs [(run, values)] and returns a row for each, in order of run."""
         rows = list(evaluate(self.designs()))
         _, drawn = self._shares()
         first = len(drawn) if self.indices else self.runs
@@ -129,13 +129,13 @@ class Study:
 
     def _analysed(self, rows, want):
         if not self.indices:
-            return "not asked for"
+            return "not requested"
         figures = _figures(rows, want)
         missing = np.sum(~np.isfinite(figures))
         if missing:
-            return f"none, as {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
+            return f"none, because {missing} of {len(rows)} runs failed: make tolerances narrower, or the scene more robust"
         if np.ptp(figures) <= 1e-10 * np.abs(figures).max():
-            return "none, as the figure does not vary"
+            return "none, because the figure does not vary"
         return analyse(len(self.names), figures, self.seed)
 
 
@@ -144,14 +144,14 @@ def _figures(rows, want):
 
 
 def check_runs(runs: int) -> int:
-    """`runs` if Sobol sequences have that length."""
+    """Returns `runs` if it is a length of Sobol sequences."""
     if isinstance(runs, bool) or not isinstance(runs, int) or runs < 8 or runs & (runs - 1):
-        raise DifferentialError(f"runs = {runs!r}: it is a power of two from 8 on, such as 512, as Sobol sequences have it")
+        raise DifferentialError(f"runs = {runs!r}: it is a power of two, 8 or more, such as 512, because Sobol sequences have such lengths")
     return runs
 
 
 def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
-    """Shares by the scheme of Saltelli: blocks of rows A, AB_1 … AB_k, B; shape (runs/2 · (factors + 2), factors).
+    """Shares by Saltelli's scheme: blocks of rows A, AB_1 … AB_k, B; shape (runs/2 · (factors + 2), factors).
 
     AB_i is A with the share of factor i from B. A and B are points of one scrambled Sobol sequence."""
     if not factors:
@@ -162,7 +162,7 @@ def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
 
 
 def is_drawn(factors: int, rows: int) -> np.ndarray:
-    """Which rows of `crossed` are draws of all factors, A and B: shape (rows,)."""
+    """True for rows of `crossed` that are draws of all factors (A and B), shape (rows,)."""
     place = np.arange(rows) % (factors + 2)
     return (place == 0) | (place == factors + 1) if factors else np.ones(rows, bool)
 
@@ -172,8 +172,8 @@ def _problem(factors):
 
 
 def analyse(factors: int, figures: np.ndarray, seed: int, level: float = 0.95) -> Indices:
-    """Sobol indices of figures at `crossed`, shape (rows,)."""
+    """Sobol indices from the figures at `crossed`, shape (rows,)."""
     sobol = require("SALib.analyze.sobol", "design")
-    # SALib takes a seed of 0 for none
+    # SALib treats a seed of 0 as no seed
     found = sobol.analyze(_problem(factors), figures, calc_second_order=False, num_resamples=500, conf_level=level, seed=seed + 1)
     return Indices(*(np.asarray(found[name]) for name in ("S1", "S1_conf", "ST", "ST_conf")))

@@ -1,4 +1,4 @@
-"""A car around the differential: motor, tyres and body, for launches, turns and controllers.
+"""Car around the differential: motor, tyres and body, for launches, turns and controllers.
 
 `Car(differential, motor=Motor(…), left=Tyre(…), right=Tyre(…), body=Body(…)).run(…)`.
 """

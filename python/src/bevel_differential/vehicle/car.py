@@ -1,4 +1,4 @@
-"""A car: motor, this differential, two tyres and the body, coupled step by step."""
+"""Car: motor, this differential, two tyres and the body, coupled step by step."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence
@@ -21,28 +21,28 @@ from .signals import Course, course, speed_value
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# what goes to the differential, and what comes back
+# signals to the differential, and back
 LOADS = ("carrier.torque_command", "left.load_torque", "right.load_torque")
 SPEEDS = ("carrier.speed", "left.wheel_speed", "right.wheel_speed")
-# units of what is recorded of the parts
+# units of the recorded outputs of the parts
 UNITS = {"motor.torque": "N.m", "motor.speed": "rad/s", "left_tyre.force": "N", "right_tyre.force": "N", "left_tyre.slip": "",
          "right_tyre.slip": "", "body.speed": "m/s", "body.lateral_speed": "m/s", "body.yaw_rate": "rad/s",
          "body.lateral_acceleration": "m/s2", "body.steer": "rad"}
-# what `run` records if nothing is said
+# outputs that `run` records by default
 DEFAULT_OUTPUTS = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "left.wheel_speed", "right.wheel_speed", "body.speed")
-# what a controller sets beside inputs of the differential
+# requests that a controller sets in addition to inputs of the differential
 REQUESTS = ("motor.request", "body.steer")
 
-# gets the time (s) and what is recorded, by name; gives what it sets, by name
+# receives the time (s) and the recorded outputs by name; returns the values to set, by name
 Controller = Callable[[float, dict[str, Number]], Mapping[str, Value] | None]
 
 
 class Car:
-    """A car with this differential in its driven axle.
+    """Car with this differential in its driven axle.
 
-    `differential`: parameters as `Differential` takes them. The car sets how it is driven: by torques at all three shafts, with the
-    motor's inertia at the carrier (beside `inertia.carrier`) and the wheels' at the half-shafts. Parts have the start values of a
-    passenger car; `unset` has those that nobody gave, and the first run warns of them if any part was given.
+    `differential`: parameters as for `Differential`. The car sets the drives: torques at all three shafts, the motor's inertia at the
+    carrier in addition to `inertia.carrier`, and the wheels' inertia at the half-shafts. Parts have the start values of a passenger
+    car. `unset` lists parameters that nobody gave; if any part was given, the first run warns of them.
 
     >>> from bevel_differential.vehicle import Car, Tyre
     >>> car = Car({"contact.law": "line"}, left=Tyre(friction=0.15))
@@ -57,20 +57,20 @@ class Car:
         self.motor, self.body = motor or Motor(), body or Body()
         self.tyres = (left or Tyre(), right or Tyre())
         self._given = self._checked(differential or {})
-        self._is_told = motor is left is right is body is None
+        self._is_warned = motor is left is right is body is None
 
     def run(self, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
             steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
         """Simulates from 0 to `stop` in communication steps of `step` (s, or text such as "1 ms"). Records `outputs` of the
         differential and of the parts (`UNITS`) at each, SI.
 
-        `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left: each a number, a pair (times,
-        values) or a function of time. `speed`: of the car at the start, m/s, or text such as "54 km/h"; the motor then begins with the torque of
-        `request` that it can give at that speed, without a lag. `controller(time, values)` is called before each step with
-        what is recorded, and returns what it sets: inputs and tunable parameters of the differential, `motor.request`, `body.steer`.
-        Returns a structured array with a field "time"."""
+        `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left. Each is a number, a pair (times,
+        values) or a function of time. `speed`: speed of the car at the start, m/s, or text such as "54 km/h". The motor then starts with
+        the part of the torque `request` that it can give at that speed, without a lag. `controller(time, values)` is called before each
+        step with the recorded outputs, and returns the values to set: inputs and tunable parameters of the differential, `motor.request`,
+        `body.steer`. Returns a structured array with a field "time"."""
         stop, step = duration("stop", stop), span("step", step)
-        self._tell_unset()
+        self._warn_unset()
         self._check_step(step)
         ask, turn = course("request", request), course("steer", steer)
         names = self._recorded(outputs)
@@ -95,7 +95,7 @@ class Car:
         return record
 
     def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":
-        """Draws a record, a panel for each unit; as `Differential.plot`."""
+        """Draws a record, with a panel for each unit; see `Differential.plot`."""
         return plot(_Names(self.fmu), record, title, caption, file)
 
     @property
@@ -104,13 +104,13 @@ class Car:
         parts = zip(("motor", "left_tyre", "right_tyre", "body"), (self.motor, *self.tyres, self.body))
         return {f"{name}.{parameter}": value for name, part in parts for parameter, value in part.unset.items()}
 
-    def _tell_unset(self):
-        """Warns once of what nobody gave, if anything of the car was given."""
+    def _warn_unset(self):
+        """Warns once of parameters that nobody gave, if any part of the car was given."""
         unset = self.unset
-        if unset and not self._is_told:
+        if unset and not self._is_warned:
             listed = ", ".join(f"{name} = {value:g}" for name, value in unset.items())
             warn([f"values of a passenger car that nobody set act in this car, SI units: {listed}"])
-        self._is_told = True
+        self._is_warned = True
 
     def _checked(self, given):
         own = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive", "scene.start", "scene.planet_spin", *LOADS,
@@ -146,17 +146,17 @@ class Car:
 
     def _check_step(self, step):
         for side, tyre in zip(("left", "right"), self.tyres):
-            # a load that is late by a step acts as a damper of minus stiffness times step
+            # a load that is late by one step acts as a damper with the coefficient minus stiffness times step
             longest = min(tyre.damping * tyre.relaxation / tyre.slip_stiffness,
                           2.0 * math.sqrt(tyre.inertia * tyre.relaxation / tyre.slip_stiffness) / tyre.radius)
             if step > longest:
                 raise DifferentialError(f"step = {step:g} s: the {side} tyre at standstill is stable with steps up to "
                                         f"{longest:.2g} s (damping times relaxation length by slip stiffness, or twice the "
-                                        "wheel's period by 2 pi); take a shorter one")
+                                        "wheel's period by 2 pi); use a shorter one")
 
 
 class _Run:
-    """One run: the differential takes lines of torque from step to step, the parts take lines of speed."""
+    """One run: from step to step, the differential receives lines of torque, and the parts receive lines of speed."""
 
     def __init__(self, instance: Instance, motion: Motion, names: list[str]):
         real = [name for name in names if instance.fmu.variable(name).kind == "Real"]
@@ -180,7 +180,7 @@ class _Run:
         return self.fixed | dict(zip(self.names, self.read)) | self.motion.outputs(self.speeds[-1], steer)
 
     def step(self, time, size, asked):
-        """The parts go first, along the line through the last two speeds; the differential then knows the torques at both ends."""
+        """Advances the parts first, along the line through the last two speeds. The torques at both ends of the step are then known."""
         before, now = self.speeds[0], self.speeds[-1]
         slopes = [(b - a) / size for a, b in zip(before, now)]
 
@@ -191,13 +191,13 @@ class _Run:
         self.motion.advance(size, line, *(lambda t, of=of: of(time + t) for of in asked))
         end = self.motion.loads(line(size))
         if not all(map(math.isfinite, end)):
-            raise DifferentialError(f"at {time:g} s: the tyres' loads are no numbers; take shorter steps, or look at the parameters",
+            raise DifferentialError(f"at {time:g} s: the tyres' loads are not numbers; use shorter steps, or check the parameters",
                                     kind="failed")
         self._keep(self.port.do_step(begin, time, size, [(b - a) / size for a, b in zip(begin, end)]))
 
 
 class _Names:
-    """Variables of the differential and of the parts, as `plot` asks for them."""
+    """Variables of the differential and of the parts, for `plot`."""
 
     def __init__(self, fmu):
         self.fmu = fmu

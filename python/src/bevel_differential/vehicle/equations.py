@@ -1,4 +1,4 @@
-"""Equations of tyre, motor and body. They need nothing but `math`, so that FMUs of the parts can hold this file as well.
+"""Equations of tyre, motor and body. They need only `math`, so that FMUs of the parts can contain this file too.
 
 `tyre`, `motor` and `body` are objects with the parameters of `Tyre`, `Motor` and `Body`. SI units.
 """
@@ -14,7 +14,7 @@ def tyre_force(tyre: Any, slip: float, rolling: float, speed: float) -> float:
     """Force of the road on the tyre along its plane, N.
 
     Pacejka's magic formula with E = 0 (*Tyre and Vehicle Dynamics*, 3rd edition 2012, section 4.3). `slip`: the slip that has built
-    up; `rolling`: radius times speed of the wheel, m/s; `speed`: of the wheel's centre, m/s. The damping fades with speed."""
+    up; `rolling`: radius times speed of the wheel, m/s; `speed`: speed of the wheel's centre, m/s. The damping fades with speed."""
     peak = tyre.friction * tyre.load
     damping = tyre.damping / (1.0 + (speed / tyre.walk) ** 2)
     total = slip + damping / tyre.slip_stiffness * (rolling - speed)
@@ -27,8 +27,8 @@ def slip_rate(tyre: Any, slip: float, rolling: float, speed: float) -> float:
 
 
 def motor_torque(motor: Any, request: float, speed: float) -> float:
-    """Torque that the motor can give of the torque `request` at its speed, N.m: all of it up to `peak` below the knee, and up to the
-    power `peak` times `knee` above, in either direction of torque and speed."""
+    """Part of the torque `request` that the motor can give at its speed, N.m. In both directions of torque and speed, the limit is the
+    torque `peak` below the knee, and the power `peak` times `knee` above it."""
     limit = motor.peak * motor.knee / max(abs(speed), motor.knee)
     return min(max(request, -limit), limit)
 

@@ -1,12 +1,12 @@
-"""The equations of motor, tyres and body together, and their integration over one communication step."""
+"""Equations of motion of motor, tyres and body, and their integration over one communication step."""
 
 from collections.abc import Callable, Sequence
 
 from .equations import GRAVITY, axle_force, motor_torque, resistance, slip_rate, tyre_force
 from .parts import Body, Motor, Tyre
 
-# what the parts do: torque of the motor (N.m), slip of both tyres, speed ahead and lateral speed (m/s), yaw rate (rad/s), slip
-# angles of both axles (rad)
+# states: torque of the motor (N.m), slip of both tyres, speed ahead and lateral speed (m/s), yaw rate (rad/s), slip angles of both
+# axles (rad)
 STATES = 8
 # longest step of Runge-Kutta's method of order 4, s
 LONGEST = 1e-3
@@ -15,9 +15,9 @@ Speeds = Callable[[float], Sequence[float]]
 
 
 class Motion:
-    """The state of the parts, and what follows from it.
+    """State of the parts, with forces and outputs.
 
-    The yaw rate is positive in a turn to the left, which takes the left wheel along the shorter way."""
+    The yaw rate is positive in a turn to the left, in which the left wheel has the shorter path."""
 
     def __init__(self, motor: Motor, tyres: tuple[Tyre, Tyre], body: Body, speed: float):
         self.motor, self.tyres, self.body = motor, tyres, body
@@ -32,7 +32,7 @@ class Motion:
         return [x[3] - half, x[3] + half]
 
     def forces(self, x: Sequence[float], speeds: Sequence[float]) -> list[float]:
-        """Forces of the road on left and right tyre, N. `speeds`: of carrier and wheels, rad/s."""
+        """Forces of the road on left and right tyre, N. `speeds`: speeds of carrier and wheels, rad/s."""
         return [tyre_force(tyre, x[1 + s], tyre.radius * speeds[1 + s], centre)
                 for s, (tyre, centre) in enumerate(zip(self.tyres, self.wheel_centres(x)))]
 
@@ -64,7 +64,7 @@ class Motion:
         ]
 
     def advance(self, size: float, speeds: Speeds, request: Callable[[float], float], steer: Callable[[float], float]) -> None:
-        """Integrates over `size` (s); times of `speeds` (carrier and wheels), `request` and `steer` count from the step's begin."""
+        """Integrates over `size` (s). `speeds` (carrier and wheels), `request` and `steer` count time from the start of the step."""
         count = max(1, -int(-size // LONGEST))
         h, x = size / count, self.x
         for k in range(count):
@@ -78,12 +78,12 @@ class Motion:
         self.x = x
 
     def loads(self, speeds: Sequence[float]) -> list[float]:
-        """What the parts give to the differential, N.m: torque on the carrier, loads on left and right half-shaft."""
+        """Loads of the parts on the differential, N.m: torque on the carrier, loads on left and right half-shaft."""
         forces = self.forces(self.x, speeds)
         return [self.motor.ratio * self.torque(speeds), *(tyre.radius * force for tyre, force in zip(self.tyres, forces))]
 
     def outputs(self, speeds: Sequence[float], steer: float) -> dict[str, float]:
-        """All that can be recorded of the parts, by name."""
+        """All outputs of the parts, by name."""
         _, left_slip, right_slip, ahead, aside, yaw, _, _ = self.x
         left, right = self.forces(self.x, speeds)
         return {"motor.torque": self.torque(speeds), "motor.speed": self.motor.ratio * speeds[0],

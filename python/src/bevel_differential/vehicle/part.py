@@ -1,4 +1,4 @@
-"""What tyre, motor and body have in common: parameters with units and ranges."""
+"""Base class of tyre, motor and body: parameters with units and ranges."""
 
 import math
 from dataclasses import dataclass, field, fields
@@ -8,13 +8,13 @@ from ..values import DifferentialError
 
 
 def parameter(value: float, unit: str, text: str, least: float | None = None) -> Any:
-    """A parameter of a part with its start value; it is above `least`, if there is one."""
+    """Parameter of a part with its start value. It must be above `least`, if given."""
     return field(default=value, metadata={"unit": unit, "text": text, "least": least})
 
 
 @dataclass
 class Part:
-    """A part with parameters, SI units. `described` lists them, `unset` those that nobody gave."""
+    """Part with parameters, SI units. `described` lists them, `unset` lists those that nobody gave."""
 
     def __new__(cls, *values: float, **named: float) -> Self:
         part = super().__new__(cls)
@@ -42,5 +42,5 @@ class Part:
 
     @classmethod
     def described(cls) -> dict[str, tuple[float, str, str]]:
-        """Its parameters by name: (start value, unit, what it is)."""
+        """Parameters of the part by name: (start value, unit, description)."""
         return {parameter.name: (parameter.default, parameter.metadata["unit"], parameter.metadata["text"]) for parameter in fields(cls)}

@@ -7,7 +7,7 @@ from .part import Part, parameter
 
 @dataclass
 class Tyre(Part):
-    """A driven wheel and its tyre. The slip builds up over a relaxation length; the force follows Pacejka's magic formula.
+    """Driven wheel and its tyre. The slip builds up over a relaxation length; the force follows Pacejka's magic formula.
 
     Torque on the wheel: the differential's shaft torque less `radius` times the force of the road."""
 
@@ -19,17 +19,17 @@ class Tyre(Part):
     shape: float = parameter(1.4, "1", "C of the magic formula", 0.0)
     relaxation: float = parameter(0.4, "m", "Relaxation length", 0.0)
     damping: float = parameter(1000.0, "N.s/m", "Damping of the tyre along the road at standstill", 0.0)
-    walk: float = parameter(2.5, "m/s", "Speed at which half of that damping is left", 0.0)
+    walk: float = parameter(2.5, "m/s", "Speed at which this damping is halved", 0.0)
 
 
 @dataclass
 class Motor(Part):
-    """A motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order. It is at most `peak`
-    below the knee; above the knee the power is at most `peak` times `knee`, driving or braking, forward or backward. With `ratio` = 1
-    it stands for any source of torque."""
+    """Motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order. Below the knee, the torque
+    is at most `peak`. Above the knee, the power is at most `peak` times `knee`, driving or braking, forward or backward. With
+    `ratio` = 1 the motor represents any source of torque."""
 
-    ratio: float = parameter(9.0, "1", "Speed of the motor by the speed of the carrier", 0.0)
-    inertia: float = parameter(0.03, "kg.m2", "Rotor and what turns with it, at the motor's speed", 0.0)
+    ratio: float = parameter(9.0, "1", "Speed of the motor over the speed of the carrier", 0.0)
+    inertia: float = parameter(0.03, "kg.m2", "Rotor and all that turns with it, at the motor's speed", 0.0)
     peak: float = parameter(250.0, "N.m", "Largest torque, in either direction", 0.0)
     knee: float = parameter(500.0, "rad/s", "Speed of the motor above which its power is constant", 0.0)
     lag: float = parameter(0.03, "s", "Time constant of the torque", 0.0)
@@ -37,9 +37,9 @@ class Motor(Part):
 
 @dataclass
 class Body(Part):
-    """The car on its wheels, in the plane: speed ahead, lateral speed, yaw rate (single-track model with the forces of the driven
-    wheels at the two ends of their axle). The driven axle is the rear one. Lateral forces do not share the grip of the driven tyres, and
-    wheel loads do not change."""
+    """Body of the car in the plane: speed ahead, lateral speed, yaw rate. It is a single-track model with the forces of the driven wheels
+    at the two ends of their axle. The driven axle is the rear one. Lateral forces do not reduce the grip of the driven tyres, and wheel
+    loads do not change."""
 
     mass: float = parameter(1455.0, "kg", "Mass", 0.0)
     drag: float = parameter(0.4, "kg/m", "Half the air's density times drag coefficient and area", -1e-300)

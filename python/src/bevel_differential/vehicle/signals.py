@@ -1,4 +1,4 @@
-"""Requests over time: of the motor's torque and of the steering angle."""
+"""Requests over time, for the motor's torque and the steering angle."""
 
 import math
 from collections.abc import Callable, Sequence
@@ -8,7 +8,7 @@ import numpy as np
 
 from ..values import DifferentialError, split
 
-# a number, a pair (times, values) with straight lines between, or a function of time
+# a number, a pair (times, values) with linear interpolation, or a function of time
 Course: TypeAlias = float | tuple[Sequence[float], Sequence[float]] | Callable[[float], float]
 
 
@@ -37,7 +37,7 @@ SPEED_UNITS = {"": 1.0, "m/s": 1.0, "km/h": 1.0 / 3.6}
 
 
 def speed_value(given: float | str) -> float:
-    """A speed: m/s, or text such as "54 km/h"."""
+    """Speed in m/s from a number, m/s, or from text such as "54 km/h"."""
     number, unit = split(str(given))
     try:
         value = float(number) * SPEED_UNITS[unit]

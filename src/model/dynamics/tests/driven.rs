@@ -1,7 +1,7 @@
 //! Tests of inputs that change with time: the parabola that they add equals the equations at the inputs of each time.
 
-use super::shape::{Any, LARGEST, LEAST, PlainDriven, Shape, WITH_ENDS, WithEffects, WithEnds};
-use super::{Acted, Equations};
+use super::shape::{Any, ENDS_SIZE, MAX_SIZE, PLAIN_SIZE, PlainDriven, Shape, WithEffects, WithEnds};
+use super::{Equations, FrictionEquations};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::scene::{CarrierDrive, InputDerivatives, Inputs, PlanetSpin};
@@ -31,7 +31,7 @@ fn difference<const N: usize, S: Shape<N>>(parameters: &Parameters) -> f64 {
     let state = simulation.state();
     let equations = Equations::<S, N>::new(teeth, &inputs, state);
     assert!(equations.is_driven() && !equations.scales_by_inputs());
-    let whole = Equations::<Any, LARGEST>::new(teeth, &inputs, state);
+    let whole = Equations::<Any, MAX_SIZE>::new(teeth, &inputs, state);
     let mut largest = 0.0f64;
     for time in [0.0, 3e-4, 0.02] {
         let at: Point<N> = state.point();
@@ -68,16 +68,16 @@ fn a_parabola_of_time_equals_the_equations_at_the_inputs_of_each_time() {
     ] {
         let mut parameters = Parameters::default();
         (parameters.scene.carrier_drive, parameters.scene.planet_spin) = (drive, spin);
-        let plain = difference::<LEAST, PlainDriven>(&parameters);
+        let plain = difference::<PLAIN_SIZE, PlainDriven>(&parameters);
         assert!(plain < 1e-12, "plain teeth, {drive:?}, {spin:?}: {plain:e}");
-        let any = difference::<LARGEST, Any>(&parameters);
+        let any = difference::<MAX_SIZE, Any>(&parameters);
         assert!(any < 1e-12, "any shape, {drive:?}, {spin:?}: {any:e}");
         parameters.effects.tooth_friction = true;
-        let effects = difference::<LEAST, WithEffects<1>>(&parameters);
+        let effects = difference::<PLAIN_SIZE, WithEffects<1>>(&parameters);
         assert!(effects < 1e-12, "with friction, {drive:?}, {spin:?}: {effects:e}");
         parameters.effects.half_shaft = true;
         (parameters.inertia.left_end, parameters.inertia.right_end) = (0.3, 0.7);
-        let ends = difference::<WITH_ENDS, WithEnds>(&parameters);
+        let ends = difference::<ENDS_SIZE, WithEnds>(&parameters);
         assert!(ends < 1e-12, "with half-shafts, {drive:?}, {spin:?}: {ends:e}");
     }
 }

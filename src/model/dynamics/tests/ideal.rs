@@ -1,11 +1,11 @@
 //! Tests of the equations of ideal gears with effects. Scenes with only half-shafts have separate equations, and other
 //! methods use a larger size.
 
-use super::{Acted, IdealEquations, State};
+use super::{FrictionEquations, IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
-use crate::model::assembly::ideal_with_effects::{IdealWithEffects, MOST};
+use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
 use crate::model::assembly::{Gears, Given, Model};
-use crate::model::dynamics::shape::MEDIUM;
+use crate::model::dynamics::shape::MEDIUM_SIZE;
 use crate::model::run::Widened;
 use crate::model::scene::{CarrierDrive, GearContact, InputDerivatives, Inputs, PlanetSpin, SideDrive};
 use crate::model::{Parameters, Simulation};
@@ -27,7 +27,7 @@ fn scenes() -> Vec<Parameters> {
 }
 
 /// Calls `check` with constants, state, inputs and random points of each scene. All inputs have derivatives.
-fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<MOST>)) {
+fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<IDEAL_SIZE>)) {
     let mut random = fastrand::Rng::with_seed(7);
     for parameters in scenes() {
         let inputs = Inputs { load_torque: [70.0, -20.0], ..Inputs::default() };
@@ -38,7 +38,7 @@ fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<MO
         let model = Model::new(&parameters, &Given::default()).unwrap();
         let Gears::Ideal(ideal) = &model.gears else { panic!("the gears are ideal") };
         for _ in 0..20 {
-            let mut at = Point::<MOST>::ZERO;
+            let mut at = Point::<IDEAL_SIZE>::ZERO;
             let count = ideal.layout.count();
             at.q[..count].fill_with(|| random.f64() - 0.5);
             at.v[..count].fill_with(|| 100.0 * (random.f64() - 0.5));
@@ -90,10 +90,10 @@ fn a_larger_size_changes_no_bit() {
     at_random_points(|ideal, state, inputs, at| {
         let equations = IdealEquations::new(ideal, inputs, state);
         let widened = Widened(IdealEquations::new(ideal, inputs, state));
-        let large: Point<MEDIUM> = Point::of([&at.q, &at.v]);
-        let narrow = |values: [f64; MEDIUM]| {
-            assert_eq!(values[MOST..], [0.0; MEDIUM - MOST]);
-            std::array::from_fn::<f64, MOST, _>(|i| values[i])
+        let large: Point<MEDIUM_SIZE> = Point::of([&at.q, &at.v]);
+        let narrow = |values: [f64; MEDIUM_SIZE]| {
+            assert_eq!(values[IDEAL_SIZE..], [0.0; MEDIUM_SIZE - IDEAL_SIZE]);
+            std::array::from_fn::<f64, IDEAL_SIZE, _>(|i| values[i])
         };
         let (acceleration, ledger_rates) = widened.evaluate_at(&large, 0.02);
         assert_eq!((narrow(acceleration), ledger_rates), equations.evaluate_at(at, 0.02));
@@ -101,12 +101,15 @@ fn a_larger_size_changes_no_bit() {
         let (mut wide_rates, mut rates) = (wide.by_velocity, small.by_velocity);
         widened.times_rates(&mut wide_rates);
         equations.times_rates(&mut rates);
-        for i in 0..MOST {
+        for i in 0..IDEAL_SIZE {
             assert_eq!(narrow(wide.by_position[i]), small.by_position[i]);
             assert_eq!(narrow(wide_rates[i]), rates[i]);
         }
         assert_eq!(narrow(widened.rates(&large.v)), equations.rates(&at.v));
         assert_eq!(narrow(widened.drift(&large, 0.02)), equations.drift(at, 0.02));
-        assert_eq!((widened.energy(&large), widened.rubs()), (equations.energy(at), equations.rubs()));
+        assert_eq!(
+            (widened.energy(&large), widened.has_dry_friction()),
+            (equations.energy(at), equations.has_dry_friction())
+        );
     });
 }

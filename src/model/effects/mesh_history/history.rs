@@ -29,33 +29,33 @@ pub struct MeshHistory {
 }
 
 impl MeshHistory {
-    /// Adds a step up to its fraction `part`. `rolling` is its rolling in cycles, and `quantities` are in their fixed
-    /// order.
+    /// Adds a step up to its `accepted_fraction`. `rolling` is its rolling in cycles, and `quantities` are in their
+    /// fixed order.
     ///
     /// A step may contain any number of whole cycles, of which only the last one gives values. They are counted without
     /// a loop.
-    pub fn add(&mut self, rolling: &Curve, quantities: &[Curve], part: f64) {
+    pub fn add(&mut self, rolling: &Curve, quantities: &[Curve], accepted_fraction: f64) {
         let (mut from, mut begin) = (0.0, rolling.at(0.0) - self.rolled);
-        let rolled = rolling.at(part) - begin;
+        let rolled = rolling.at(accepted_fraction) - begin;
         if rolled * self.rolled < 0.0 {
-            from = rolling.crossing(begin, [from, part]);
+            from = rolling.crossing(begin, [from, accepted_fraction]);
             self.extremes = None;
         }
         let whole = rolled.trunc();
         if whole != 0.0 {
             if whole.abs() > 1.0 {
-                from = rolling.crossing(begin + (whole - whole.signum()), [from, part]);
+                from = rolling.crossing(begin + (whole - whole.signum()), [from, accepted_fraction]);
                 self.extremes = None;
             }
             begin += whole;
-            let to = rolling.crossing(begin, [from, part]);
+            let to = rolling.crossing(begin, [from, accepted_fraction]);
             self.extend(quantities, [from, to]);
             self.last = self.extremes.take().unwrap_or_default().map(|[least, largest]| largest - least);
             from = to;
         }
-        self.extend(quantities, [from, part]);
+        self.extend(quantities, [from, accepted_fraction]);
         // if an angle is so large that its rounding exceeds a cycle, the position within the cycle is unknown
-        let rest = rolling.at(part) - begin;
+        let rest = rolling.at(accepted_fraction) - begin;
         self.rolled = if rest.abs() < 1.0 { rest } else { 0.0 };
     }
 

@@ -24,16 +24,16 @@ pub struct Fatigue {
     /// Time from which damage and stresses count [s].
     pub from: f64,
     /// True if a start that was not in equilibrium counts.
-    pub has_blow: bool,
+    pub counts_start: bool,
 }
 
-finite!(Fatigue { planets, sides, in_mesh, overloads, utilisation, from; has_blow });
+finite!(Fatigue { planets, sides, in_mesh, overloads, utilisation, from; counts_start });
 
 impl Fatigue {
     /// Damage of a run that begins at `start` [s] and is rated from `later` [s] after that. `in_equilibrium` is true if
     /// the run begins in equilibrium.
     pub fn new(start: f64, later: f64, in_equilibrium: bool) -> Self {
-        Self { from: start + later, has_blow: later == 0.0 && !in_equilibrium, ..Self::default() }
+        Self { from: start + later, counts_start: later == 0.0 && !in_equilibrium, ..Self::default() }
     }
 
     /// Mean damage per cycle so far: of the worst planet's root, the worse side gear's root, and the worst flank.

@@ -95,15 +95,15 @@ fn steps_that_a_burst_of_heat_has_shortened_grow_again() {
     let mut thermal = Thermal::uniform(START);
     // a blow: 1 J within a microsecond; at this rate, half a kelvin takes 0.5 K · 300 J/K / 1 MW
     network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
-    assert!(thermal.is_to_be_felt());
-    thermal.feel();
+    assert!(thermal.is_update_due());
+    thermal.use_temperatures();
     assert!((thermal.longest / 150e-6 - 1.0).abs() < 1e-6, "{}", thermal.longest);
     // no heat after the blow
     network.advance(&mut thermal, &[1.0, 0.0], 1e-6, (0.0, [AROUND; 2]));
-    assert!(!thermal.is_to_be_felt(), "a short step says nothing about a long one");
+    assert!(!thermal.is_update_due(), "a short step says nothing about a long one");
     network.advance(&mut thermal, &[1.0, 0.0], 140e-6, (0.0, [AROUND; 2]));
-    assert!(thermal.is_to_be_felt());
-    thermal.feel();
+    assert!(thermal.is_update_due());
+    thermal.use_temperatures();
     assert!(thermal.longest > 100.0, "{}", thermal.longest);
 }
 

@@ -24,9 +24,14 @@ fn network(sump: Option<f64>) -> Network<0> {
     }
 }
 
-fn steady(network: &Network<0>, begin: f64, felt: &[usize], power: impl Fn(&[f64; NODES]) -> [f64; NODES]) -> Steady {
+fn steady(
+    network: &Network<0>,
+    begin: f64,
+    influential: &[usize],
+    power: impl Fn(&[f64; NODES]) -> [f64; NODES],
+) -> Steady {
     network
-        .steady::<Infallible>(begin, felt, |at| Ok(Cycle { power: power(at), speed: 4.0 }))
+        .steady::<Infallible>(begin, influential, |at| Ok(Cycle { power: power(at), speed: 4.0 }))
         .unwrap_or(Steady::NotFound)
 }
 

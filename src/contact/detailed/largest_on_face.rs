@@ -1,5 +1,5 @@
-//! Search over the loaded face of a rubbing tooth pair for the largest value of a quantity.
-//! //!
+//! Search over the loaded face of a sliding tooth pair for the largest value of a quantity.
+//!
 //! Sliding speed, sum of speeds and radius are proportional to the cone distance R. The load per width is R ω, where ω
 //! follows the law of a slice at its arc. The points over which loads are summed do not include the ends of the face,
 //! and aligned teeth have only one point. The search therefore evaluates the laws at any R: at both ends of each loaded
@@ -20,7 +20,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// Flanks of a pair at one cone distance.
 #[derive(Clone, Copy, Debug)]
-pub struct RubbedPlace {
+pub struct SlidingPoint {
     /// Cone distance [m].
     pub cone: f64,
     /// Sliding, with the load per width at this cone distance.
@@ -32,16 +32,16 @@ pub struct RubbedPlace {
 impl Detailed {
     /// Largest `value`, at least 0, over the loaded face of the pair of `slice`, under the friction `law`. If a law has
     /// one resultant for the face, only its cone distance is evaluated.
-    pub fn largest_on_face(&self, slice: &SliceLoad, law: &ToothFriction, value: impl Fn(&RubbedPlace) -> f64) -> f64 {
+    pub fn largest_on_face(&self, slice: &SliceLoad, law: &ToothFriction, value: impl Fn(&SlidingPoint) -> f64) -> f64 {
         let Some(here) = &slice.sliding else { return 0.0 };
-        let rubbed = |cone: f64, load: f64| {
+        let value_at = |cone: f64, load: f64| {
             let grown = cone / slice.cone;
             let (sliding, sum_speed) = (here.sliding * grown, here.sum_speed * grown);
             let sliding = Sliding { sliding, sum_speed, load, radius: here.radius * grown };
-            value(&RubbedPlace { cone, sliding, coefficient: law.signed(&sliding) })
+            value(&SlidingPoint { cone, sliding, coefficient: law.signed(&sliding) })
         };
-        let Some([inner, outer]) = self.rubbed.as_ref().and_then(Face::ends) else {
-            return rubbed(slice.cone, here.load).max(0.0);
+        let Some([inner, outer]) = self.friction_face.as_ref().and_then(Face::ends) else {
+            return value_at(slice.cone, here.load).max(0.0);
         };
         let (opening, place) = (slice.opening, self.spring.place(slice.s));
         let (edge, depth) = opening.edge.unwrap_or((outer, 0.0));
@@ -55,7 +55,7 @@ impl Detailed {
             let Some(Span { ends, .. }) = carrying(approach, even, opening.bend, [from, to]) else { continue };
             largest = largest.max(largest_between(ends, |cone| {
                 let arc = approach - even / cone - opening.bend * cone;
-                rubbed(cone, self.line_load_at(&place, &slice.approach, arc, cone))
+                value_at(cone, self.line_load_at(&place, &slice.approach, arc, cone))
             }));
         }
         largest

@@ -1,5 +1,5 @@
 //! A value declared to have no effect in a scene changes no bit of any output. A value declared to have an effect
-//! changes some output in some scene. The conditions are those of `variables::felt`.
+//! changes some output in some scene. The conditions are those of `variables::effective`.
 
 mod ways;
 
@@ -12,7 +12,7 @@ use crate::mirror::scene::{Scene, Step};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::felt::{Situation, is_felt};
+use bevel_differential::variables::effective::{Situation, has_effect};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
 use fastrand::Rng;
 use ways::{Test, ways};
@@ -119,8 +119,8 @@ impl Run {
         number(row, &mut self.parameters.clone(), &mut self.inputs.clone())
     }
 
-    fn is_felt(&self, index: usize, situation: Situation) -> bool {
-        is_felt(index, &mut self.parameters.clone(), situation)
+    fn has_effect(&self, index: usize, situation: Situation) -> bool {
+        has_effect(index, &mut self.parameters.clone(), situation)
     }
 }
 
@@ -182,7 +182,7 @@ fn satisfy(run: &mut Run, test: &Test, d: &mut Rng) {
 
 #[test]
 fn a_value_without_effect_in_a_scene_changes_no_bit() {
-    let count: u64 = std::env::var("FELT_SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let count: u64 = std::env::var("EFFECTIVE_SCENES").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
     let (mut compared, mut wrong) = (0, Vec::new());
     for index in 0..count {
         let Some(mut run) = Run::random(index) else { continue };
@@ -204,7 +204,7 @@ fn a_value_without_effect_in_a_scene_changes_no_bit() {
         let mut changed: Vec<(&'static Variable, f64, Situation)> = Vec::new();
         for (i, row) in settable() {
             for situation in [Situation::START, Situation::RUNNING] {
-                if !run.is_felt(i, situation) && (situation.from_start || matches!(row.access, Access::Input(_))) {
+                if !run.has_effect(i, situation) && (situation.from_start || matches!(row.access, Access::Input(_))) {
                     changed.push((row, other(row, run.get(row).unwrap(), d), situation));
                 }
             }
@@ -358,7 +358,7 @@ impl Cases {
                 return None;
             }
             let Some(Case { run, expected, draw }) = self.case(attempt, level, fault, tests) else { continue };
-            if !run.is_felt(index, Situation::START) {
+            if !run.has_effect(index, Situation::START) {
                 continue;
             }
             let d = &mut draw.clone();
@@ -379,7 +379,7 @@ impl Cases {
 #[test]
 fn a_value_with_effect_changes_some_output_on_every_level_of_teeth_and_in_every_alternative_of_its_condition() {
     let (mut wrong, mut cases) = (Vec::new(), Cases::default());
-    let chosen = std::env::var("FELT_ROWS").unwrap_or_default();
+    let chosen = std::env::var("EFFECTIVE_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
         // a value that always has an effect needs one witness; if all other values are refused, none is needed
         let always = row.switch.is_none() && row.when.is_none();

@@ -149,35 +149,40 @@ fn needs() -> &'static [Needs] {
 }
 
 /// True if the value of row `index` has an effect in a scene of `parameters`.
-pub fn is_felt(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
+pub fn has_effect(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
     needs()[index].all().all(|condition| condition.holds(parameters, situation))
 }
 
 /// True if anything other than outputs that repeat it depends on the value of row `index` in a scene of `parameters`.
 pub fn acts(index: usize, parameters: &mut Parameters, situation: Situation) -> bool {
     let needed = &needs()[index].acts_when;
-    is_felt(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
+    has_effect(index, parameters, situation) && needed.as_ref().is_none_or(|c| c.holds(parameters, situation))
 }
 
 /// Returns a warning if `value` differs from the start value of row `index` and has no effect in a scene of
 /// `parameters`.
-pub fn unfelt_value(index: usize, value: f64, parameters: &mut Parameters, situation: Situation) -> Option<Problem> {
+pub fn value_without_effect(
+    index: usize,
+    value: f64,
+    parameters: &mut Parameters,
+    situation: Situation,
+) -> Option<Problem> {
     let (row, needs) = (&table().rows[index], &needs()[index]);
     if needs.start.is_none_or(|start| start == value) || acts(index, parameters, situation) {
         return None;
     }
-    if let Some(acts) = row.acts_when.filter(|_| is_felt(index, parameters, situation)) {
-        return Some(problem!(row.name, "{}{UNFELT}{acts}; here only outputs repeat it", written(row, value)));
+    if let Some(acts) = row.acts_when.filter(|_| has_effect(index, parameters, situation)) {
+        return Some(problem!(row.name, "{}{NO_EFFECT}{acts}; here only outputs repeat it", written(row, value)));
     }
     let mut missing = |needed: &Option<Condition>| needed.as_ref().is_some_and(|c| !c.holds(parameters, situation));
     let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
     let when = row.when.filter(|_| missing(&needs.when)).map(|text| text.replace('|', " or "));
     let acts: Vec<String> = switch.into_iter().chain(when).collect();
-    Some(problem!(row.name, "{}{UNFELT}{}", written(row, value), acts.join(", and with ")))
+    Some(problem!(row.name, "{}{NO_EFFECT}{}", written(row, value), acts.join(", and with ")))
 }
 
 /// Common text of these warnings.
-const UNFELT: &str = " changes nothing in this scene: it acts with ";
+const NO_EFFECT: &str = " changes nothing in this scene: it acts with ";
 
 /// Returns a value as users write it, with its unit.
 fn written(row: &Variable, value: f64) -> String {
@@ -206,9 +211,10 @@ pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
 }
 
 /// Returns warnings about all initial values that have no effect in the scene.
-pub fn unfelt(parameters: &Parameters, inputs: &Inputs, situation: Situation) -> Vec<Problem> {
+pub fn values_without_effect(parameters: &Parameters, inputs: &Inputs, situation: Situation) -> Vec<Problem> {
     let (mut parameters, mut inputs) = (*parameters, *inputs);
-    let mut of = |(i, row)| unfelt_value(i, number(row, &mut parameters, &mut inputs)?, &mut parameters, situation);
+    let mut of =
+        |(i, row)| value_without_effect(i, number(row, &mut parameters, &mut inputs)?, &mut parameters, situation);
     table().rows.iter().enumerate().filter_map(&mut of).collect()
 }
 
@@ -253,7 +259,7 @@ mod tests {
         let mut p = Parameters::default();
         p.oil.temperature = 253.15;
         let said = |p: &Parameters, situation| -> Vec<String> {
-            unfelt(p, &Inputs::default(), situation).iter().map(Problem::to_string).collect()
+            values_without_effect(p, &Inputs::default(), situation).iter().map(Problem::to_string).collect()
         };
         let found = said(&p, Situation::START);
         assert_eq!(found.len(), 1, "{found:?}");
@@ -276,9 +282,9 @@ mod tests {
     fn start_values_warn_of_nothing_in_any_scene() {
         let mut p = Parameters::default();
         p.scene.gear_contact = crate::model::GearContact::Ideal;
-        assert!(unfelt(&p, &Inputs::default(), Situation::START).is_empty());
+        assert!(values_without_effect(&p, &Inputs::default(), Situation::START).is_empty());
         p.specs.limited_slip.preload = 70.0;
-        let found = unfelt(&p, &Inputs::default(), Situation::START);
+        let found = values_without_effect(&p, &Inputs::default(), Situation::START);
         assert_eq!(found.len(), 1);
         assert_eq!(
             found[0].to_string(),

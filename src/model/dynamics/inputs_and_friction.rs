@@ -26,7 +26,7 @@ pub struct Jacobian<'a, const N: usize> {
 
 /// Inputs and dry friction that act in the equations.
 #[derive(Clone, Copy)]
-pub struct Acting {
+pub struct InputsAndFriction {
     /// Inputs.
     pub inputs: Inputs,
     /// Derivatives of the inputs.
@@ -39,12 +39,12 @@ pub struct Acting {
     pub friction_state: [FrictionState; FRICTION_BODIES],
     friction: Option<Friction>,
     /// True if there is any dry friction.
-    pub rubs: bool,
+    pub has_dry_friction: bool,
     /// Viscosity of the oil, if an effect needs it.
     pub oil_viscosity: Option<Viscosity>,
 }
 
-impl Acting {
+impl InputsAndFriction {
     /// Inputs that act at `state`. Always inlined, so that this large value is written in place.
     #[inline(always)]
     pub fn without_friction(inputs: &Inputs, state: &State) -> Self {
@@ -55,7 +55,7 @@ impl Acting {
             change: [0.0; 3],
             friction_state: state.friction,
             friction: None,
-            rubs: false,
+            has_dry_friction: false,
             oil_viscosity: None,
         }
     }
@@ -63,11 +63,11 @@ impl Acting {
     /// Adds the contribution of effects on bodies at `state`: dry friction, if there may be any, and the viscosity of
     /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
-        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.felt);
-        if body_effects.may_rub_in(state) {
-            let at = (state.lock, &state.thermal.felt);
+        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.used);
+        if body_effects.may_have_dry_friction(state) {
+            let at = (state.lock, &state.thermal.used);
             let friction = body_effects.friction(at, &self.inputs, &self.input_derivatives);
-            self.rubs = friction.is_any();
+            self.has_dry_friction = friction.is_any();
             self.friction = Some(friction);
         }
     }
@@ -101,9 +101,9 @@ impl Acting {
 }
 
 /// Bodies on which friction acts.
-fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl Iterator<Item = usize> {
+fn bodies_with_friction<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = usize> {
     // the bits of a number are found with few branches
-    let mut left = of.acting().friction().bodies(of.sticking().len());
+    let mut left = of.applied().friction().mask(of.sticking().len());
     std::iter::from_fn(move || {
         let body = left.trailing_zeros();
         (left != 0).then(|| {
@@ -114,11 +114,11 @@ fn bodies_with_friction<const N: usize>(of: &(impl Acted<N> + ?Sized)) -> impl I
 }
 
 /// Equations of gears with or without teeth, as far as inputs and dry friction need them.
-pub trait Acted<const N: usize> {
+pub trait FrictionEquations<const N: usize> {
     /// Inputs and dry friction that act.
-    fn acting(&self) -> &Acting;
+    fn applied(&self) -> &InputsAndFriction;
     /// Mutable inputs and dry friction.
-    fn acting_mut(&mut self) -> &mut Acting;
+    fn applied_mut(&mut self) -> &mut InputsAndFriction;
     /// Sources of the dry friction.
     fn friction_sources(&self) -> &[FrictionSource];
     /// Scene plan.
@@ -126,7 +126,7 @@ pub trait Acted<const N: usize> {
     /// Index of each degree of freedom.
     fn layout(&self) -> &Layout;
     /// True if there is dry friction.
-    fn rubs(&self) -> bool;
+    fn has_dry_friction(&self) -> bool;
     /// True if half-shafts have ends.
     fn has_ends(&self) -> bool;
     /// Number of planets in each group that may stick on its pins.
@@ -144,8 +144,8 @@ pub trait Acted<const N: usize> {
         Self: Copy,
     {
         let mut these = *self;
-        let acting = these.acting_mut();
-        (acting.inputs, acting.input_derivatives) = (*inputs, *input_derivatives);
+        let applied = these.applied_mut();
+        (applied.inputs, applied.input_derivatives) = (*inputs, *input_derivatives);
         these
     }
 
@@ -154,7 +154,7 @@ pub trait Acted<const N: usize> {
     where
         Self: Copy,
     {
-        let (inputs, input_derivatives) = self.acting().input_derivatives.after(time, &self.acting().inputs);
+        let (inputs, input_derivatives) = self.applied().input_derivatives.after(time, &self.applied().inputs);
         self.under(&inputs, &input_derivatives)
     }
 
@@ -173,13 +173,13 @@ pub trait Acted<const N: usize> {
     where
         Self: Copy,
     {
-        let [first, second] = self.later(time).acting().input_derivatives.rates;
+        let [first, second] = self.later(time).applied().input_derivatives.rates;
         self.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     /// Positions, velocities and inputs, as passed to effects.
     fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
-        let Acting { inputs, input_derivatives, oil_viscosity, .. } = self.acting();
+        let InputsAndFriction { inputs, input_derivatives, oil_viscosity, .. } = self.applied();
         BodyMotion {
             q: &at.q,
             v: &at.v,
@@ -191,8 +191,8 @@ pub trait Acted<const N: usize> {
     }
 
     /// Converts ledger rates at `at` to those before the torques changed.
-    fn take_torques_back(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
-        let (Acting { inputs, change, .. }, plan) = (self.acting(), self.plan());
+    fn undo_input_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
+        let (InputsAndFriction { inputs, change, .. }, plan) = (self.applied(), self.plan());
         for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
             ledger_rates.input += change[s] * at.v[self.wheel(s)];
             if self.has_ends() && !plan.shafts[s] {
@@ -242,24 +242,24 @@ pub trait Acted<const N: usize> {
     fn friction_on(&self, i: usize) -> (DryFriction<'_>, &FrictionState, f64) {
         let planets = FRICTION_PLANETS..FRICTION_WHEELS;
         let count = if planets.contains(&i) { self.sticking()[i - FRICTION_PLANETS] } else { 1.0 };
-        let acting = self.acting();
-        (DryFriction::new(acting.friction().on(i), self.friction_sources()), &acting.friction_state[i], count)
+        let applied = self.applied();
+        (DryFriction::new(applied.friction().on(i), self.friction_sources()), &applied.friction_state[i], count)
     }
 
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
     fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
-        let (mut all, acting) = (self.mesh_loads(at), self.acting());
-        let wheels = if acting.driven && time > 0.0 {
-            acting.friction().wheel_loads(&acting.input_derivatives.after(time, &acting.inputs).0)
+        let (mut all, applied) = (self.mesh_loads(at), self.applied());
+        let wheels = if applied.driven && time > 0.0 {
+            applied.friction().wheel_loads(&applied.input_derivatives.after(time, &applied.inputs).0)
         } else {
-            acting.friction().wheel_loads(&acting.inputs)
+            applied.friction().wheel_loads(&applied.inputs)
         };
         all[FRICTION_WHEELS..].copy_from_slice(&wheels);
         all
     }
 
     /// Adds the torques and the heat of dry friction under the loads on its surfaces.
-    fn rub(
+    fn add_friction_torques(
         &self,
         at: &Point<N>,
         surface_loads: &[SurfaceLoad; FRICTION_BODIES],
@@ -308,7 +308,7 @@ pub trait Acted<const N: usize> {
     where
         Self: Sized,
     {
-        let surface_loads = self.acting().friction().wheel_loads(&self.acting().inputs);
+        let surface_loads = self.applied().friction().wheel_loads(&self.applied().inputs);
         [0, 1].map(|s| {
             let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
             let torque = || friction.torque(state, &self.slip(at, FRICTION_WHEELS + s), &surface_loads[s]);
@@ -322,13 +322,13 @@ pub trait Acted<const N: usize> {
             let (friction, state, count) = self.friction_on(i);
             count * friction.energy(state, self.slip(at, i).position)
         };
-        self.bodies_that_stick().filter(|&i| self.acting().friction_state[i].stiffness > 0.0).map(energy).sum()
+        self.bodies_that_stick().filter(|&i| self.applied().friction_state[i].stiffness > 0.0).map(energy).sum()
     }
 
     /// True if loads decide whether friction switches at `at`.
     fn awaits_load(&self, at: &Point<N>) -> bool {
         let awaits = |i: usize| self.friction_on(i).0.awaits_load(self.friction_on(i).1, &self.slip(at, i));
-        self.rubs() && bodies_with_friction(self).any(awaits)
+        self.has_dry_friction() && bodies_with_friction(self).any(awaits)
     }
 
     /// Fraction of a step after which friction switches, or `None` if it does not. `start` and `end` are the ends of
@@ -354,7 +354,7 @@ pub trait Acted<const N: usize> {
         Self: Sized,
     {
         let mut margins = [None; FRICTION_BODIES];
-        if self.rubs() {
+        if self.has_dry_friction() {
             let surface_loads = self.surface_loads(at, 0.0);
             for i in bodies_with_friction(self) {
                 let (friction, state, _) = self.friction_on(i);
@@ -379,7 +379,7 @@ pub trait Acted<const N: usize> {
     /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction, at `at` and
     /// `time` [s] after the inputs were set.
     fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
-        let direction = self.acting().friction_state[i].mode.direction();
+        let direction = self.applied().friction_state[i].mode.direction();
         if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {
             return false;
         }
@@ -390,10 +390,10 @@ pub trait Acted<const N: usize> {
     /// Drags the anchors of sliding bodies to the point `at` with these ledger rates.
     #[inline]
     fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
-        if !self.rubs() {
+        if !self.has_dry_friction() {
             return;
         }
-        for i in bodies_with_friction(self).filter(|&i| self.acting().friction_state[i].mode != Mode::Stuck) {
+        for i in bodies_with_friction(self).filter(|&i| self.applied().friction_state[i].mode != Mode::Stuck) {
             anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, ledger_rates.limit[i]);
         }
     }
@@ -407,7 +407,7 @@ pub trait Acted<const N: usize> {
             if friction.is_on() {
                 let stops = self.stops(at, time, i);
                 friction.settle(&mut state, (&self.slip(at, i), &surface_loads[i]), stops, count, heat);
-                self.acting_mut().friction_state[i] = state;
+                self.applied_mut().friction_state[i] = state;
             }
         }
     }
@@ -420,7 +420,7 @@ pub trait Acted<const N: usize> {
         for i in self.bodies_that_stick() {
             let (friction, &(mut state), count) = self.friction_on(i);
             friction.adapt(&mut state, &self.slip(at, i), heat, count);
-            self.acting_mut().friction_state[i] = state;
+            self.applied_mut().friction_state[i] = state;
         }
     }
 }
