@@ -56,7 +56,7 @@ def errors(file, rows, limits):
                       label=master.label, markersize=6)
             axis.axvline(limits[name]["predicted"] * 1e3, color=color, linestyle=":", linewidth=1.3)
         axis.set(xscale="log", yscale="log", title=f"gear_contact = {contact}", xlabel="communication step, ms")
-        for order, at, level in ((1, 1e-2, 1e-1), (2, 1e-1, 3e-3)):
+        for order, at, level in ((1, 1e-2, 1e-1), (2, 2e-2, 1.5e-5)):
             ends = (at, 3.0 * at)
             axis.plot(ends, [level * (end / at) ** order for end in ends], color=style.INK, linewidth=1)
             axis.text(ends[1], level * 3.0**order, f" order {order}", fontsize=style.SMALL, va="center")

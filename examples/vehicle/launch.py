@@ -40,7 +40,8 @@ def main():
         print(f"{name:<14}{record['body.speed'][-1]:>22.2f}{record['right.shaft_torque'][late].mean():>18.0f}")
         if name == "open" and len(sys.argv) > 1:
             car.plot(record, sys.argv[1], "Launch on split friction, open differential",
-                     "The left wheel spins up on the ice. Both shafts transmit the same torque: what the ice and the inertia of this wheel resist.")
+                     "The left wheel spins up on the ice. Both shafts transmit the same torque, which the ice and the inertia of this "
+                     "wheel resist.")
 
 
 if __name__ == "__main__":

@@ -30,8 +30,8 @@ def fidelity_ladder(folder):
     style.caption(figure, "Error of seven levels of fidelity against the most detailed one, the bottom row of each panel, which shows the "
                   "values. Colours: below 0.1 % (dark green), 1 %, 10 %, 50 %, above (red). Mean speeds and forces need no teeth, the "
                   "peaks of a clunk need backlash, ripple needs tooth pairs, deflection needs their stiffness, heat needs friction. Time is that of ideal "
-                  f"gears times the number; these take {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns for a communication step of 1 ms in the turn. Medians with "
-                  f"quartiles. {machine}.")
+                  f"gears times the number; these take {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns for a communication step of 1 ms in the "
+                  f"turn. Medians with quartiles. {machine}.")
     style.save(figure, folder / "fidelity_ladder.png")
 
 

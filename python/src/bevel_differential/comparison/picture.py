@@ -99,6 +99,6 @@ def _apart(found, output):
         place = int(np.argmax(away))
         if away[place] / size > best[0]:
             shown = [float(np.interp(time[place], records[each]["time"], curves[each])) for each in (first, name)]
-            best = (float(away[place]) / size, f"at {words.moment(time[place], found.end)} it is {words.quantity(shown[0], unit)} in {first} and "
-                    f"{words.quantity(shown[1], unit)} in {name}")
+            best = (float(away[place]) / size, f"at {words.moment(time[place], found.end)} it is "
+                    f"{words.quantity(shown[0], unit)} in {first} and {words.quantity(shown[1], unit)} in {name}")
     return best

@@ -221,8 +221,8 @@ def lines(folder, data, outlines, cases):
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if names.keys() <= REMARKS.keys() else ""
-    style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, in steps of {100 // (INSTANTS - 1)} %, "
-                  f"{teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
+    style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, "
+                  f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
                   f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
                   "each line's load, a circle for the pair that is followed and a square for its neighbours.", LEGEND)
     style.save(figure, folder / "contact_lines.png", shaded=True)

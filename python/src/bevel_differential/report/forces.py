@@ -63,8 +63,8 @@ def _caption(run, drawn, alike):
             free = bands(run.time, force)
             lash = "never in the lash" if not free else (f"in the lash {words.percent(share(run.time, free), 2)} of the time, "
                                                          f"{len(free)} stretch{'es' if len(free) > 1 else ''}")
-            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at {words.moment(run.time[k], run.time[-1])}, "
-                         f"{lash}")
+            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at "
+                         f"{words.moment(run.time[k], run.time[-1])}, {lash}")
     same = f" Planet{'s' if len(alike) > 1 else ''} {words.listed(map(str, alike))}: the same to the last bit." if alike else ""
     return (f"Normal force, summed over tooth pairs; shaded if neither drive nor coast flanks are loaded, at communication points every "
             f"{words.quantity(1e3 * run.scene.step, 'ms')}. {'; '.join(parts)}.{same}")

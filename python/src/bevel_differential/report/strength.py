@@ -106,8 +106,8 @@ def _caption(run, stresses):
     parts = []
     for limited in stresses:
         k = limited.worst()
-        parts.append(f"{LABELS[limited.output][0]} {words.quantity(limited.stress[k] / MPA, 'MPa')} at {words.moment(run.time[k], run.time[-1])}, "
-                     f"{words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
+        parts.append(f"{LABELS[limited.output][0]} {words.quantity(limited.stress[k] / MPA, 'MPa')} at "
+                     f"{words.moment(run.time[k], run.time[-1])}, {words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
     highest = float(np.max(run.series("stress.contact_max"))) / MPA
     return (f"Stresses of all teeth that are rated, each with its own limit, at the points at which they come nearest to it: "
             f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll are loaded on both flanks and keep "
