@@ -8,7 +8,6 @@ use bevel_differential::model::{EFFECTS, InputField, effects};
 use bevel_differential::variables::{Access, Causality, Variable, named, table};
 use serde_json::{Value, json};
 
-use crate::fmu::documentation::start;
 use crate::fmu::variables_page;
 use crate::tools::files::write_whole;
 use crate::tools::sections;
@@ -16,15 +15,11 @@ use answers::text::table::Table;
 
 type EffectEntry = bevel_differential::model::effects::EffectEntry;
 
-/// Maximum length of a description in a table of the documents, so that no line has more than 160 characters.
-const LONGEST: usize = 96;
-
 /// Sections of documents that list the effects: document, lines around the section, text.
-fn sections() -> [(&'static str, [&'static str; 2], String); 4] {
+fn sections() -> [(&'static str, [&'static str; 2], String); 3] {
     [
         ("README.md", ["<!-- effects begin -->", "<!-- effects end -->"], overview().markdown()),
         ("docs/effects.md", ["<!-- interface:begin -->", "<!-- interface:end -->"], interface().markdown()),
-        ("docs/effects.md", ["<!-- parameters:begin -->", "<!-- parameters:end -->"], parameters().markdown()),
         ("docs/variables.md", ["<!-- variables:begin -->", "<!-- variables:end -->"], variables_page::groups()),
     ]
 }
@@ -131,43 +126,4 @@ fn own_names(effect: &EffectEntry) -> String {
 /// Part of a variable's name before the first dot.
 fn group(name: &str) -> &str {
     name.split_once('.').map_or(name, |(group, _)| group)
-}
-
-/// Table of all parameters of all effects, with only the left of both sides. A parameter that several effects share is
-/// listed once, as `*.parameter`.
-fn parameters() -> Table {
-    let mut table = Table::new(["parameter", "start", "what it is"]).all_left();
-    let is_of_right = |row: &&Variable| own_part(row.name).starts_with("right");
-    let all: Vec<&Variable> = EFFECTS.iter().flat_map(own_parameters).filter(|row| !is_of_right(row)).collect();
-    let told = |row: &Variable| (own_part(row.name), start_with_unit(row), row.description);
-    for (k, row) in all.iter().enumerate() {
-        let alike: Vec<usize> = (0..all.len()).filter(|&other| told(all[other]) == told(row)).collect();
-        if alike[0] == k {
-            let name = if alike.len() > 1 { format!("`*.{}`", own_part(row.name)) } else { format!("`{}`", row.name) };
-            table.push([name, start_with_unit(row), brief(row.description).to_owned()]);
-        }
-    }
-    table
-}
-
-/// Part of a variable's name after the first dot.
-fn own_part(name: &str) -> &str {
-    name.split_once('.').map_or(name, |(_, own)| own)
-}
-
-/// Start value of a parameter with its unit.
-fn start_with_unit(row: &Variable) -> String {
-    match row.unit {
-        Some(unit) if row.display.is_none() && unit.name != "1" => format!("{} {}", start(row), unit.name),
-        _ => start(row),
-    }
-}
-
-/// Shortens a long description to the part before its explanation.
-fn brief(description: &str) -> &str {
-    if description.chars().count() <= LONGEST {
-        return description;
-    }
-    let ends = [": ", " ("].iter().filter_map(|mark| description.find(*mark)).min();
-    ends.map_or(description, |end| &description[..end])
 }

@@ -149,7 +149,7 @@ def _drawn(style, found, file):
                       label=text.replace(" +", " + gear bodies"))
     if others:
         axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="adaptive" if is_fixed else FIXED)
-    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its change with the tolerance)")
+    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its uncertainty from the tolerance)")
     front, best = [], float("inf")
     for x, y in sorted(point(run) for run in tried):
         if y < best:

@@ -11,7 +11,7 @@ from ..records import read
 PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
 # remarks on the cases of the documentation
 REMARKS = {
-    "aligned": "even load; dark band: one pair alone carries",
+    "aligned": "even load; dark band: only one pair is loaded",
     "crowned": "load moves from both ends to the middle",
     "angle_wide": "even along the face; less load at the root",
     "angle_narrow": "even along the face; more load at the root",

@@ -208,5 +208,5 @@ def _caption(plan, result, found):
     if found:
         answer = best.line(float(result.base.good.mean())) if best else "none is surely better"
         what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; a good differential "
-                 f"becomes cheaper (blue), dearer (red), or the runs do not tell (grey). Best: {answer}.")
+                 f"becomes cheaper (blue), more expensive (red), or the runs do not tell (grey). Best: {answer}.")
     return what
