@@ -167,6 +167,7 @@ def _histogram(style, axes, plan, result, want):
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best")
     axes.set(xlabel=f"{in_words(want)}, {unit}" if unit else in_words(want), ylabel="differentials")
+    axes.locator_params(axis="x", nbins=6)
 
 
 def _bars(style, axes, result, want, with_legend):
