@@ -109,8 +109,8 @@ fn nothing(answer: &Answer) -> String {
     let fixed = answer.trials.iter().filter(is_fixed).min_by(|a, b| a.error().total_cmp(&b.error()));
     match fixed {
         Some(nearest) => format!(
-            "no tested fixed steps are accurate enough, and shorter steps cost too much. The most accurate are {}, with an error of {}. Set \
-             solver.method = adaptive, or allow a larger error.",
+            "no tested fixed steps are accurate enough, and shorter steps cost too much. The most accurate are {}, \
+             with an error of {}. Set solver.method = adaptive, or allow a larger error.",
             setting(&nearest.scene.parameters),
             percent(nearest.error())
         ),
@@ -160,9 +160,9 @@ fn reference(answer: &Answer) -> String {
     if answer.is_uncertain() {
         let name = answer.wants[reference.worst().0].text(&answer.scene);
         text.push_str(&format!(
-            " NOT CERTAIN: {name} changes by more than a third of the accuracy if only the integrator's steps change, as in \
-             motions with impacts. Differences below twice this uncertainty mean nothing. Request a steadier statistic (mean, rms), \
-             a later --from, or less accuracy."
+            " NOT CERTAIN: {name} changes by more than a third of the accuracy if only the integrator's steps \
+             change, as in motions with impacts. Differences below twice this uncertainty mean nothing. Request a \
+             steadier statistic (mean, rms), a later --from, or less accuracy."
         ));
     }
     text
@@ -176,7 +176,8 @@ fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
     let full = answer.trials[*full.as_ref().ok()?].error();
     (full > answer.within / CANCELLED && full > CANCELLED * chosen.error()).then(|| {
         format!(
-            "Errors cancel: with all effects, the error of these gears is {}. Repeat the question at other loads and speeds.",
+            "Errors cancel: with all effects, the error of these gears is {}. Repeat the question at other loads and \
+             speeds.",
             percent(full)
         )
     })
