@@ -8,7 +8,7 @@ from bevel_differential import style
 from bevel_differential.readable import percent, ratio, with_unit, wrapped
 from bevel_differential.records import read
 
-SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
+SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the backlash is crossed, half-shafts wind up"}
 # number of communication steps of 1 ms in the turn
 TURN_STEPS = 360
 COLORS = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
