@@ -25,7 +25,7 @@ pub struct Laws {
     pub spring: AnySpring,
     /// Position of the resultant of a pair.
     pub whole: Resultant,
-    /// Solid teeth.
+    /// Mesh of solid teeth, if the scene has them.
     pub solid: Option<Box<SolidMesh>>,
     /// Face over which loads are summed in detail.
     pub face: DetailedFace,
@@ -43,7 +43,8 @@ impl Laws {
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
-        // the resultant at `cone` of a load that grows with R, spread over a width that gives the line load at `cone`
+        // a single slice at `cone` stands for the whole face; if the load per width grows with R, force over this width
+        // is the load per width at `cone`
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
         let whole = |cone: f64, weight: f64| DetailedFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {

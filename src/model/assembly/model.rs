@@ -97,7 +97,7 @@ impl Model {
         let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
             GearContact::Ideal => {
-                // a closed form has no steps that could be recorded
+                // warming up is recorded step by step, but the closed form has no steps
                 body_effects.has_effects |= parameters.effects.warm_up;
                 Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
             }

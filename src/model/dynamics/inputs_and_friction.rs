@@ -102,7 +102,7 @@ impl InputsAndFriction {
 
 /// Bodies on which friction acts.
 fn bodies_with_friction<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = usize> {
-    // the bits of a number are found with few branches
+    // a loop over the set bits of a mask needs few branches
     let mut left = of.applied().friction().mask(of.sticking().len());
     std::iter::from_fn(move || {
         let body = left.trailing_zeros();
@@ -129,7 +129,7 @@ pub trait FrictionEquations<const N: usize> {
     fn has_dry_friction(&self) -> bool;
     /// True if half-shafts have ends.
     fn has_ends(&self) -> bool;
-    /// Number of planets in each group that may stick on its pins.
+    /// Number of planets in each group whose planets may stick on their pins.
     fn sticking(&self) -> &[f64];
     /// Loads of the meshes on the surfaces of side gears and planets at `at`, if friction depends on them.
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];

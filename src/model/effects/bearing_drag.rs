@@ -1,11 +1,11 @@
-//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two terms on the side
-//! gears.
+//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier. The first two terms also act on
+//! each side gear.
 //!
 //! The terms are a load-independent bearing torque, viscous drag, and churning with the square of the speed. With
 //! `viscosity_from_oil`, b is proportional to the dynamic viscosity of the oil and has its given value at a reference
 //! temperature.
 //!
-//! Two carrier bearings under the load F and a lip seal on each side gear's shaft add to T₀:
+//! Two carrier bearings, each under the load F, and a lip seal on each side gear's shaft add to T₀:
 //!
 //! ```text
 //! carrier     2 f₁ F d_m     f₁ = 0.0004 for tapered rollers (A. Palmgren, Ball and Roller Bearing Engineering, 1959; T. A.

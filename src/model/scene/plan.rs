@@ -114,7 +114,7 @@ impl Plan {
         self.group_count += 1;
     }
 
-    /// Returns the plan with planets that do not spin freely.
+    /// Returns the plan with imposed planet spin.
     pub fn with_spin_held(self) -> Self {
         Self { spin_imposed: true, ..self }
     }
@@ -188,6 +188,13 @@ impl Plan {
             + self.side_imposed.iter().filter(|&&imposed| imposed).count()
     }
 
+    /// Describes the groups in which planets are simulated, for example "1 group (of 2)" or "2 groups (of 1 + 1)".
+    pub fn describe_groups(&self) -> String {
+        let members: Vec<String> = self.groups().iter().map(|group| group.members.to_string()).collect();
+        let plural = if members.len() == 1 { "" } else { "s" };
+        format!("{} group{plural} (of {})", members.len(), members.join(" + "))
+    }
+
     /// Describes the simulated scene in one line: representation, drives, planets, states.
     pub fn describe(&self) -> String {
         let level = match self.contact {
@@ -203,14 +210,14 @@ impl Plan {
             (false, false) => "torque",
         };
         format!(
-            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated as {}; \
+            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated in {}; \
              {} states",
             drive(self.carrier_imposed),
             drive(self.spin_imposed),
             side(0),
             side(1),
             self.planets,
-            self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
+            self.describe_groups(),
             2 * self.degrees_of_freedom(),
         )
     }

@@ -168,7 +168,7 @@ impl Scene {
         outputs()
             .iter()
             .map(|row| {
-                // neither missing planets nor ideal gears have a lash
+                // missing planets and ideal gears have no backlash
                 let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
                 let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
                 let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };

@@ -21,7 +21,7 @@ use teeth::View;
 /// Number of random scenes of a survey.
 const SCENES: usize = 50;
 /// Number of these scenes that are compared in all views.
-const OTHERWISE: usize = 10;
+const IN_ALL_VIEWS: usize = 10;
 /// Number of random scenes whose planets change places.
 const RENUMBERED: usize = 20;
 /// Number of scenes whose planets roll over some teeth.
@@ -58,7 +58,7 @@ fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usi
         if all[0].scenes >= count {
             break;
         }
-        let views = if all[0].scenes < OTHERWISE { &views[..] } else { &views[..1] };
+        let views = if all[0].scenes < IN_ALL_VIEWS { &views[..] } else { &views[..1] };
         let Some(found) = draw(index).and_then(|scene| compared(&scene, views)) else { continue };
         for (all, mut found) in all.iter_mut().zip(found) {
             found.wrong = found.wrong.iter().map(|wrong| format!("scene {index}: {wrong}")).collect();
