@@ -42,7 +42,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Present gaps of the teeth.
+    /// Gaps of the tooth pairs with intact or broken teeth; `None` for perfect teeth.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
         self.teeth.contact.gaps(self.is_tooth_broken)
     }
@@ -277,7 +277,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     }
 
     /// Elastic energy that tooth pairs of the mesh of group `g` with side `s` add when they enter or leave contact
-    /// between two points [J]. Pairs of both sides may do so at the same time.
+    /// between two points [J]. Both meshes may do so at the same time. The left mesh is therefore evaluated with the
+    /// right mesh before its change, and the right mesh with the left mesh after its change.
     pub(in crate::model) fn energy_brought(&self, [before, after]: [&Point<N>; 2], g: usize, s: usize) -> f64 {
         let [from, to] = if s == 0 { [[before, before], [after, before]] } else { [[after, before], [after, after]] };
         let state = |at: [&Point<N>; 2]| {
@@ -302,7 +303,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads.map(|load| load.force()[Q])
     }
 
-    /// Fraction of a step of `h` [s] from `at` after which a force has its first kink.
+    /// Fraction of a step of `h` [s] from `at` after which a force has its first kink; `None` if no kink is expected.
     #[inline]
     pub(super) fn first_kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         with_contact!(S::MAY_ACT, self.contact(), contact => {

@@ -56,16 +56,17 @@ pub struct State {
     pub input_derivatives: Option<InputDerivatives>,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// Time of the last change of the inputs or of anything else [s]. Inputs are constant since then.
+    /// Start of the present interval of constant inputs [s]: the time at which the integration last restarted or
+    /// torques last changed. `None` before the first start.
     pub held_since: Option<f64>,
-    /// Time between the last two such changes [s]; infinite before the second one.
+    /// Length of the previous interval of constant inputs [s]; infinite if there was none.
     pub held_before: f64,
-    /// Step of the integrator that contains the present. Work, heat, friction and damage are those at the start of this
-    /// step.
+    /// Step of the integrator that contains the present. Work, heat, friction and damage are still the values at the
+    /// start of this step.
     pub pending_step: Option<PendingStep>,
     /// Last events.
     pub events: Events,
-    /// Pause between two communication points, which tells from where the remaining interval counts.
+    /// Pause between two communication points. It contains the point from which the remaining interval counts.
     pub pause: Option<Pause>,
 }
 

@@ -65,7 +65,7 @@ pub const fn pv_reading(name: &'static str, description: &'static str) -> Readin
 pub struct Needs {
     /// Representations with which the effect works.
     pub contacts: &'static [GearContact],
-    /// Reason, for messages.
+    /// Reason why the effect needs them, as a clause for messages.
     pub why: &'static str,
 }
 
@@ -112,11 +112,11 @@ pub struct Instant<'a> {
 pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeOwned {
     /// Description of its switch in the interface.
     const DESCRIPTION: &'static str;
-    /// Its heat.
+    /// Heat in the ledger; `None` if the effect dissipates nothing.
     const HEAT: Option<Heat> = None;
-    /// Its outputs in addition to heat.
+    /// Outputs in addition to the heat.
     const READINGS: &'static [Reading] = &[];
-    /// Representations of tooth contact that the effect needs. With `None` it works with all of them.
+    /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     const NEEDS: Option<Needs> = None;
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;

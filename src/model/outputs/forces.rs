@@ -96,7 +96,7 @@ pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     (ratio, ((torque[0] - torque[1]).abs() / sum.abs()).min(MOST_BIAS))
 }
 
-/// Difference of speeds up to which both sides turn equally fast [rad/s].
+/// Difference of speeds up to which both sides count as equally fast [rad/s].
 const ALIKE: f64 = SPEED_TOLERANCE;
 /// Sum of the shaft torques below which no bias is computed [N·m].
 const LEAST_TORQUE: f64 = 1e-3;

@@ -128,7 +128,7 @@ fn step_past_stop(
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;
-    // one turn per interval of the clock
+    // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
         let outcome = integrate_interval(model, inputs, (state, watched), at, budget);

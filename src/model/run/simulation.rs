@@ -27,6 +27,7 @@ pub struct Simulation {
     /// Fatigue damage and mesh history of the completed steps.
     pub(in crate::model) watched: Watched,
     pub(in crate::model) inputs: Inputs,
+    /// Cache of the forces under the present inputs; `None` after a change.
     pub(in crate::model) forces: Option<Forces>,
     /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
@@ -54,7 +55,7 @@ impl Simulation {
     }
 
     /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`.
-    /// `given` contains optional data.
+    /// `given` contains optional data. Fails with all problems of the parameters.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,

@@ -1,5 +1,5 @@
-//! Tests of the equations of ideal gears with effects. Scenes with only half-shafts have separate equations, and other
-//! methods use a larger size.
+//! Tests of the equations of ideal gears with effects. Scenes in which only half-shafts act use separate equations, and
+//! some integration methods use larger matrices. Both must give the same bits.
 
 use super::{FrictionEquations, IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
