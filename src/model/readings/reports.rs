@@ -168,7 +168,7 @@ impl Simulation {
         let time = state.time();
         Some(problem!(
             variable,
-            "p v of {what} of {pv} W/mm2 exceeds the limit of {limit} W/mm2 at t = {time:.6} s; reported once"
+            "p v of {what} is {pv} W/mm2, above the limit of {limit} W/mm2, at t = {time:.6} s; reported once"
         ))
     }
 

@@ -88,7 +88,8 @@ impl Plan {
             plan.add_group([0.0; 2], 0);
             plan.groups[0].members = phases.len() as f64;
         } else if requests.individual {
-            // opposite planets next to each other, because they may be identical
+            // groups of opposite planets are adjacent, because sums add adjacent groups first and opposite planets may
+            // move identically
             let order: &[usize] = if phases.len() == 4 { &[0, 2, 1, 3] } else { &[0, 1, 2][..phases.len()] };
             for &i in order {
                 plan.add_group(phases[i].map(|f| f * pair.base_pitch), i);

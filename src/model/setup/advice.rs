@@ -50,7 +50,7 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let given: f64 = (0..2).filter(|&s| is_set[s]).map(load).sum();
     let unset: f64 = (0..2).filter(is_unset).map(load).sum();
     let brakes: f64 = if p.effects.wheel_brake { inputs.brake_torque.iter().sum() } else { 0.0 };
-    // along the direction in which these loads turn the wheels
+    // components along the direction in which the unset loads turn the wheels
     let [net, drive, alone, without] =
         [unset + given - torque, -torque, unset - torque, given - torque].map(|of| of * unset.signum());
     if unset == 0.0 || net <= brakes || without > 0.0 && alone <= 0.0 {

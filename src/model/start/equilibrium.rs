@@ -88,7 +88,8 @@ fn press(
 ///
 /// At this point, teeth with errors may still be separated, so that no force guides the search. Elastic gear bodies may
 /// deflect far beyond this point, so that the search may find no minimum. In both cases, the search starts again from a
-/// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic.
+/// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic. Returns
+/// `None` if no minimum is found.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<MAX_SIZE>) -> Option<Point<MAX_SIZE>> {
     let is_other = equations.is_open_or_elastic();
     let touches = || {
@@ -100,13 +101,14 @@ pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<MAX_SIZE>) -
 }
 
 /// Minimum of the potential under `loads`, searched from a point at which actual teeth carry the loads. Unloaded
-/// planets roll with the others.
+/// planets roll with the others. Returns `None` if no minimum is found.
 pub fn settle_actual_teeth(equations: &Largest, loads: &Carried) -> Option<Point<MAX_SIZE>> {
     minimum(equations, loads, &press_actual_teeth(equations, loads, 1)?, true)
 }
 
 /// Point at which each side gear is turned until actual teeth carry `loads`, while planets keep their spin angles.
-/// There are `rounds` rounds, because elastic planet bodies couple both sides.
+/// Both sides are pressed `rounds` times, because elastic planet bodies couple them. Returns `None` if a side cannot
+/// carry its load.
 pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<MAX_SIZE>> {
     let mut pressed = Point::ZERO;
     let carry = |s: usize, at: &Point<MAX_SIZE>| {
