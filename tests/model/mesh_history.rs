@@ -53,7 +53,7 @@ fn load(host: &Host, millisecond: usize, varies: bool) {
     }
 }
 
-/// Runs with `per` steps per millisecond.
+/// Runs up to [`STOP`] with `per` steps per millisecond.
 fn run(host: &Host, per: usize, varies: bool) {
     for k in 0..(STOP * 1e3).round() as usize {
         load(host, k, varies);

@@ -9,13 +9,13 @@ use std::sync::LazyLock;
 use crate::common::random::Draws;
 use crate::mirror::random;
 use crate::mirror::scene::{Scene, Step};
+use alternatives::{Requirement, alternatives};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::effective::{Situation, has_effect};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
 use fastrand::Rng;
-use alternatives::{Requirement, alternatives};
 
 /// Cache of gears from earlier starts, because most values do not affect the gears. The tests in `gear_cache` show that
 /// cached gears equal newly built ones.
@@ -316,13 +316,27 @@ type Fault = Option<bool>;
 struct Cases(HashMap<String, Option<Case>>);
 
 impl Cases {
-    fn case(&mut self, attempt: u64, level: (GearContact, ContactLaw), fault: Fault, requirements: &[Requirement]) -> Option<&Case> {
-        let named: Vec<_> = requirements.iter().map(|requirement| (requirement.row.name, requirement.sign, &requirement.values)).collect();
+    fn case(
+        &mut self,
+        attempt: u64,
+        level: (GearContact, ContactLaw),
+        fault: Fault,
+        requirements: &[Requirement],
+    ) -> Option<&Case> {
+        let named: Vec<_> = requirements
+            .iter()
+            .map(|requirement| (requirement.row.name, requirement.sign, &requirement.values))
+            .collect();
         let key = format!("{attempt} {level:?} {fault:?} {named:?}");
         self.0.entry(key).or_insert_with(|| Self::new_case(attempt, level, fault, requirements)).as_ref()
     }
 
-    fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, requirements: &[Requirement]) -> Option<Case> {
+    fn new_case(
+        attempt: u64,
+        level: (GearContact, ContactLaw),
+        fault: Fault,
+        requirements: &[Requirement],
+    ) -> Option<Case> {
         let draw = if attempt.is_multiple_of(ROLLING) { random::rolling } else { random::scene };
         let mut run = Run::drawn(draw, 1000 + attempt)?;
         let mut draw = Rng::with_seed(attempt ^ 0xfee1);
@@ -345,11 +359,17 @@ impl Cases {
 
     /// Returns true if another value of row `index` changes an output in some scene on `level` that meets
     /// `requirements`. Returns `None` if no such scene declares an effect of the row and accepts another value.
-    fn has_witness(&mut self, index: usize, level: (GearContact, ContactLaw), requirements: &[Requirement]) -> Option<bool> {
+    fn has_witness(
+        &mut self,
+        index: usize,
+        level: (GearContact, ContactLaw),
+        requirements: &[Requirement],
+    ) -> Option<bool> {
         let row = &table().rows[index];
         let of_level = [("scene.gear_contact", level.0 as i32), ("contact.law", level.1 as i32)];
         let contradicts = |requirement: &Requirement| {
-            let value = of_level.iter().find(|(name, _)| *name == requirement.row.name).map(|&(_, value)| f64::from(value));
+            let value =
+                of_level.iter().find(|(name, _)| *name == requirement.row.name).map(|&(_, value)| f64::from(value));
             value.is_some_and(|value| requirement.values.contains(&value) != (requirement.sign == '='))
         };
         if requirements.iter().any(contradicts) {
