@@ -154,8 +154,8 @@ fn assumptions_about_bores_are_logged_only_with_the_effect() {
     assert!(side.starts_with("geometry.side_bore: 8.000 mm is less than half the root circle at the toe"), "{side}");
 }
 
-/// Transmission error [m] with the diameter `side_bore` [m], straight ahead and without backlash. Even a shaft of 0.5 mm
-/// can transmit the load of 20 N·m.
+/// Transmission error [m] with the diameter `side_bore` [m], straight ahead and without backlash. Even a shaft of 0.5
+/// mm can transmit the load of 20 N·m.
 fn error_on(side_bore: f64) -> f64 {
     let (p, mut inputs) = turn(true, |p| {
         (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);

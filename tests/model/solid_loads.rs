@@ -125,8 +125,8 @@ fn torques_of_the_sections_about_both_axes_are_those_of_the_mesh() {
     }
 }
 
-/// Distance of the load centroid from mid-face [m] and total force [N] of slices under the `approach` [m]. `gap` returns
-/// the first-order gap [m] at a cone distance [m].
+/// Distance of the load centroid from mid-face [m] and total force [N] of slices under the `approach` [m]. `gap`
+/// returns the first-order gap [m] at a cone distance [m].
 fn slices(pair: &Pair, approach: f64, gap: impl Fn(f64) -> f64) -> [f64; 2] {
     let (mean, face) = (pair.mean_cone, pair.outer_cone - pair.inner_cone);
     let (mut force, mut moment) = (0.0, 0.0);

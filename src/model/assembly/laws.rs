@@ -37,7 +37,7 @@ pub struct Laws {
 
 impl Laws {
     /// Law of the scene with the influence of effects on the teeth: elastic bodies, and loads that differ over the face
-    /// if the law is valid at every cone distance.
+    /// if the law is valid at every cone distance. Fails if the stiffness of teeth or gear bodies cannot be computed.
     pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
         let distributed = tooth.distributed;
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
@@ -107,7 +107,8 @@ impl Laws {
     }
 }
 
-/// Law from the stiffness of the teeth, and the gear bodies that pairs share, if they are elastic.
+/// Law from the stiffness of the teeth, and the gear bodies that pairs share, if they are elastic. Fails if their
+/// stiffness cannot be computed.
 fn of_teeth<S>(
     p: &Parameters,
     pair: &Pair,

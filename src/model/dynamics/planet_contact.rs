@@ -52,14 +52,14 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.gaps().is_some() || self.teeth.contact.bodies.is_some()
     }
 
-    /// Friction along the flanks at the present viscosity of the oil.
+    /// Friction along the flanks at the present viscosity of the oil; `None` without tooth friction.
     pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
         self.teeth.contact.friction(self.applied.oil_viscosity.map(|oil| oil.dynamic))
     }
 
     /// Returns an earlier group whose meshes have exactly the state of the meshes of group `g`, so that both have the
     /// same loads. Planets that are simulated individually move identically until an event, such as a broken tooth,
-    /// makes one of them differ.
+    /// makes one of them differ. Returns `None` if no earlier group has this state.
     #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if self.groups() == 1 || self.teeth.contact.solid.is_some() {
@@ -74,8 +74,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Twin of group `g` for loads of type `L`. Detailed loads have no twin, because the teeth of two planets may
-    /// differ.
+    /// Returns [`Self::twin`] of group `g` for loads of type `L`, but `None` for detailed loads, because the teeth of
+    /// two planets may differ.
     #[inline(always)]
     fn twin_under<L: MeshLoad>(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if L::PRESSES { None } else { self.twin(at, g) }

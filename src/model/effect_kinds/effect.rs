@@ -154,17 +154,17 @@ pub trait Effect {
         Requests::default()
     }
 
-    /// Adds the effect's influence on single teeth to `teeth`.
+    /// Adds the effect's influence on single teeth to `teeth`. Fails if its parameters contradict the gears.
     fn on_teeth(&self, _setting: &Setting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
         Ok(())
     }
 
-    /// Friction along the flanks.
+    /// Friction along the flanks, if the effect adds any.
     fn on_flanks(&self, _setting: &Setting) -> Option<FlankFriction> {
         None
     }
 
-    /// Forces and torques on bodies, other than dry friction.
+    /// Forces and torques on bodies other than dry friction, if the effect adds any.
     fn on_bodies(&self, _setting: &Setting, _plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         None
     }
@@ -174,7 +174,7 @@ pub trait Effect {
         false
     }
 
-    /// Dry friction.
+    /// Dry friction on bodies, if the effect adds any.
     fn friction(&self, _setting: &Setting) -> Option<FrictionSource> {
         None
     }

@@ -72,7 +72,8 @@ impl Friction {
         }
     }
 
-    /// Adds the brakes `wheel` of source number `index`. A brake whose torque and its derivatives are 0 adds no friction.
+    /// Adds the brakes `wheel` of source number `index`. A brake whose torque and its derivatives are 0 adds no
+    /// friction.
     fn brake(
         &mut self,
         wheel: &WheelFriction,

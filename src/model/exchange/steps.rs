@@ -80,7 +80,8 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Records the step from the last completed step to the present. Returns true if an event is due.
+    /// Records the step from the last completed step to the present. Returns true if an event is due. Fails if a tooth
+    /// bends too far at its end.
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
@@ -139,7 +140,8 @@ impl Simulation {
         next_change(&self.model, &self.state)
     }
 
-    /// Completes the step up to an event. The host does not complete a step before an event whose time is known.
+    /// Completes the step up to an event, because the host does not complete the step before an event whose time is
+    /// known. Fails as [`Self::complete_step`] does.
     fn complete_step_to_event(&mut self) -> Result<(), StepFailure> {
         if self.accepted.is_some_and(|from| from.time < self.state.time()) {
             self.complete_step()?;
@@ -147,7 +149,8 @@ impl Simulation {
         Ok(())
     }
 
-    /// Handles an event: applies the changes of commands, friction and teeth that are due.
+    /// Handles an event: applies the changes of commands, friction and teeth that are due. Fails as
+    /// [`Self::complete_step`] does.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         self.complete_step_to_event()?;
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);

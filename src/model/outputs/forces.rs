@@ -286,6 +286,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 
 /// Accelerations and torques at an instant, from one evaluation.
 struct ForcesAtInstant {
+    /// Accelerations by degree of freedom [rad/s²; seats m/s²].
     acceleration: [f64; MAX_SIZE],
     /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],

@@ -48,7 +48,8 @@ enum Beginning {
 }
 
 impl Simulation {
-    /// Simulation of `parameters` that continues from `state`, without damage and mesh history.
+    /// Simulation of `parameters` that continues from `state`, without damage and mesh history. Fails with all problems
+    /// of the parameters.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
         Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
@@ -163,7 +164,8 @@ impl Simulation {
 
     /// Integrates to `until` [s], or to the first event if `options.pauses`. If `options.is_part`, `until` precedes the
     /// next communication point. The next call continues with the same bits as without the stop. An event at the start
-    /// (see [`Self::begin`]) does not pause the motion.
+    /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the state is then that of
+    /// the last good time.
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
@@ -223,7 +225,7 @@ impl Simulation {
     }
 
     /// Returns the end [s] of the solver step that contains the present or starts there. Returns `None` if solver steps
-    /// end at the times that the host requests.
+    /// end at the times that the host requests. Fails if no step can start.
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
         let (model, state) = (&self.model, &self.state);
         let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
@@ -251,7 +253,7 @@ impl Simulation {
         FULL && self.accepted.is_some()
     }
 
-    /// End of the last step that the host's solver completed, for snapshots.
+    /// End of the last step that the host's solver completed, for snapshots; `None` in co-simulation.
     pub fn accepted(&self) -> Option<&Accepted> {
         self.accepted.as_ref()
     }

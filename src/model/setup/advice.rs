@@ -10,8 +10,8 @@ pub fn warnings(p: &Parameters) -> Vec<Problem> {
     stiffness_of_the_study(p).into_iter().chain(imposed_bias(p)).collect()
 }
 
-/// Warning about friction whose bias is not visible: the loads are given, so friction moves torque to the drive that
-/// imposes the spin.
+/// Warning if friction has no visible torque bias because both loads and the spin are given. Friction then changes only
+/// the torque that imposes the spin.
 fn imposed_bias(p: &Parameters) -> Option<Problem> {
     let (scene, effects) = (&p.scene, &p.effects);
     let has_friction = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
@@ -27,8 +27,8 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
     })
 }
 
-/// Warning about load torques that nobody set and that turn the wheels backward from rest. `is_set` is true for the
-/// loads that were set, left and right.
+/// Warning if load torques that nobody set turn the wheels backward from rest. `is_set` is true for the loads that were
+/// set, left and right.
 ///
 /// From rest, the carrier's torque T and the loads L accelerate the mean speed in proportion to T − L_left − L_right.
 /// If the other wheel has an imposed speed, a wheel that is driven by torque accelerates in proportion to T/2 − L.
@@ -77,7 +77,7 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
 /// Inputs that load the wheels.
 const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
 
-/// Warning about gears that differ from the study's gears but have their stiffness.
+/// Warning if gears differ from the study's gears but have their contact stiffness.
 fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     let start = Parameters::default();
     let (gears, usual) = (&p.geometry, &start.geometry);

@@ -22,8 +22,8 @@ pub const ROUNDS: usize = 12;
 /// Loads below this value count as zero [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-/// Turns each side gear until plain teeth carry `torque`, while planets keep their spin angles. Unloaded sides stay in
-/// the middle of the gap.
+/// Turns each side gear until plain teeth carry `torque` [N·m], while planets keep their spin angles. Unloaded sides
+/// stay in the middle of the gap. Fails if teeth would bend beyond their limit.
 pub fn press_sides(
     model: &Model,
     equations: &Largest,

@@ -24,7 +24,8 @@ const START: &str = "scene.start";
 
 impl Simulation {
     /// Sets all nodes to the steady temperatures of a cycle. If there are several steady states, it selects the one
-    /// that is reached from cold. Not inlined, because its simulations need stack that other starts may not have.
+    /// that is reached from cold. Fails if no steady temperatures are found, or if a cycle cannot be run. Not inlined,
+    /// because its simulations need stack that other starts may not have.
     #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
@@ -68,6 +69,7 @@ impl Simulation {
     }
 
     /// Mean heat flows of a cycle with all nodes at the temperatures `at` [K]. Adds its attempted steps to `attempts`.
+    /// Fails if the cycle cannot be run, or if all cycles together need too many steps.
     #[inline(never)]
     fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<Cycle, Problem> {
         let mut run = Box::new(self.clone());

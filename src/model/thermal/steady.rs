@@ -12,9 +12,9 @@
 //! (C/h + K − ∂P/∂θ) δ = R(θ)
 //! ```
 //!
-//! The solution is therefore the state that the nodes reach when they warm up from a cold start, or cool down from a hot
-//! one. If the two states differ, there are several steady states. If no friction depends on temperature, the system is
-//! linear: one longest step solves it, and a second one confirms the solution.
+//! The solution is therefore the state that the nodes reach when they warm up from a cold start, or cool down from a
+//! hot one. If the two states differ, there are several steady states. If no friction depends on temperature, the
+//! system is linear: one longest step solves it, and a second one confirms the solution.
 //!
 //! Source: pseudo-transient continuation, C. T. Kelley and D. E. Keyes, SIAM J. Numerical Analysis 35 (1998), p. 508.
 
