@@ -13,7 +13,7 @@ use bevel_differential::model::{GearContact, Inputs, Parameters, PlanetSpin, Sim
 
 const IMPACT: Impact = Impact { stiffness: 1.82463e10, exponent: 1.5, damping: 0.0, per_full_depth: 1e4 };
 const DAMPING: Damping = Damping::Step { coefficient: 0.0, per_full_depth: 1e4 };
-/// Number of sections in these tests, enough for the midpoint rule.
+/// Number of sections across the face. The midpoint rule is accurate enough with this number.
 const SECTIONS: usize = 20;
 /// Tolerated deviation as a fraction of the force. A section reports its force along the mean normal of its patch,
 /// which is not exact if a tip corner is loaded.

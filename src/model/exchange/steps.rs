@@ -130,7 +130,7 @@ impl Simulation {
         Ok(due)
     }
 
-    /// True if the present time and inputs are those of the last completed step or event.
+    /// True if time and inputs have not changed since the last completed step or event.
     pub fn is_accepted(&self) -> bool {
         self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
     }

@@ -80,8 +80,8 @@ pub struct Forces {
 /// The fast side is ahead in the sense of the torques: the left side is fast if (ω_L − ω_R)(T_L + T_R) > 0. This is
 /// valid forward and backward, in drive and overrun, and with the carrier turning or at rest. Friction turns the power
 /// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat. It therefore always takes torque from the fast side, and a bias by friction
-/// is at least 1. If both sides have the same speed within the tolerance of dry friction, the side with less torque is
-/// the fast one, because it would be ahead if it slipped.
+/// is at least 1. If the speeds of both sides differ by less than the tolerance of dry friction, the side with less
+/// torque counts as the fast one. It would be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
     // a torque that is NaN has no bias

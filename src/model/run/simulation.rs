@@ -114,7 +114,7 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the state is that of the last good
+    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the simulation is at the last good
     /// time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.advance_by(until, AdvanceOptions::default())
@@ -164,7 +164,7 @@ impl Simulation {
 
     /// Integrates to `until` [s], or to the first event if `options.pauses`. If `options.is_part`, `until` precedes the
     /// next communication point. The next call continues with the same bits as without the stop. An event at the start
-    /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the state is then that of
+    /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the simulation is then at
     /// the last good time.
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;

@@ -1,7 +1,7 @@
 //! Scene plan: bodies that move, imposed motions, and groups of planets that move identically.
 //!
-//! Planets that are identical and in phase move identically from the start. One of them is simulated and counted for
-//! all of them.
+//! Planets that are identical and in phase move identically from the start. They form a group: one planet of the group
+//! is simulated, and its forces are multiplied by the number of members.
 
 use super::{
     ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin,

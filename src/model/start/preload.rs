@@ -23,7 +23,7 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 pub struct Preload {
     /// Torques of teeth and half-shafts, and the corresponding accelerations.
     pub carried: Carried,
-    /// True if all bodies are in balance with these accelerations, and no planet starts to roll.
+    /// True if all bodies are in balance with the accelerations in `carried`, and no planet starts to roll.
     pub settled: bool,
 }
 

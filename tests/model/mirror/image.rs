@@ -182,7 +182,7 @@ impl Scene {
                 let mapped =
                     Mapped { output: output(&image), factor: self.sign(view, row.name), added, magnitude: false };
                 if view == View::Renumbered && row.name == "mesh.frequency" {
-                    // the frequency is that of planet 1, which is planet 2 in the image
+                    // the frequency follows from the spin of planet 1, which is planet 2 in the image
                     let factor = TAU / f64::from(self.parameters.geometry.planet_teeth);
                     return Mapped { output: output("planet[2].spin_speed"), factor, magnitude: true, ..mapped };
                 }

@@ -20,7 +20,7 @@ use teeth::View;
 
 /// Number of random scenes of a survey.
 const SCENES: usize = 50;
-/// Number of these scenes that are compared in all views.
+/// Number of scenes of a survey that are compared in all views; the others are compared only in the first view.
 const IN_ALL_VIEWS: usize = 10;
 /// Number of random scenes whose planets change places.
 const RENUMBERED: usize = 20;
@@ -50,8 +50,8 @@ fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     Some(found.collect())
 }
 
-/// Compares `count` scenes of `draw`, from number `first` on, with their images in the first view. Some of them are
-/// compared with their images in all `views`. Returns the findings of each view.
+/// Compares `count` scenes of `draw`, from number `first` on, with their images in the first view. The first
+/// [`IN_ALL_VIEWS`] of these scenes are compared with their images in all `views`. Returns the findings of each view.
 fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usize, views: [View; N]) -> [Findings; N] {
     let mut all = views.map(|_| Findings::new());
     for index in first.. {
