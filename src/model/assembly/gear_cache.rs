@@ -130,7 +130,9 @@ fn elasticity(p: &Parameters) -> [f64; 3] {
 
 /// Shared cache, and the number of its users.
 struct Common {
+    /// Number of handles.
     shares: usize,
+    /// Cache; `None` without handles.
     cache: Option<Arc<GearCache>>,
 }
 

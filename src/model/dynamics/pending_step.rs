@@ -56,8 +56,11 @@ pub struct PendingStep {
     attempt: Attempt,
     start: Motion,
     end: Motion,
+    /// Coefficients of the dense output (`integrate::Extension`).
     coefficients: [Motion; 3],
+    /// Ledger rates at the start of the step and halfway.
     ledger_rates: [LedgerRates; 2],
+    /// Kinetic and stored energy at the start of the step [J].
     energy: [f64; 2],
 }
 

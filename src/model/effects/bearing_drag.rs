@@ -199,6 +199,7 @@ impl Effect for BearingDragSpec {
 /// Drag on carrier and side gears.
 #[derive(Clone, Copy, Debug)]
 struct Drag {
+    /// Resistances of the carrier and of each side gear.
     on: [Resistance; 2],
     /// Speed ω₀ at which the constant torque has reached tanh 1 = 76 % [rad/s].
     breakaway_speed: f64,
@@ -206,6 +207,7 @@ struct Drag {
     churning_per_viscosity: f64,
     /// Viscosity of the oil at which viscous drag has its given value [Pa·s], if viscous drag depends on the oil.
     reference: Option<f64>,
+    /// Index of the heat in the ledger.
     heat_index: usize,
 }
 

@@ -128,6 +128,7 @@ impl Declare for ThrustFrictionSpec {
 /// Radii at which thrust friction acts [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Radii {
+    /// Radius of the pins.
     pin: f64,
     /// Mean radii of the washers of planet and side gear.
     washer: [f64; 2],

@@ -51,7 +51,9 @@ pub type PairLines = [PairLine; PAIRS];
 #[derive(Clone, Copy)]
 struct Gathered {
     flank: Flank,
+    /// Numbers of the planet's and the side gear's tooth.
     teeth: [usize; 2],
+    /// Sum of the normal forces [N].
     force: f64,
     /// Sum of force × height [N·m].
     by_height: f64,

@@ -24,7 +24,7 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &m
     state.pause = None;
     imposed::jump(model, inputs, state);
     apply_changes(model, inputs, state);
-    timeline::begin_holding(state);
+    timeline::begin_constant_inputs(state);
 }
 
 /// Completes the pending step up to the present, under the inputs that acted in it. Friction that is due to switch at

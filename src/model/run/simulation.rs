@@ -26,6 +26,7 @@ pub struct Simulation {
     pub(in crate::model) state: State,
     /// Fatigue damage and mesh history of the completed steps.
     pub(in crate::model) watched: Watched,
+    /// Inputs that act from now on.
     pub(in crate::model) inputs: Inputs,
     /// Cache of the forces under the present inputs; `None` after a change.
     pub(in crate::model) forces: Option<Forces>,

@@ -51,9 +51,10 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let unset: f64 = (0..2).filter(is_unset).map(load).sum();
     let brakes: f64 = if p.effects.wheel_brake { inputs.brake_torque.iter().sum() } else { 0.0 };
     // components along the direction in which the unset loads turn the wheels
-    let [net, drive, alone, without] =
+    let [net, drive, only_unset, only_given] =
         [unset + given - torque, -torque, unset - torque, given - torque].map(|of| of * unset.signum());
-    if unset == 0.0 || net <= brakes || without > 0.0 && alone <= 0.0 {
+    // no warning if the wheels do not turn backward, or if the loads that were set turn them and the others do not
+    if unset == 0.0 || net <= brakes || only_given > 0.0 && only_unset <= 0.0 {
         return None;
     }
     let names: Vec<String> =
@@ -90,10 +91,10 @@ fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     ]
     .iter()
     .any(|(own, usual)| own != usual);
-    let (contact, as_built) = (&p.contact, &start.contact);
+    let (contact, usual_contact) = (&p.contact, &start.contact);
     let of_the_study = contact.law == ContactLaw::Impact
         && !contact.stiffness_from_hertz
-        && (contact.stiffness, contact.exponent) == (as_built.stiffness, as_built.exponent);
+        && (contact.stiffness, contact.exponent) == (usual_contact.stiffness, usual_contact.exponent);
     if p.scene.gear_contact != GearContact::Tooth || !own_gears || !of_the_study {
         return None;
     }

@@ -190,6 +190,7 @@ struct Well<'a> {
     /// Torques T_i on each body [N·m].
     against: [f64; MAX_SIZE],
     point: &'a Point<MAX_SIZE>,
+    /// Indices of the unknown positions, and the number of identical bodies that each represents.
     unknowns: Vec<(usize, f64)>,
     /// Largest spin angle that a planet may have in either direction [rad].
     farthest_spin_angle: f64,

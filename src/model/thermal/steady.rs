@@ -37,7 +37,7 @@ const STEADY: f64 = 1e-6;
 
 /// Mean heats of a cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cycle {
+pub struct CycleMeans {
     /// Heat that enters each node [W].
     pub power: [f64; NODES],
     /// Magnitude of the mean carrier speed [rad/s].
@@ -64,7 +64,7 @@ impl<const H: usize> Network<H> {
         &self,
         begin: f64,
         influential: &[usize],
-        mut heats: impl FnMut(&[f64; NODES]) -> Result<Cycle, E>,
+        mut heats: impl FnMut(&[f64; NODES]) -> Result<CycleMeans, E>,
     ) -> Result<Steady, E> {
         let mut at = SVector::<f64, NODES>::repeat(begin);
         at[OIL] = self.around.sump.unwrap_or(begin);

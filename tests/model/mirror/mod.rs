@@ -32,7 +32,7 @@ const SHARE: f64 = 0.7;
 const SHARE_OF_ONE: f64 = 0.2;
 
 /// Expected fraction of images that take other steps than the scene, although its twins do not.
-const ALONE: f64 = 0.05;
+const WITH_OTHER_STEPS: f64 = 0.05;
 /// Standard deviations by which the number of such images may exceed its expected value.
 const DEVIATIONS: f64 = 2.0;
 
@@ -93,9 +93,13 @@ fn report(view: View, found: &Findings) {
     println!("{view:?}: {} scenes, {:.3} of all values, largest {:?}", found.scenes, found.share(), found.largest);
     assert!(found.wrong.is_empty(), "{} differ\n{}", found.wrong.len(), found.wrong.join("\n"));
     assert!(found.share() > SHARE, "{}", found.share());
-    let expected = ALONE * found.scenes as f64;
+    let expected = WITH_OTHER_STEPS * found.scenes as f64;
     let most = expected + DEVIATIONS * expected.sqrt();
-    assert!(found.alone as f64 <= most, "{} images take steps of their own", found.alone);
+    assert!(
+        found.with_other_steps as f64 <= most,
+        "{} images take other steps than their scenes",
+        found.with_other_steps
+    );
 }
 
 #[test]

@@ -75,17 +75,21 @@ const PLANET_ROOT: usize = 0;
 const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
-/// Sample, and the damage per cycle under its loads, by group, side and flank. It is large, so it is written in place.
+/// Sample of a step, and the damage under its loads. It is large, so it is written in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rated {
+    /// Fraction of the step at which the sample was taken.
     part: f64,
     sample: Sample,
+    /// Damage per cycle, by group, side and flank.
     damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
 }
 
-/// Damage per cycle and bending force of the worst tooth, with which differences are compared.
+/// Values of the worst tooth, with which differences are compared.
 struct Scale {
+    /// Damage per cycle.
     damage: PerCycle,
+    /// Force that bends the tooth [N].
     bending: f64,
 }
 

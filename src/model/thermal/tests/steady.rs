@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use super::network::{Around, Conductance, Network};
-use super::steady::{Cycle, Steady};
+use super::steady::{CycleMeans, Steady};
 use super::{CASE, CLUTCH, GEARS, NODES, OIL, WASHERS};
 
 const AMBIENT: f64 = 290.0;
@@ -32,7 +32,7 @@ fn steady(
     power: impl Fn(&[f64; NODES]) -> [f64; NODES],
 ) -> Steady {
     network
-        .steady::<Infallible>(begin, influential, |at| Ok(Cycle { power: power(at), speed: 4.0 }))
+        .steady::<Infallible>(begin, influential, |at| Ok(CycleMeans { power: power(at), speed: 4.0 }))
         .unwrap_or(Steady::NotFound)
 }
 
