@@ -7,7 +7,7 @@
 //! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair
 //! has a uniform w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or
 //! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth, w is
-//! interpolated linearly between the loaded sections. Toward toe and heel it is extrapolated linearly, but not below 0.
+//! interpolated linearly between the loaded sections. Toward toe and heel, w is extrapolated linearly, but not below 0.
 
 use crate::contact::shared::MAX_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};

@@ -32,7 +32,7 @@ pub struct Preload {
 /// The first search is for a balance without rolling planets: a minimum of the potential V + Σ T α near ψ = 0.
 /// Stiffness that varies along the path can hold small differences of the loads. Without such a minimum, the planets
 /// roll, and the loads follow from the accelerations of the ideal differential. Plain teeth are then pressed together
-/// at ψ = 0. If meshes are coupled, a minimum under the new loads is searched. Without such a minimum, actual teeth are
+/// at ψ = 0. If meshes are coupled, a second search is for a minimum under the new loads. If it fails, actual teeth are
 /// pressed together at ψ = 0. Fails if the teeth cannot carry the loads.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
