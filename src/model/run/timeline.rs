@@ -87,8 +87,8 @@ pub fn move_within(model: &Model, state: &mut State, (until, options): (f64, Adv
     moves
 }
 
-/// Starts an interval of constant inputs at the present, because inputs or something else have changed. A further change
-/// at the same time, such as a reaction to an event, does not start another interval.
+/// Starts an interval of constant inputs at the present, because inputs or something else have changed. A further
+/// change at the same time, such as a reaction to an event, does not start another interval.
 pub fn begin_constant_inputs(state: &mut State) {
     if state.constant_since == Some(state.time()) {
         return;
