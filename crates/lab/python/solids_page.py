@@ -62,7 +62,7 @@ def study(found):
         return [f"{row.look['peak'] / row.look['mean']:.4f}", *(f"{percent(value, row.look['mean'])} %"
                                                                 for value in (row.look["ripple"], row.path_ripple))]
 
-    ripple = ["ripple", "by facets alone"]
+    ripple = ["ripple", "by facets only"]
     table = [["facets", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
     for facets in filter(SHORT.__contains__, found.plan.facets):
         deepest, patch = (found.solid(facets, which) for which in (0, 1))
@@ -70,8 +70,8 @@ def study(found):
     tooth = found.tooth
     table.append(["exact teeth", "0", *cells(tooth), *cells(tooth)])
     worst = max(row.look["tangential"] for row in found.rows)
-    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
-            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. One pair that carries alone overlaps by "
-            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the study's own quantity, moves by {three(worst)} N at most, "
-            f"whatever the facets: the load is constant and the gears are light.\n")
+    text = (f"The force of exact teeth swings by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of "
+            f"the mean of {tooth.look['mean']:.0f} N, because tip corners take over and release load. A single loaded pair overlaps by "
+            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the quantity of the study, varies by at most {three(worst)} N for "
+            f"any number of facets, because the load is constant and the gears are light.\n")
     return f"{markdown(table, left=())}\n{text}"
