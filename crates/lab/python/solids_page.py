@@ -72,6 +72,6 @@ def study(found):
     worst = max(row.look["tangential"] for row in found.rows)
     text = (f"The force of exact teeth swings by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of "
             f"the mean of {tooth.look['mean']:.0f} N, because tip corners take over and release load. A single loaded pair overlaps by "
-            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the quantity of the study, varies by at most {three(worst)} N for "
-            f"any number of facets, because the load is constant and the gears are light.\n")
+            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the quantity of the study, varies by at most {three(worst)} N "
+            f"for any number of facets, because the load is constant and the gears are light.\n")
     return f"{markdown(table, left=())}\n{text}"
