@@ -132,8 +132,8 @@ def _notes(forms, straight):
         f"wrong by a factor of ten. It then uses {_scientific(stated.STIFFNESS_USED, '.2e')}, which deviates by "
         f"{(stated.STIFFNESS_USED / hertz - 1.0) * 100.0:+.1f} %. The program's default is "
         f"{_scientific(_per_mm(start['contact.stiffness']), '.2e')}, too. With contact.stiffness_from_hertz, the program uses the formula.",
-        f"The study states ±{stated.RIPPLE:g} % for all speeds. Straight ahead, there is no ripple after the start, because no tooth "
-        "rolls. In the turn, exact teeth give only the ripple of this table, with the study's contact law and constants.",
+        f"The study states ±{stated.RIPPLE:g} % for all speeds. Straight ahead, the ripple is 0 after the start, because no tooth rolls. "
+        "In the turn, exact teeth give only the ripple of this table, with the study's contact law and constants.",
         f"T/r_p with r_p = {forms.side_radius * 1e3:.0f} mm is the tangential force of all planets on one side gear, referred to its outer "
         f"pitch circle. The teeth transmit it around the mean cone distance. With {pair.planets} planets, each mesh therefore has F_t = "
         f"{load * cos(pair.pressure_angle):.0f} N and F_n = {load:.0f} N.",
