@@ -98,14 +98,17 @@ const fn twist(name: &'static str) -> Reading {
         unit: units::RADIAN,
         display: Some(DEG),
         changes: Changes::Always,
-        description: "Twist of the half-shaft, side gear ahead of the wheel; 0 where it is rigid",
+        description: "Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid \
+                      half-shaft",
     }
 }
 
 /// Stiffness and damping of the half-shafts whose ends are degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfShafts {
+    /// Stiffness k, left and right [N·m/rad].
     stiffness: [f64; 2],
+    /// Damping c, left and right [N·m·s/rad].
     damping: [f64; 2],
 }
 

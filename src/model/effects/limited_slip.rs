@@ -54,25 +54,25 @@ impl Declare for LimitedSlipSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("limited_slip.preload", "Torque of each clutch without load").tunable().real(
+            row("limited_slip.preload", "Clutch torque on each side without load").tunable().real(
                 units::NEWTON_METRE,
                 (0.0, 1e6),
                 |p| &mut p.preload,
             ),
-            row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
+            row("limited_slip.torque_coefficient", "Clutch torque on each side per mesh torque on the side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Breakaway torque over sliding torque").real(
+            row("limited_slip.static_ratio", "Ratio of breakaway torque to sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
             ),
-            row("limited_slip.stiffness", "Stiffness of a stuck clutch")
+            row("limited_slip.stiffness", "Stiffness of a sticking clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
             row("limited_slip.mean_radius", "Mean radius of the plates, for sliding speed")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("limited_slip.friction_area", "Area of all faces of a pack").real(
+            row("limited_slip.friction_area", "Total friction area of a clutch pack").real(
                 (units::SQUARE_METRE, CM2),
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,
@@ -101,8 +101,8 @@ impl Effect for LimitedSlipSpec {
         };
         found.push(problem!(
             "limited_slip.torque_coefficient",
-            "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
-             it must be 0 (preload only), or choose lumped or tooth",
+            "{}: a torque-proportional clutch needs the forces of the meshes, which scene.gear_contact = {contact} \
+             does not provide to it; set the coefficient to 0 (preload only), or choose lumped or tooth",
             self.torque_coefficient
         ));
     }
@@ -120,7 +120,7 @@ impl Effect for LimitedSlipSpec {
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
-        // a friction torque T = μ N r needs the pressure N/A = T/(μ A r)
+        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
         let per_torque = 1.0 / (self.plate_coefficient * self.friction_area);
         let pressed = Pressed { constant: self.preload, per_load: self.torque_coefficient, ..Pressed::NONE };
         let side = SideFriction {

@@ -36,8 +36,7 @@ impl<'a> SceneEffects<'a> {
         let mut found = Vec::new();
         for (entry, on, _) in configured(self.effects, self.parameters) {
             if let (false, true, Some(switch)) = (BUILT, on, entry.switch) {
-                found
-                    .push(Problem::new(switch, "this build leaves all effects out; switch it off or use a full build"));
+                found.push(Problem::new(switch, "this build has no effects; switch it off or use a full build"));
             }
         }
         let contact = self.setting.scene.gear_contact;
@@ -64,7 +63,7 @@ impl<'a> SceneEffects<'a> {
         self.acting().flat_map(|(_, setting, effect)| effect.warnings(&setting)).collect()
     }
 
-    /// Influence of the effects on single teeth.
+    /// Influence of the effects on single teeth. Fails if their parameters contradict the gears.
     pub fn on_teeth(&self) -> Result<ToothEffects, Problem> {
         let mut teeth = ToothEffects::default();
         for (_, setting, effect) in self.acting() {
@@ -91,7 +90,7 @@ impl<'a> SceneEffects<'a> {
         self.acting().filter_map(|(_, setting, effect)| effect.on_bodies(&setting, plan)).collect()
     }
 
-    /// Friction along the flanks.
+    /// Friction along the flanks, if any effect adds it.
     pub fn on_flanks(&self) -> Option<FlankFriction> {
         self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
     }
