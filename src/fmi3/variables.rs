@@ -59,7 +59,7 @@ pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
     ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
 ];
 
-/// Index of the row `name`, or `usize::MAX` if there is none.
+/// Index of the row `name`; `usize::MAX` if no row has this name.
 fn place(name: &str) -> usize {
     index_of(name).unwrap_or(usize::MAX)
 }

@@ -1,4 +1,4 @@
-"""The calls of runs without anything around them: calls.c, compiled."""
+"""Runs that consist only of the calls of a host: calls.c, compiled and executed."""
 
 import math
 import subprocess
@@ -10,13 +10,13 @@ import numpy as np
 from bevel_differential.batches import CALLS
 from tools import say
 
-# what a host reads at each communication point, where reading counts
+# outputs that a host reads at each communication point, if reading is part of the measurement
 TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
        "right.tangential_force", "planet[1].left_normal_force", "planet[1].left_transmission_error", "efficiency"]
 
 
 def compiled(folder):
-    """calls.c, built in a folder."""
+    """Builds calls.c in a folder, and returns the path of the program."""
     program = Path(folder) / "calls"
     try:
         subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl", "-lm"], check=True)
@@ -42,7 +42,7 @@ def write_start(file, fmu, values, later=None):
 
 @dataclass(frozen=True)
 class Sine:
-    """An input that a coupled host sets before each step: a sine. `how`: "held" through the step, or "lines" with its slope."""
+    """An input that a coupled host sets to a sine before each step. `how`: "held" during the step, or "lines" with the slope."""
 
     how: str
     input: str
@@ -67,19 +67,20 @@ def in_turn(runs, rounds, take, bar, what):
 
 
 def quartiles(seconds):
-    """Median and quartiles; no numbers without any."""
+    """Median and quartiles; NaN if there are no values."""
     return np.quantile(seconds, [0.5, 0.25, 0.75]).tolist() if len(seconds) else [math.nan] * 3
 
 
 class Calls:
-    """The C program; `folder` is where it is built and finds its start values."""
+    """The C program, built in `folder`. It reads its start values from a file in this folder."""
 
     def __init__(self, folder):
         self.folder, self.program = Path(folder), compiled(folder)
 
     def seconds(self, fmu, values, outputs, stretches, runs=1, later=None, moving=None):
-        """Seconds of each run of `fmu`, and those of the processor that its steps took. `stretches`: pairs of their end and step [s],
-        None for one long step; inputs `later` are set after initialisation; `moving`: a `Sine`, or None if inputs are constant."""
+        """Elapsed time of each run of `fmu`, and processor time of its steps [s]. `stretches`: (end, communication step) of each part
+        of the run [s]; the step None means one long step. Inputs `later` are set after initialisation. `moving`: a `Sine`, or None if
+        inputs are constant."""
         write_start(self.folder / "set", fmu, values, later)
         parts = ",".join(f"{end!r}:{step or 0.0!r}" for end, step in stretches)
         references = [str(fmu.variable(name).reference) for name in outputs]

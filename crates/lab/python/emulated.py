@@ -37,7 +37,7 @@ class Emulated(Instance):
         self._component = ctypes.c_void_p(1)
         self._get = {kind: partial(self._values, kind, gets=True) for kind in LETTERS}
         self._set = {kind: partial(self._values, kind, gets=False) for kind in LETTERS}
-        self._setup = lambda *_: 0  # done by entering
+        self._setup = lambda *_: 0  # the call that enters initialisation mode also sets up the experiment
         self._enter, self._exit, self._reset = (lambda _, letter=letter: self._ask(letter) for letter in "ELX")
         self._do_step = lambda _, time, size, __: self._ask("S", 2, np.array([time, size]).tobytes())
         self.raw = SimpleNamespace(setReal=self._set_real)

@@ -1,9 +1,9 @@
-"""What levels, laws and effects cost in time, or how the times of two builds compare: steps of the study's turn by a loop in C.
+"""Times of levels, laws and effects, or the ratios of the times of two builds: steps of the study's turn, run by a loop in C.
 
 usage: prices.py [--against OTHER_FMU] FMU FOLDER [--quick]
 
-Runs of what is compared alternate, so that what else the machine does weighs on both. Prints tables; with one build alone it
-also writes FOLDER/prices.csv, and all columns and pairs to FOLDER/alone.csv and pairs.csv."""
+Compared runs alternate, so that other load of the machine affects both equally. Prints tables. Without --against, also writes
+FOLDER/prices.csv, and all columns and pairs to FOLDER/alone.csv and pairs.csv."""
 
 import argparse
 import csv
@@ -21,16 +21,16 @@ STEP = 1e-3
 COUNTED = 0.5
 # ratio of a pair's cost to the sum of both effects from which the pair is listed
 DEAR = 1.3
-# runs of each, and for a quick look
+# number of runs of each setting, and with --quick
 RUNS, FEW = 9, 3
-# seconds of the processor that a timed run is to take, and its steps
+# intended processor time of a timed run [s], and its minimum and maximum number of steps
 LONG, FEWEST, MOST = 0.1, 100, 20_000
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s"}
 LEVELS = {"ideal": {"scene.gear_contact": "ideal"}, "lumped": {"scene.gear_contact": "lumped"}, "line": {"contact.law": "line"},
           "line_weber": {"contact.law": "line_weber"}, "solid": {"scene.gear_contact": "solid", "solid.facets": 32}}
 # a coupled host moves this load: amplitude [N·m] and frequency [Hz]
 LOAD, AMPLITUDE, FREQUENCY = "left.load_torque", 100.0, 2.0
-# what the richest scene of gears in service has on
+# law and effects of the richest scene of gears in service
 ALL = ["line", "tooth_friction", "thrust_friction", "limited_slip", "half_shaft", "pin_compliance", "bearing_drag", "strength",
        "tooth_errors"]
 OF_ALL = {"tooth_errors.accuracy_grade": 6, "tooth_errors.planet_tip_relief": 0.0}
@@ -50,7 +50,8 @@ class Bench:
         return round(min(max(LONG / self._per_step(FEWEST, *one), FEWEST), MOST))
 
     def compare(self, first, second):
-        """Seconds of a communication step of both, (FMU, values, outputs[, Sine]) each, and the quartiles of their ratio."""
+        """Seconds of a communication step of `first` and `second`, each (FMU, values, outputs[, Sine]), and the quartiles of their
+        ratio."""
         pairs = [(*one, self._steps(*one)) for one in (first, second)]
         taken = [[], []]
         for run in range(self.runs):
@@ -63,7 +64,7 @@ class Bench:
 
 
 def counts(fmu, values):
-    """Steps, rejected ones and evaluations of 0.5 s."""
+    """Numbers of accepted steps, rejected steps and evaluations in 0.5 s."""
     names = ["solver.steps", "solver.rejected", "solver.rhs_calls"]
     with Differential(TURN | values, fmu=fmu.file) as turn:
         record = turn.run(outputs=names, stop=COUNTED, step=STEP)
@@ -84,15 +85,16 @@ class Prices:
         self.without_teeth = ideal
 
     def of(self, values):
-        """Counts, seconds of a communication step, and quartiles of its price in that of plain teeth."""
+        """Counts, seconds of a communication step, quartiles of this time divided by the time of plain teeth, and the time of an
+        evaluation divided by the time of an evaluation of plain teeth."""
         counted = counts(self.fmu, values)
         (_, taken), over = self.bench.compare((self.fmu, {}, []), (self.fmu, values, []))
-        # an evaluation's price in that of plain teeth
+        # time of an evaluation, divided by the time of an evaluation of plain teeth
         of_one = over[1] * self.evaluations / counted[2] if counted[2] else 0.0
         return counted, taken, over, of_one
 
     def moving(self, values):
-        """× real time while a load moves: held within each step, and with slopes."""
+        """Speed in multiples of real time while a load moves: with the load held within each step, and with slopes."""
         sines = [Sine(how, LOAD, float(self.fmu.variable(LOAD).start), AMPLITUDE, FREQUENCY) for how in ("held", "lines")]
         taken, _ = self.bench.compare(*((self.fmu, values, [], sine) for sine in sines))
         return [significant(STEP / each, 2) for each in taken]
@@ -104,7 +106,7 @@ class Prices:
 
 
 def short(row):
-    """The columns of a row that the document has."""
+    """Columns of a row that the document contains."""
     return [row[0], row[1], row[3], row[5].split(" (")[0], *row[6:]]
 
 

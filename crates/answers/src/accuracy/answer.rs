@@ -17,7 +17,7 @@ use crate::scene::run::SceneRun;
 
 /// Maximum cost of all runs, as a multiple of the cost of the reference run.
 const BUDGET: f64 = 30.0;
-/// The same maximum if the reference is uncertain, because more runs would then decide little.
+/// Maximum cost of all runs if the reference is uncertain, because more runs would then decide little.
 const BUDGET_UNCERTAIN: f64 = 15.0;
 /// Shortest time to judge, in communication steps: a mean over time needs two points.
 const LEAST_POINTS: f64 = 2.5;
