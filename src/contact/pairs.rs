@@ -98,7 +98,7 @@ struct Window {
 /// Approach [rad] up to which the narrow window is used: some tenths of a millimetre, more than at any working load.
 const WORKING_APPROACH: f64 = 5e-3;
 
-/// Margin against losing a barely touching pair to rounding [base pitches, rad].
+/// Margin that keeps rounding from losing a barely touching pair [base pitches].
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest whole number not below `x`, for |x| below 2⁶³. Trial states may have absurd values.

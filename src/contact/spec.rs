@@ -5,7 +5,7 @@ choices! {
     pub enum ContactLaw: "ContactLaw" {
         Impact = 1, "impact": "Adams IMPACT at the mean cone distance";
         Line = 2, "line": "tooth stiffness from geometry over the face width, linear";
-        LineWeber = 3, "line_weber": "the same with the Hertz part as the load has it";
+        LineWeber = 3, "line_weber": "as line, but its Hertz part depends on the load";
     }
 }
 

@@ -20,7 +20,8 @@ pub struct Chip {
 }
 
 impl Chip {
-    /// Returns the tooth that `spec` breaks on the gears of `pair` with `planets` planets, or `None`.
+    /// Returns the tooth that `spec` breaks on the gears of `pair` with `planets` planets, or `None` if no tooth
+    /// breaks. Fails if `spec` is invalid for these gears.
     pub fn new(spec: &ToothFaultSpec, pair: &Pair, planets: usize) -> Result<Option<Self>, Problem> {
         spec.check(pair.gears.map(|g| g.teeth), planets)?;
         let on_planet = spec.gear == FaultyGear::Planet;

@@ -114,8 +114,9 @@ impl Candidates {
         first..=last
     }
 
-    /// Finds the same pairs by traversing the trees. Flanks overlap or are moved by up to `deep` [rad]. A flank can
-    /// touch only the tooth ahead, because its own tooth is between it and the tooth behind.
+    /// First and last number of the pairs of flanks that may touch at (q, x) [rad], found by traversing the trees.
+    /// Flanks overlap or are moved by up to `deep` [rad]. A flank can touch only the tooth ahead, because its own tooth
+    /// is between it and the tooth behind.
     fn search(&self, q: f64, x: f64, deep: f64) -> Near {
         let turn: Matrix3<f64> = self.aligned.between([x / self.sin_base[0], (q + x) / self.sin_base[1]]);
         let (size, margin) = (turn.abs(), (self.apart + deep) * MM);
