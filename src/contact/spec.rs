@@ -5,7 +5,7 @@ choices! {
     pub enum ContactLaw: "ContactLaw" {
         Impact = 1, "impact": "Adams IMPACT at the mean cone distance";
         Line = 2, "line": "tooth stiffness from geometry over the face width, linear";
-        LineWeber = 3, "line_weber": "as line, but its Hertz part depends on the load";
+        LineWeber = 3, "line_weber": "line with a load-dependent Hertz part";
     }
 }
 

@@ -67,8 +67,8 @@ const LEDGER: f64 = 4.0;
 /// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a jump is evaluated with two
 /// more points.
 const UNREFINED: f64 = 0.05;
-/// Number of consecutive attempts whose ledger does not close. After so many, a step of the size of the first attempt
-/// is accepted, because the remaining imbalance does not depend on the step size.
+/// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
+/// attempt is accepted, because the remaining imbalance does not depend on the step size.
 const UNBALANCED: u32 = 8;
 /// Tolerance, step-size control, counters and work budget of an integration.
 pub struct SolverContext<'a> {
