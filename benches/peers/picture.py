@@ -19,6 +19,7 @@ def draw(path, results):
         axes.plot(costs[-1:], ripples[-1:], marker=marker, ms=13, mfc="none", color=drawn.get_color(), ls="")
     axes.set(xscale="log", xlabel="seconds on the processor per second simulated", ylabel="ripple, left, peak to peak, %",
              ylim=(0.0, None), title="The study's turn: cost of a run, and the ripple that it finds")
+    style.plain_decades(axes.xaxis)
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     style.caption(figure, "Each line runs from coarse to fine settings of one tool; the ring marks the finest. Where a line is level, the "
                   "result no longer depends on the setting, as in this program at every tolerance. Multi-body programs with contact "

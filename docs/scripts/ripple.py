@@ -185,9 +185,9 @@ def draw(points):
         time = 1e3 * (record["time"] - PERIOD)
         errors.plot(time, 1e6 * record["planet[1].left_transmission_error"], label=name)
         speeds.plot(time, 100 * (np.degrees(record["left.speed"]) / left - 1), label=name)
-    errors.set(xlabel="time in one tooth cycle, ms", ylabel="transmission error, left, µm", ylim=(0, None),
+    errors.set(xlabel="time in one tooth cycle, ms", ylabel="transmission error, left, µm", ylim=(0, None), xlim=(0, 1e3 * PERIOD),
                title="Deflection: one pair, two pairs")
-    speeds.set(xlabel="time in one tooth cycle, ms", ylabel=f"left speed about {left:.0f} deg/s, %",
+    speeds.set(xlabel="time in one tooth cycle, ms", ylabel="deviation of the left speed, %", xlim=(0, 1e3 * PERIOD),
                title="Ripple: its rate of change")
     errors.legend(loc="center", bbox_to_anchor=(0.42, 0.43))
     speeds.legend(loc="upper right")

@@ -1,5 +1,7 @@
 """Pictures: the launch, errors against the communication step, and the flow of signals."""
 
+from math import pi
+
 from matplotlib.patches import Rectangle
 
 from bevel_differential import style
@@ -7,6 +9,8 @@ from masters import ALL
 from parameters import CONNECTIONS, STEP
 
 RADIUS, RATIO = 0.334, 13.65
+# rpm for 1 rad/s
+RPM = 30.0 / pi
 
 
 def launch(file, reference, coupled, contact):
@@ -14,12 +18,13 @@ def launch(file, reference, coupled, contact):
     panels = [
         ("torque, N·m", {f"engine × {RATIO:g}": (("engine", "torque"), RATIO), "carrier": (("final_drive", "carrier_torque"), 1),
                          "each half-shaft (both equal)": (("differential", "left.shaft_torque"), 1)}),
-        ("speed, rad/s", {"left wheel, on ice": (("left_wheel", "speed"), 1), "carrier": (("differential", "carrier.speed"), 1),
-                          "right wheel, on dry road": (("right_wheel", "speed"), 1),
-                          "vehicle / tyre radius": (("vehicle", "speed"), 1 / RADIUS)}),
+        ("speed, rpm", {"left wheel, on ice": (("left_wheel", "speed"), RPM), "carrier": (("differential", "carrier.speed"), RPM),
+                        "right wheel, on dry road": (("right_wheel", "speed"), RPM),
+                        "vehicle / tyre radius": (("vehicle", "speed"), RPM / RADIUS)}),
         ("force of the road, N", {"left wheel, on ice": (("left_wheel", "force"), 1),
                                   "right wheel, on dry road": (("right_wheel", "force"), 1)}),
     ]
+    style.apply()
     figure, axes = style.panels(3, 1, 11.0, sharex=True)
     # a dot for every hundredth of a second
     apart = max(round(0.01 / (coupled[0][1] - coupled[0][0])), 1)
@@ -30,31 +35,34 @@ def launch(file, reference, coupled, contact):
         axis.set_ylabel(label)
         axis.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     axes[0].set_title("Launch on split friction: left wheel on ice, right wheel on dry road")
-    axes[-1].set_xlabel("time, s")
+    axes[-1].set(xlabel="time, s", xlim=(0.0, reference[0][-1]))
     style.caption(figure, "A car starts with its left wheel on ice. The wheel on ice spins up; the open differential gives both half-shafts "
                   "the same torque, so the wheel on dry road gets little more than the ice transmits. "
                   "Lines: the whole drivetrain as one set of equations. Dots: six FMUs coupled by a plain host in steps of "
-                  f"{STEP * 1e3:g} ms; they lie on the lines. gear_contact = {contact}.")
+                  f"{STEP * 1e3:g} ms; they agree with the lines. gear_contact = {contact}.")
     style.save(figure, file)
 
 
 def errors(file, rows, limits):
     """Draws errors, log-log, with lines of order 1 and 2, and the predicted limits as vertical lines."""
     contacts = list(dict.fromkeys(row["contact"] for row in rows))
+    style.apply()
     figure, axes = style.panels(1, len(contacts), 7.6, sharey=True, squeeze=False)
     axes = axes[0]
     for axis, contact in zip(axes, contacts):
         for (name, master), color, marker in zip(ALL.items(), style.CYCLE, style.MARKERS):
             own = [row for row in rows if (row["contact"], row["master"], row["state"]) == (contact, name, "ok")]
-            axis.plot([row["step"] * 1e3 for row in own], [row["largest"] for row in own], marker=marker, color=color,
+            axis.plot([row["step"] * 1e3 for row in own], [100.0 * row["largest"] for row in own], marker=marker, color=color,
                       label=master.label, markersize=6)
             axis.axvline(limits[name]["predicted"] * 1e3, color=color, linestyle=":", linewidth=1.3)
         axis.set(xscale="log", yscale="log", title=f"gear_contact = {contact}", xlabel="communication step, ms")
-        for order, at, level in ((1, 1e-2, 1e-3), (2, 1e-1, 3e-5)):
+        for order, at, level in ((1, 1e-2, 1e-1), (2, 2e-2, 1.5e-5)):
             ends = (at, 3.0 * at)
             axis.plot(ends, [level * (end / at) ** order for end in ends], color=style.INK, linewidth=1)
             axis.text(ends[1], level * 3.0**order, f" order {order}", fontsize=style.SMALL, va="center")
-    axes[0].set_ylabel("largest error of any quantity, relative")
+        style.plain_decades(axis.xaxis)
+    style.plain_decades(axes[0].yaxis)
+    axes[0].set_ylabel("largest error of any quantity, % of its largest value")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
     style.caption(figure, "Error of the coupled drivetrain against the communication step, by the way the host exchanges signals. Inputs held "
@@ -78,6 +86,7 @@ WIDTH, HEIGHT = 1.48, 0.8
 
 def signals(file):
     """Draws the signals between the parts: torques and forces as full lines, speeds as dashed lines."""
+    style.apply()
     figure, axis = style.panels(1, 1, 5.2)
     for name, (x, y, text) in BOXES.items():
         own = name == "differential"

@@ -8,6 +8,7 @@ at a speed difference of 5 rad/s gives the dry wheel all the torque.
 
 import sys
 
+from bevel_differential import Fmu
 from bevel_differential.vehicle import Car, Motor, Tyre
 
 HALF_SHAFTS = {"effects.half_shaft": True, "half_shaft.left_stiffness": "9000 N.m/rad", "half_shaft.right_stiffness": "12000 N.m/rad"}
@@ -32,13 +33,15 @@ CASES = {
 def main():
     print(f"{'differential':<14}{'speed after 1 s, m/s':>22}{'right shaft, N.m':>18}")
     for name, (parameters, controller) in CASES.items():
-        car = Car(HALF_SHAFTS | parameters, motor=Motor(), left=Tyre(friction=0.15), right=Tyre(friction=0.9))
+        car = Car(HALF_SHAFTS | parameters, motor=Motor(), left=Tyre(friction=0.15), right=Tyre(friction=0.9),
+                  fmu=Fmu.of().displaying(["rpm"]))
         record = car.run(OUTPUTS, stop=1.0, request=PEDAL, controller=controller)
         late = record["time"] > 0.8
         print(f"{name:<14}{record['body.speed'][-1]:>22.2f}{record['right.shaft_torque'][late].mean():>18.0f}")
         if name == "open" and len(sys.argv) > 1:
             car.plot(record, sys.argv[1], "Launch on split friction, open differential",
-                     "The left wheel spins up on the ice. Both shafts carry the same torque: what the ice and the inertia of that wheel take.")
+                     "The left wheel spins up on the ice. Both shafts transmit the same torque, which the ice and the inertia of this "
+                     "wheel resist.")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,8 @@ choices! {
     /// Law of force against penetration.
     pub enum ContactLaw: "ContactLaw" {
         Impact = 1, "impact": "Adams IMPACT at the mean cone distance";
-        Line = 2, "line": "tooth stiffness from geometry over the face width, linear";
-        LineWeber = 3, "line_weber": "line with a load-dependent Hertz part";
+        Line = 2, "line": "linear tooth stiffness from geometry, over the face width";
+        LineWeber = 3, "line_weber": "tooth stiffness from geometry, with a Hertz part that depends on the load";
     }
 }
 

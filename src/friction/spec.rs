@@ -8,10 +8,10 @@ pub const LARGEST: f64 = 0.3;
 choices! {
     /// Law of the coefficient of friction between tooth flanks.
     pub enum FrictionLaw: "FrictionLaw" {
-        CoulombStribeck = 1, "coulomb_stribeck": "given coefficient with a Stribeck peak if wanted";
+        CoulombStribeck = 1, "coulomb_stribeck": "given coefficient, with an optional Stribeck peak";
         BenedictKelley = 2, "benedict_kelley": "local coefficient of Benedict and Kelley (1961)";
         Iso14179 = 3, "iso_14179": "mean coefficient of ISO/TR 14179-2";
-        XuKahraman = 4, "xu_kahraman": "Xu and Kahraman (2007)";
+        XuKahraman = 4, "xu_kahraman": "local coefficient of Xu and Kahraman (2007)";
     }
 }
 

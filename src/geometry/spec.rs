@@ -6,7 +6,7 @@ choices! {
         Standard = 1, "standard": "addendum 1.0 modules, dedendum 1.25 modules on both gears";
         Gleason = 2, "gleason": "Gleason long-and-short addenda";
         Iso23509 = 3, "iso23509": "ISO 23509 mean addendum factor, clearance 0.25 modules";
-        Explicit = 4, "explicit": "the four coefficients geometry.planet_addendum ... side_dedendum";
+        Explicit = 4, "explicit": "geometry.planet_addendum, planet_dedendum, side_addendum and side_dedendum";
     }
 }
 

@@ -23,19 +23,19 @@ pub fn rows() -> Vec<Row<InputField>> {
             .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.carrier_torque),
         row(
             "left.load_torque",
-            "Load on the left half-shaft, with its sign: positive resists positive rotation and drives a \
-             wheel at standstill backwards; a load that only resists is left.brake_torque",
+            "Signed load torque on the left half-shaft: a positive load resists positive rotation, and turns a \
+             standing wheel backward; left.brake_torque only resists",
         )
         .when("scene.left_drive = torque")
         .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.load_torque[0]),
         row(
             "right.load_torque",
-            "Load on the right half-shaft, with its sign: positive resists positive rotation and drives a \
-             wheel at standstill backwards; a load that only resists is right.brake_torque",
+            "Signed load torque on the right half-shaft: a positive load resists positive rotation, and turns a \
+             standing wheel backward; right.brake_torque only resists",
         )
         .when("scene.right_drive = torque")
         .input(units::NEWTON_METRE, MAX_TORQUE, |i| &mut i.load_torque[1]),
-        row("spin.command", "Imposed planet spin relative to the carrier; positive speeds the left side up")
+        row("spin.command", "Imposed planet spin relative to the carrier; positive spin makes the left side faster")
             .when("scene.planet_spin = imposed")
             .input((units::RAD_PER_S, DEG_PER_S), MAX_SPEED, |i| &mut i.planet_spin),
         row("left.speed_command", "Imposed speed of the wheel side of the left half-shaft when it is speed-driven")

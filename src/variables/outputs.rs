@@ -14,8 +14,8 @@ macro_rules! side {
             row(
                 concat!($name, ".angle"),
                 concat!(
-                    "Side gear angle, including lash and deflection; 0 as assembled with teeth in mid-gap; for a wheel \
-                     behind a half-shaft read ",
+                    "Side gear angle, including lash and deflection; 0 if assembled with teeth in mid-gap; for a \
+                     wheel behind a half-shaft read ",
                     $name,
                     ".wheel_angle"
                 ),
@@ -33,7 +33,7 @@ macro_rules! side {
                     $name,
                     ".angle - ",
                     $name,
-                    ".twist if the end of the half-shaft moves by itself, otherwise ",
+                    ".twist if the wheel end of the half-shaft is a separate body, otherwise ",
                     $name,
                     ".angle"
                 ),
@@ -42,8 +42,8 @@ macro_rules! side {
             row(
                 concat!($name, ".wheel_speed"),
                 concat!(
-                    "Wheel speed, for brakes and tyres: speed of the end of the half-shaft if the end moves by itself \
-                     (scene.",
+                    "Wheel speed, for brakes and tyres: speed of the wheel end of the half-shaft if it is a \
+                     separate body (scene.",
                     $name,
                     "_drive = speed, or effects.half_shaft with inertia.",
                     $name,
@@ -55,14 +55,14 @@ macro_rules! side {
             .output((units::RAD_PER_S, DEG_PER_S), Motion(|m| m.wheel_speed[$s])),
             row(concat!($name, ".acceleration"), "Side gear acceleration")
                 .output(units::RAD_PER_S2, Forces(|f| f.side_acceleration[$s])),
-            row(concat!($name, ".shaft_torque"), "Torque the half-shaft delivers to the wheel")
+            row(concat!($name, ".shaft_torque"), "Torque that the half-shaft delivers to the wheel")
                 .output(units::NEWTON_METRE, Forces(|f| f.shaft_torque[$s])),
             row(
                 concat!($name, ".tangential_force"),
-                "Torque of all meshes on the side gear, referred to its outer pitch circle",
+                "Torque of all meshes on the side gear, divided by the outer pitch radius",
             )
             .output(units::NEWTON, Forces(|f| f.side_tangential[$s])),
-            row(concat!($name, ".normal_force"), "Normal forces of all meshes of the side gear, summed")
+            row(concat!($name, ".normal_force"), "Sum of the normal forces of all meshes of the side gear")
                 .output(units::NEWTON, Forces(|f| f.side_normal[$s])),
             row(concat!($name, ".thrust_force"), "Thrust of all meshes on the side gear, away from the apex")
                 .output(units::NEWTON, Components(|f| f.side_thrust[$s])),
@@ -80,19 +80,19 @@ macro_rules! planet {
                 .output((units::RAD_PER_S, DEG_PER_S), Motion(|m| m.spin_speed[$i])),
             row(
                 concat!($name, ".left_normal_force"),
-                "Normal force of the mesh with the left side gear, its tooth pairs summed",
+                "Normal force of the mesh with the left side gear, summed over its tooth pairs",
             )
             .output(units::NEWTON, Forces(|f| f.mesh[$i][0].normal)),
             row(
                 concat!($name, ".right_normal_force"),
-                "Normal force of the mesh with the right side gear, its tooth pairs summed",
+                "Normal force of the mesh with the right side gear, summed over its tooth pairs",
             )
             .output(units::NEWTON, Forces(|f| f.mesh[$i][1].normal)),
-            row(concat!($name, ".left_pairs"), "Tooth pairs under load in the mesh with the left side gear")
+            row(concat!($name, ".left_pairs"), "Number of loaded tooth pairs in the mesh with the left side gear")
                 .output(units::ONE, Forces(|f| f.mesh[$i][0].pairs)),
-            row(concat!($name, ".right_pairs"), "Tooth pairs under load in the mesh with the right side gear")
+            row(concat!($name, ".right_pairs"), "Number of loaded tooth pairs in the mesh with the right side gear")
                 .output(units::ONE, Forces(|f| f.mesh[$i][1].pairs)),
-            row(concat!($name, ".pin_force"), "Resultant of the mesh forces across the pin")
+            row(concat!($name, ".pin_force"), "Resultant mesh force on the planet across the pin")
                 .output(units::NEWTON, Components(|f| f.pin_force[$i])),
             row(concat!($name, ".thrust_force"), "Thrust of both meshes on the planet, away from the apex")
                 .output(units::NEWTON, Components(|f| f.planet_thrust[$i])),
@@ -117,16 +117,16 @@ macro_rules! pair {
         [
             row(
                 concat!($name, ".tooth"),
-                "Tooth number of a loaded pair of planet 1 with the left side gear, from 0 on the planet; -1 = no such \
-                 pair; pairs are ordered from the planet's root to its tip",
+                "Tooth number of a loaded pair of planet 1 with the left side gear, counted from 0 on the planet; \
+                 -1 = no such pair; pairs are ordered from the planet's root to its tip",
             )
             .output(units::ONE, Pair($k, |pair| pair.tooth)),
             row(concat!($name, ".force"), "Normal force of this pair, negative on the coast flank")
                 .output(units::NEWTON, Pair($k, |pair| pair.force)),
             row(
                 concat!($name, ".height"),
-                "Contact position of this pair on the planet's profile, from the pitch circle toward the tip, at the \
-                 mean cone distance",
+                "Contact position of this pair on the planet profile: distance from the pitch circle toward the \
+                 tip, at the mean cone distance",
             )
             .output((units::METRE, MM), Pair($k, |pair| pair.height)),
             row(concat!($name, ".toe_pressure"), "Hertz pressure of this pair at the toe")
@@ -146,7 +146,7 @@ pub fn rows() -> Vec<Output> {
         row("carrier.speed", "Carrier speed").output((units::RAD_PER_S, DEG_PER_S), Motion(|m| m.carrier_speed)),
         row("carrier.acceleration", "Carrier acceleration")
             .output(units::RAD_PER_S2, Forces(|f| f.carrier_acceleration)),
-        row("carrier.torque", "Torque the drive delivers to the carrier")
+        row("carrier.torque", "Torque that the drive delivers to the carrier")
             .output(units::NEWTON_METRE, Forces(|f| f.carrier_torque)),
     ];
     rows.extend(side!("left", 0));
@@ -159,31 +159,35 @@ pub fn rows() -> Vec<Output> {
     rows.extend(pair!("mesh.pair[2]", 1));
     rows.extend(pair!("mesh.pair[3]", 2));
     rows.extend([
-        row("spin.torque", "Total torque on all planets that imposes the spin; 0 if the spin is free")
+        row("spin.torque", "Total torque that the spin drive exerts on all planets; 0 if the spin is free")
             .output(units::NEWTON_METRE, Forces(|f| f.spin_torque)),
-        row("mesh.frequency", "Tooth engagements per second of one mesh")
+        row("mesh.frequency", "Tooth engagements of one mesh per second")
             .output(units::HERTZ, Motion(|m| m.mesh_frequency)),
         row("power.in", "Power delivered by carrier drive and spin drive").output(units::WATT, Forces(|f| f.power_in)),
         row("power.out", "Power delivered to the wheels").output(units::WATT, Forces(|f| f.power_out)),
-        row("power.loss", "Power turned into heat within the differential; power of wheel brakes is part of power.out")
-            .output(units::WATT, Forces(|f| f.power_loss)),
+        row(
+            "power.loss",
+            "Power turned into heat within the differential; power of the wheel brakes is part of \
+                           power.out",
+        )
+        .output(units::WATT, Forces(|f| f.power_loss)),
         row(
             "efficiency",
-            "1 - power.loss / power fed in, which is the sum over those of carrier, left wheel, right wheel and spin \
-             drive that feed power; at least 0, and 1 if none feeds power",
+            "1 - power.loss / power fed in: sum over carrier drive, left wheel, right wheel and spin drive if they \
+             feed power; at least 0, and 1 if none feeds power",
         )
         .output(units::ONE, Forces(efficiency)),
         row(
             "torque_bias_ratio",
-            "Torque of the slow over the fast half-shaft, in the direction of the torques, averaged over the last \
-             whole mesh cycle if shafts twist; 1 if the sum is below 1e-3 N.m; 1e6 if the fast shaft transmits no \
-             torque, for example if one wheel stands still and the other spins freely; with imposed spin and \
-             imposed loads it is the ratio of the loads, regardless of friction",
+            "Ratio of slow to fast half-shaft torque, averaged over the last whole mesh cycle if shafts twist; fast \
+             is the side ahead in the direction of the torque sum; 1 if the sum is below 1e-3 N.m; 1e6 if the fast \
+             shaft transmits no torque, for example if one wheel stands still and the other spins freely; with \
+             imposed spin and imposed loads it is the ratio of the loads, regardless of friction",
         )
         .output(units::ONE, Forces(|f| f.torque_bias_ratio)),
         row(
             "locking_value",
-            "Difference over sum of the half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 \
+            "Difference over sum of half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 \
              if the sum is below 1e-3 N.m; at most 1e6",
         )
         .output(units::ONE, Forces(|f| f.locking_value)),
@@ -194,9 +198,9 @@ pub fn rows() -> Vec<Output> {
         row("held.planets", "Number of planet groups that dry friction holds on their pins")
             .output(units::ONE, Ledger(|l| l.held[1])),
         row("held.wheels", "Number of wheels that their brakes hold").output(units::ONE, Ledger(|l| l.held[2])),
-        row("solver.steps", "Accepted steps").output(units::ONE, Ledger(|l| l.steps)),
-        row("solver.rejected", "Rejected steps").output(units::ONE, Ledger(|l| l.rejected)),
-        row("solver.rhs_calls", "Evaluations of the tooth forces").output(units::ONE, Ledger(|l| l.rhs_calls)),
+        row("solver.steps", "Number of accepted steps").output(units::ONE, Ledger(|l| l.steps)),
+        row("solver.rejected", "Number of rejected steps").output(units::ONE, Ledger(|l| l.rejected)),
+        row("solver.rhs_calls", "Number of tooth force evaluations").output(units::ONE, Ledger(|l| l.rhs_calls)),
         row("solver.step_size", "Size of the last accepted step").output(units::SECOND, Ledger(|l| l.step_size)),
         row("solver.energy_residual", "Stored energy minus work of the inputs plus heat; 0 for an exact solution")
             .output(units::JOULE, Ledger(|l| l.energy_residual)),

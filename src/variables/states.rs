@@ -55,20 +55,53 @@ fn states(body: Body) -> [State; 2] {
         Body::Planet(i) | Body::Pin(i) => format!("planet[{}]", i + 1),
         Body::Attached(k) => ATTACHED[k].of.into(),
     };
-    let (kind, what, names, nominal) = match body {
-        Body::Side(0) => (&TURNS, "Left side gear, angle relative to the carrier", SIDE, [DEFLECTION, SPEED]),
-        Body::Side(_) => (&TURNS, "Right side gear, angle relative to the carrier", SIDE, [DEFLECTION, SPEED]),
-        Body::Carrier => (&TURNS, "Carrier", ["angle", "speed"], [ANGLE, SPEED]),
-        Body::Seat(0) => (&SHIFTS, "Left side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
-        Body::Seat(_) => (&SHIFTS, "Right side gear along its axis, away from the apex", SEAT, [AXIAL, AXIAL_SPEED]),
-        Body::Planet(_) => (&TURNS, "Planet on its pin", ["spin_angle", "spin_speed"], [DEFLECTION, SPEED]),
-        Body::Pin(_) => (&TURNS, "Pin, angle relative to the carrier", ["pin_angle", "pin_speed"], [DEFLECTION, SPEED]),
-        Body::Attached(k) => (&TURNS, ATTACHED[k].what, ATTACHED[k].states, [TWIST, SPEED]),
+    let (kind, descriptions, names, nominal) = match body {
+        Body::Side(0) => (
+            &TURNS,
+            ["Left side gear angle relative to the carrier", "Left side gear speed"],
+            SIDE,
+            [DEFLECTION, SPEED],
+        ),
+        Body::Side(_) => (
+            &TURNS,
+            ["Right side gear angle relative to the carrier", "Right side gear speed"],
+            SIDE,
+            [DEFLECTION, SPEED],
+        ),
+        Body::Carrier => (&TURNS, ["Carrier angle", "Carrier speed"], ["angle", "speed"], [ANGLE, SPEED]),
+        Body::Seat(0) => (
+            &SHIFTS,
+            [
+                "Left side gear position along its axis, away from the apex",
+                "Left side gear speed along its axis, away from the apex",
+            ],
+            SEAT,
+            [AXIAL, AXIAL_SPEED],
+        ),
+        Body::Seat(_) => (
+            &SHIFTS,
+            [
+                "Right side gear position along its axis, away from the apex",
+                "Right side gear speed along its axis, away from the apex",
+            ],
+            SEAT,
+            [AXIAL, AXIAL_SPEED],
+        ),
+        Body::Planet(_) => {
+            (&TURNS, ["Planet spin angle", "Planet spin speed"], ["spin_angle", "spin_speed"], [DEFLECTION, SPEED])
+        }
+        Body::Pin(_) => (
+            &TURNS,
+            ["Pin angle relative to the carrier", "Absolute pin speed"],
+            ["pin_angle", "pin_speed"],
+            [DEFLECTION, SPEED],
+        ),
+        Body::Attached(k) => (&TURNS, ATTACHED[k].descriptions, ATTACHED[k].states, [TWIST, SPEED]),
     };
-    [(0, "position"), (1, "velocity")].map(|(i, part)| State {
+    [0, 1].map(|i| State {
         name: format!("{of}.{}", names[i]),
         derivative: format!("der({of}.{})", names[i]),
-        description: format!("{what}: {part}"),
+        description: descriptions[i].to_owned(),
         nominal: nominal[i],
         unit: kind.units[i],
         display: kind.display[i],

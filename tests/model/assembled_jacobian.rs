@@ -117,7 +117,7 @@ fn the_jacobian_of_every_scene_equals_differences_of_its_rates() {
 /// Largest p·v of washers and pins, of clutch packs and of linings [W/m²].
 fn largest_pv(simulation: &mut Simulation) -> [f64; 3] {
     ["pv.washers", "pv.clutch", "pv.brake"].map(|name| {
-        let Access::Output(of) = named(name).unwrap().access else { panic!("{name} is no output") };
+        let Access::Output(of) = named(name).unwrap().access else { panic!("{name} is not an output") };
         of.read(simulation)
     })
 }

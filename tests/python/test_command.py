@@ -43,7 +43,8 @@ def test_a_picture_has_a_panel_for_each_unit_with_the_usual_one(fmu_file):
         record = straight.run(outputs=["left.speed", "carrier.speed", "left.shaft_torque", "planet[1].left_pairs"], stop=0.01)
         figure = straight.plot(record)
     assert [axes.get_ylabel() for axes in figure.axes] == ["speed, deg/s", "shaft torque, N·m", "pairs"]
-    assert figure.axes[-1].get_xlabel() == "time, s"
+    # without margins, and in the unit that suits 10 ms
+    assert figure.axes[-1].get_xlabel() == "time, ms" and figure.axes[-1].get_xlim() == (0.0, 1e3 * record["time"][-1])
     speed = figure.axes[0].lines[0].get_ydata()
     assert np.allclose(speed, np.degrees(record["left.speed"]), rtol=1e-15)
     assert [text.get_text() for text in figure.axes[0].get_legend().texts] == ["left.speed", "carrier.speed"]

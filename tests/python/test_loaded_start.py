@@ -10,7 +10,7 @@ from opened_scenes import INERTIAS, UM, scene
 from own_statics import BALANCED, Statics
 
 SIDES = ["left", "right"]
-NOTHING_FOUND = ("this is no equilibrium", "no equilibrium was found")
+NOTHING_FOUND = ("not an equilibrium", "no equilibrium was found")
 OUTWARD = {"effects.tooth_errors": True, "tooth_errors.planet_axial_offset": 200.0 * UM}
 RELIEF = {"effects.tooth_errors": True, "tooth_errors.planet_tip_relief": 40.0 * UM, "tooth_errors.side_tip_relief": 40.0 * UM,
           "tooth_errors.relief_length": 1.0}
@@ -149,7 +149,7 @@ def test_planets_that_begin_to_roll_and_planets_that_carry_little_are_reported(f
     unequal = {"contact.law": "line", "left.load_torque": 400.0, "right.load_torque": 100.0}
     with fmu.open() as opened:
         [message] = said(opened.initialise(unequal))
-        assert "begin to roll" in message
+        assert "start to roll" in message
         [message] = said(opened.initialise({**OPENED["outward"], "tooth_errors.axis_offset": 20.0 * UM}))
         assert "planets carry unequal parts" in message
         carried = np.array(opened.read(forces({}))).reshape(2, 2).sum(axis=1)

@@ -141,7 +141,8 @@ def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
     names = ("carrier.torque", "carrier.speed", "speed_difference", "oil.temperature")
     assert len(listed) == 10 and number(listed[0][1]) == pytest.approx(mapped.errors.max(), rel=5e-3)
     for _, error, *point in listed:
-        place = [*(number(cell) for cell in point[:3]), number(point[3]) + ZERO_CELSIUS]
+        # N·m, rpm, rpm and °C
+        place = [number(point[0]), *(number(cell) * pi / 30.0 for cell in point[1:3]), number(point[3]) + ZERO_CELSIUS]
         near = min(unseen, key=lambda one: sum(abs(one[name] - at) for name, at in zip(names, place)))
         assert [near[name] for name in names] == pytest.approx(place, rel=1e-3)
         for cell, name in zip(point[4:], ("left.shaft_torque", "right.shaft_torque", "power.loss")):

@@ -79,7 +79,7 @@ def test_only_seals_drag_if_only_seals_are_given(fmu):
 
 
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
-@pytest.mark.parametrize("effect, why", [("limited_slip", "no torque"), ("bearing_drag", "nothing drags")])
+@pytest.mark.parametrize("effect, why", [("limited_slip", "no torque"), ("bearing_drag", "no drag")])
 def test_an_effect_without_a_value_warns_that_it_does_nothing(fmu, kind, effect, why):
     for given in ({}, {"limited_slip.preload": 1.0, "bearing_drag.side_viscous": 1e-4}):
         said = messages(fmu, kind, {f"effects.{effect}": True, **given})

@@ -85,6 +85,8 @@ def test_quantities_are_their_closed_forms():
     # Gleason at a ratio of virtual teeth of (16/10)²: h_as = (0.54 + 0.46/2.56) 4.5 mm = 3.2386 mm, h_ap = 9 mm - h_as
     outer, planet_addendum = math.sqrt(22.5**2 + 36.0**2), 9.0 - (0.54 + 0.46 / 2.56) * 4.5
     root_angle = math.atan(10 / 16) - math.atan((2.188 * 4.5 + 0.05 - planet_addendum) / outer)
+    # side gear: h_fs = 2.188 m + 0.05 mm - h_as
+    side_root = math.atan(16 / 10) - math.atan((2.188 * 4.5 + 0.05 - 9.0 + planet_addendum) / outer)
     values = {**study(), "planet[1].pin_force": 30e3, "planet[1].thrust_force": 5e3, "geometry.planet_mass": 0.15,
               "geometry.side_mass": 0.30, "strength.tool_radius": 0.25}
     back = outer * math.sin(root_angle)
@@ -98,6 +100,7 @@ def test_quantities_are_their_closed_forms():
         "pin.shear": 4.0 / 3.0 * 30e3 / (math.pi * 8e-3**2),
         "pin.pressure": 30e3 / (16e-3 * 20e-3 * math.cos(root_angle)),
         "pin.rim": ((outer - 20.0) * math.sin(root_angle) - 8.0) / math.cos(root_angle) / (4.5 * (outer - 20.0) / outer),
+        "shaft.rim": ((outer - 20.0) * math.sin(side_root) - 12.0) / math.cos(side_root) / (4.5 * (outer - 20.0) / outer),
         "washer.planet_width": 1e-3 * (back - 8.0),
         "washer.planet_pressure": 5e3 / (math.pi * 1e-6 * (back**2 - 8.0**2)),
     }

@@ -45,7 +45,7 @@ int main(int count, char **given) {
     read_start(given[3]);
     read_drive(given[6]);
     for (char *part = strtok(given[4], ","); part && n_stretches < MOST; part = strtok(NULL, ","), ++n_stretches)
-        if (sscanf(part, "%lf:%lf", &ends[n_stretches], &sizes[n_stretches]) != 2) return fprintf(stderr, "%s is no stretch\n", part), 2;
+        if (sscanf(part, "%lf:%lf", &ends[n_stretches], &sizes[n_stretches]) != 2) return fprintf(stderr, "%s is not END:STEP\n", part), 2;
     for (int k = 7; k < count && n_outputs < MOST; ++k) outputs[n_outputs++] = (Reference)atoi(given[k]);
 
     Component it = made(given[1], given[2]);

@@ -12,14 +12,14 @@ HEAD = ["scene", "rung", "words", "status", "message", "quantity", "unit", "valu
         "cpu_s_high", "cost"]
 # all levels, the plainest first: a description, and the values changed from the level before
 RUNGS = {
-    "ideal": ("ideal gears", {"scene.gear_contact": "ideal"}),
-    "lumped": ("a spring with play for each mesh", {"scene.gear_contact": "lumped"}),
-    "tooth, impact": ("tooth pairs, Adams' IMPACT", {"scene.gear_contact": "tooth"}),
-    "tooth, line": ("tooth pairs, stiffness from geometry", {"contact.law": "line"}),
-    "tooth, line_weber": ("Hertz part by load, too", {"contact.law": "line_weber"}),
-    "+ friction": ("and friction", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
-    "+ pins and case": ("and elastic pins and case", {"effects.pin_compliance": True}),
-    "+ gear bodies": ("and elastic gear bodies", {"effects.body_compliance": True}),
+    "ideal": ("ideal gears (ideal)", {"scene.gear_contact": "ideal"}),
+    "lumped": ("a spring with backlash per mesh (lumped)", {"scene.gear_contact": "lumped"}),
+    "tooth, impact": ("tooth pairs with Adams' IMPACT (impact)", {"scene.gear_contact": "tooth"}),
+    "tooth, line": ("stiffness from geometry (line)", {"contact.law": "line"}),
+    "tooth, line_weber": ("Hertz part by load (line_weber)", {"contact.law": "line_weber"}),
+    "+ friction": ("with friction", {"effects.tooth_friction": True, "effects.thrust_friction": True}),
+    "+ pins and case": ("with elastic pins and case", {"effects.pin_compliance": True}),
+    "+ gear bodies": ("with elastic gear bodies", {"effects.body_compliance": True}),
 }
 # communication step for timing [s]; number of runs of each level per round; number of rounds, in which all levels alternate
 STEP, RUNS, ROUNDS = 1e-3, 5, 3

@@ -1,7 +1,7 @@
 """Figures of the errors and cost of faceted solid teeth, from solids.csv and solids_cycle.csv."""
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from bevel_differential import style
 from bevel_differential.records import read
@@ -11,14 +11,16 @@ from bevel_differential.style import BLUE, FAINT, INK, RED, TEXT
 KINDS = {0.02: (RED, "s", "deepest point"), 1.0: (BLUE, "o", "patch (default)")}
 # numbers of facets: in the figure of one mesh cycle, and marked on the axes
 CYCLE, MARKED = [4, 8, 16, 32], (4, 8, 16, 32, 64, 128)
-# panels: title, label of the y axis, True for per cent of the mean force; columns, each with line style and name
+# rpm for 1 deg/s
+RPM = 1.0 / 6.0
+# panels: title, label of the y axis, factor of the values or None for per cent of the mean force; columns, each with line style and name
 PANELS = [
-    ("Transmission error", "error, µm", False,
+    ("Transmission error", "error, µm", 1.0,
      [("te_rms_um", "-", "all (rms)"), ("te_swing_rms_um", ":", "swing, mean taken out (rms)")]),
-    ("Speed of the side gears", "error, deg/s", False,
+    ("Speed of the side gears", "error, rpm", RPM,
      [("speed_path_rms_deg_s", "-", "on the path of contact (rms)"), ("speed_corner_rms_deg_s", ":", "at tip corners (rms)")]),
-    ("Normal force of a side gear", "error, % of the mean", True,
-     [("force_path_ripple_N", "-", "ripple on the path, from facets alone"), ("force_mean_N", ":", "mean")]),
+    ("Normal force of a side gear", "error, % of the mean", None,
+     [("force_path_ripple_N", "-", "ripple on the path, only from facets"), ("force_mean_N", ":", "mean")]),
 ]
 
 
@@ -33,12 +35,12 @@ def draw(folder):
 def convergence(folder, machine, rows):
     exact, solids = rows[0], rows[1:]
     figure, axes = style.panels(2, 2, 10.6)
-    for panel, (title, ylabel, relative, columns) in zip(axes.flat, PANELS):
-        against_facets(panel, solids, columns, 100.0 / exact["mean_force_N"] if relative else 1.0)
+    for panel, (title, ylabel, factor, columns) in zip(axes.flat, PANELS):
+        against_facets(panel, solids, columns, 100.0 / exact["mean_force_N"] if factor is None else factor)
         panel.set(title=title, ylabel=ylabel)
     against_cost(axes[1][1], exact, solids)
     style.caption(figure, "Solid teeth with n facets on each flank against exact ones, in the study's turn. On the path of contact "
-                  "(upper right, full lines) the deepest point alone turns from facet to facet: its ripple of speed and force falls "
+                  "(upper right, full lines) the deepest point moves from facet to facet: its ripple of speed and force falls "
                   "with 1/n only, and the patch has the smaller error. At tip corners (dotted) the patch has the larger error: the "
                   "tooth edge cuts it off, and pairs enter late and leave early. This ends when the patch is much shorter than the "
                   "hand-over. The transmission error follows the height of the arcs over the facets, ∝ 1/n². The mean force hardly "
@@ -66,29 +68,30 @@ def against_facets(axes, solids, columns, scale):
     axes.set_xticks([facets for facets in MARKED if n[0] <= facets <= n[1]])
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
+    style.plain_decades(axes.yaxis)
     axes.legend(loc="lower left", fontsize=style.SMALL)
 
 
 def against_cost(axes, exact, solids):
     for smoothing, (color, marker, name) in KINDS.items():
         own = [row for row in solids if row["smoothing"] == smoothing]
-        axes.plot([1.0 / row["real_time"] for row in own], [row["speed_rms_deg_s"] for row in own], color=color, marker=marker,
+        axes.plot([1.0 / row["real_time"] for row in own], [RPM * row["speed_rms_deg_s"] for row in own], color=color, marker=marker,
                   ms=5, label=name)
-        # labels of the patch are above the line, those of the deepest point below
-        above = smoothing == 1.0
         for row in own:
             if row["facets"] in MARKED:
-                axes.annotate(f"{row['facets']:.0f}", (1.0 / row["real_time"], row["speed_rms_deg_s"]),
+                # away from the other line, which crosses this one between 32 and 64 facets
+                above = (smoothing == 1.0) == (row["facets"] <= 32)
+                axes.annotate(f"{row['facets']:.0f}", (1.0 / row["real_time"], RPM * row["speed_rms_deg_s"]),
                               xytext=(6, 3) if above else (-5, -5), ha="left" if above else "right",
                               va="bottom" if above else "top", textcoords="offset points", color=color, fontsize=style.SMALL)
-    usual, most = exact["speed_rms_usual_deg_s"], max(row["speed_rms_deg_s"] for row in solids)
+    usual, most = RPM * exact["speed_rms_usual_deg_s"], RPM * max(row["speed_rms_deg_s"] for row in solids)
     axes.plot(1.0 / exact["real_time"], usual, marker="*", ms=15, color=INK, ls="", label="exact teeth (1e-6 against 1e-9)")
     axes.axvline(1.0, color=FAINT, ls="--", lw=1)
     axes.text(0.93, np.sqrt(most * usual), "real time", rotation=90, color=TEXT, va="center", ha="right", fontsize=style.SMALL)
     axes.set(xscale="log", yscale="log", title="Error of speed against cost (numbers: facets)", ylim=(0.3 * usual, 4.0 * most),
-             ylabel="error of speed (rms), deg/s", xlabel="seconds on the processor per second simulated")
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_locator(LogLocator(numticks=8))
+             ylabel="error of speed (rms), rpm", xlabel="seconds on the processor per second simulated")
+    for axis in (axes.xaxis, axes.yaxis):
+        style.plain_decades(axis)
     axes.legend(loc="center left", fontsize=style.SMALL)
 
 
@@ -103,7 +106,7 @@ def cycle(folder):
         panel.plot([1e3 * (row["time_s"] - start) for row in own], [scale * row[column] for row in own], **line)
 
     for i, n in enumerate(shown):
-        for panel, column, scale in zip(axes[i], ["force_N", "speed_deg_s"], [1e-3, 1.0]):
+        for panel, column, scale in zip(axes[i], ["force_N", "speed_deg_s"], [1e-3, RPM]):
             for smoothing, (color, _, name) in KINDS.items():
                 own = [row for row in rows if row["facets"] == n and row["smoothing"] == smoothing]
                 draw(panel, own, column, scale, color=color, lw=1.4, label=name)
@@ -111,7 +114,7 @@ def cycle(folder):
             style.note(panel, 0.012, 0.93, f"{n} facets", ha="left", va="top", fontweight="bold",
                        bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 2})
         axes[i][0].set_ylabel("force, kN")
-        axes[i][1].set_ylabel("speed, deg/s")
+        axes[i][1].set_ylabel("speed, rpm")
     axes[0][0].set_title("Normal force of the left side gear, all planets")
     axes[0][1].set_title("Speed of the left side gear")
     for panel in axes[-1]:
@@ -120,7 +123,7 @@ def cycle(folder):
     handles, labels = axes[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper center", ncols=3)
     style.caption(figure, "Effect of facets in the study's turn, coarse to fine. Exact teeth (dashed) run evenly except where a tip corner "
-                  "takes load over or hands it on. The deepest point alone (red) goes from facet to facet: waves and spikes of speed "
+                  "takes load over or hands it on. The deepest point (red) goes from facet to facet: waves and spikes of speed "
                   "and force that get smaller and more frequent with the number of facets. The patch (blue), as wide as a facet, has "
                   "almost none. The tip edge cuts the patch off: pairs enter late and leave early. With 4 facets the "
                   "hand-over is lost. The load is constant throughout.")

@@ -8,8 +8,10 @@ from tools import machine, significant
 FINE = 16
 # facet numbers of the short table
 SHORT = (4, 8, 16, 32, 64, 128)
+# rpm for 1 deg/s
+RPM = 1.0 / 6.0
 # columns of the table
-SHOWN = {"speed_rms": "speed, °/s", "speed_path_rms": "on the path", "speed_corner_rms": "at corners", "force_mean": "mean force, N",
+SHOWN = {"speed_rms": "speed, rpm", "speed_path_rms": "on the path", "speed_corner_rms": "at corners", "force_mean": "mean force, N",
          "te_rms": "TE, µm", "te_swing_rms": "its swing, µm"}
 # quantities whose orders are stated, with their names
 ORDERED = {"te_rms": "transmission error", "te_swing_rms": "its swing", "force_mean": "mean force",
@@ -30,7 +32,7 @@ def page(found):
     """Text for docs/inside/cost.md."""
     parts = [_sentences(found)]
     for title, which in [("Patch (`solid.smoothing` = 1): errors against exact teeth, and cost.", 1),
-                         ("Deepest point nearly alone (`solid.smoothing` = 0.02): the same.", 0)]:
+                         ("Deepest point (`solid.smoothing` = 0.02): errors against exact teeth, and cost.", 0)]:
         parts.append(f"{title}\n\n{markdown(_errors(found, which), left=())}")
     parts.append(f"Last rows: exact teeth at 1e-6 against themselves at 1e-9. Measured on {machine()}.")
     return "\n".join(parts)
@@ -48,7 +50,7 @@ def _errors(found, which):
     """Errors and cost by facets at one smoothing."""
     def cells(row, errors):
         cost = [str(row.counts[0]), three(row.taken / found.tooth.taken), three(row.real_time)]
-        return [*(three(errors[name]) for name in SHOWN), *cost]
+        return [*(three(errors[name] * (RPM if name.startswith("speed") else 1.0)) for name in SHOWN), *cost]
 
     rows = [found.solid(facets, which) for facets in filter(SHORT.__contains__, found.plan.facets)]
     return [["facets", "arc, µm", *SHOWN.values(), "steps", "× tooth", "× real time"],
@@ -62,7 +64,7 @@ def study(found):
         return [f"{row.look['peak'] / row.look['mean']:.4f}", *(f"{percent(value, row.look['mean'])} %"
                                                                 for value in (row.look["ripple"], row.path_ripple))]
 
-    ripple = ["ripple", "by facets alone"]
+    ripple = ["ripple", "only from facets"]
     table = [["facets", "arc / overlap", "deepest point: peak / mean", *ripple, "patch: peak / mean", *ripple]]
     for facets in filter(SHORT.__contains__, found.plan.facets):
         deepest, patch = (found.solid(facets, which) for which in (0, 1))
@@ -70,8 +72,8 @@ def study(found):
     tooth = found.tooth
     table.append(["exact teeth", "0", *cells(tooth), *cells(tooth)])
     worst = max(row.look["tangential"] for row in found.rows)
-    text = (f"Exact teeth alone swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
-            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. One pair that carries alone overlaps by "
+    text = (f"Exact teeth swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
+            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. A single loaded pair overlaps by "
             f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the study's own quantity, moves by {three(worst)} N at most, "
             f"whatever the facets: the load is constant and the gears are light.\n")
     return f"{markdown(table, left=())}\n{text}"

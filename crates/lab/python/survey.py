@@ -162,7 +162,7 @@ def verdict(cases, failed):
             ("Said: the answer says that its reference is not certain", [one for one in cases if one.uncertain])]:
         lines += ["", f"{title}: {len(some)}"]
         if some:
-            rows = [["case", "quantity", "within", "error in the FMU", "error of the answer", "strays", "references apart"]]
+            rows = [["case", "quantity", "within", "error in the FMU", "error of the answer", "uncertainty", "references apart"]]
             rows += [[one.case, one.want, *map(percent, (one.within, one.error, one.promised, one.stray, one.apart))] for one in some]
             lines += ["", *aligned(rows)]
     if failed:

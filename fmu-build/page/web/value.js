@@ -17,7 +17,7 @@ export function readValue(variable, text) {
   if (kind === "Enumeration") {
     const literal = literals.find((each) => each.name === plain || String(each.value) === plain);
     if (literal) return { value: literal.value };
-    return { fault: `${name}: “${text}” is none of ${literals.map((each) => each.name).join(", ")}` };
+    return { fault: `${name}: “${text}” is not one of ${literals.map((each) => each.name).join(", ")}` };
   }
   const number = NUMBER.test(plain) ? Number(plain) : SPECIAL[plain.toLowerCase()];
   const inUnit = unitText(variable.shown) && ` in ${unitText(variable.shown)}`;

@@ -53,7 +53,7 @@ mod tests {
         assert_eq!(count(&plain, "<Enumeration"), 0);
         assert_eq!(count(&plain, "declaredType"), 0);
         assert_eq!(count(&plain, "<Integer"), count(&usual, "<Integer") + enumerations);
-        assert!(plain.contains("Whether planets spin freely on their pins: 1 = free, 2 = imposed\""));
+        assert!(plain.contains("Spin of the planets on their pins: 1 = free, 2 = imposed\""));
         assert_eq!(count(&plain, "<ScalarVariable"), count(&usual, "<ScalarVariable"));
     }
 }

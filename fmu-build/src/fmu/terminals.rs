@@ -102,8 +102,9 @@ const TERMINALS: [Terminal; 13] = [
     Terminal {
         name: "planet_spin",
         kind: SPEED_DRIVEN,
-        description: "Spin of all planets on their pins, relative to the carrier, with scene.planet_spin = imposed: the speed is \
-                      the input. A positive spin speeds the left side up; the torque is that of the spin drive on all planets",
+        description: "Spin of all planets on their pins, relative to the carrier, with scene.planet_spin = imposed: \
+                      the speed is the input. A positive spin makes the left side faster; the torque is the total \
+                      torque of the spin drive on all planets",
         members: &[("tau", "spin.torque", Inflow), ("w", "spin.command", Signal)],
     },
     Terminal {
@@ -135,7 +136,7 @@ const TERMINALS: [Terminal; 13] = [
     Terminal {
         name: "ambient",
         kind: COMMAND,
-        description: "Surroundings of the case with effects.warm_up: the command changes their temperature; the case has its own",
+        description: "Surroundings of the case with effects.warm_up: the command changes their temperature; the temperature is that of the case",
         members: &[("command", "warm_up.ambient_change", Signal), ("temperature", "temperature.case", Signal)],
     },
     Terminal {

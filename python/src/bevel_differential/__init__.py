@@ -2,13 +2,13 @@
 
 >>> import numpy as np
 >>> from bevel_differential import Differential
->>> turn = Differential({"scene.planet_spin": "imposed", "spin.command": "200 deg/s",
-...                      "carrier.speed_command": (954, "deg/s")})
+>>> turn = Differential({"scene.planet_spin": "imposed", "spin.command": "16 rpm",
+...                      "carrier.speed_command": (100, "rpm")})
 >>> speeds = turn.run(outputs=["left.speed", "right.speed"], stop=0.5)
 >>> speeds.dtype.names
 ('time', 'left.speed', 'right.speed')
->>> print(f"{np.degrees(speeds['left.speed'][-360:].mean()):.2f} deg/s")
-1079.00 deg/s
+>>> print(f"{speeds['left.speed'][-375:].mean() * 30 / np.pi:.2f} rpm")  # mean over one tooth
+110.00 rpm
 """
 
 from .accuracy import Accuracy, accuracy

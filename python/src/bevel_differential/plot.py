@@ -8,6 +8,7 @@ import numpy as np
 
 from .extras import require
 from .fmu import Fmu
+from .readable import time_scale
 from .values import DifferentialError, FileName
 
 if TYPE_CHECKING:
@@ -36,9 +37,10 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
     with style.styled():
         figure, axes = style.panels(len(panels), 1, PANEL * len(panels) + REST, sharex=True, squeeze=False)
         axes = axes[:, 0]
+        times, label = shown_times(record["time"])
         for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-            draw_panel(panel, record["time"], unit, kind, curves)
-        axes[-1].set_xlabel("time, s")
+            draw_panel(panel, times, unit, kind, curves)
+        axes[-1].set_xlabel(label)
         figure.align_ylabels(axes)
         if title:
             figure.suptitle(title, fontweight="bold")
@@ -65,10 +67,18 @@ def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: l
         panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
                    drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
+    if times[-1] > times[0]:
+        panel.set_xlim(times[0], times[-1])
     panel.ticklabel_format(axis="y", useOffset=False)
     if kind != "Real":
         panel.locator_params(axis="y", integer=True)
     panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
+
+
+def shown_times(times: np.ndarray) -> tuple[np.ndarray, str]:
+    """Times [s] in the unit that suits their span, and the label of their axis."""
+    factor, unit = time_scale(float(times[-1] - times[0]))
+    return factor * times, f"time, {unit}"
 
 
 def _quantity(names, unit):

@@ -13,6 +13,20 @@ def spaced(value):
     return f"{value:,.0f}".replace(",", " ")
 
 
+def plain(value):
+    """A number with three digits and without an exponent: 0.001, 25, 10 000."""
+    return spaced(float(f"{value:.3g}")) if value >= 1e4 else np.format_float_positional(value, 3, fractional=False, trim="-")
+
+
+def time_scale(duration):
+    """Factor and unit that suit times within a `duration` [s]: ms or µs for short ones."""
+    # a duration is the last communication point, which is rounded
+    for shortest, factor, unit in [(0.1, 1.0, "s"), (1e-4, 1e3, "ms")]:
+        if duration > shortest * (1.0 - 1e-9):
+            return factor, unit
+    return 1e6, "µs"
+
+
 def percent(error):
     """Short text of a relative error in percent."""
     value = 100.0 * error
@@ -24,9 +38,11 @@ def percent(error):
 
 
 def with_unit(value, unit):
-    """Text of a value with its unit; small values have a smaller unit."""
+    """Text of a value with its unit; small values have a smaller unit, and speeds in rad/s are shown in rpm."""
     if unit == 1.0:
         return f"{100.0 * value:.3g} %"
+    if unit == "rad/s":
+        value, unit = value * 30.0 / np.pi, "rpm"
     for whole, factor, part in [("m", 1e6, "µm"), ("s", 1e3, "ms"), ("J", 1e3, "mJ")]:
         if unit == whole and abs(value) < 0.1:
             return f"{factor * value:.4g} {part}"

@@ -1,19 +1,22 @@
 """Common style of all pictures of the project: colours, fonts, widths, caption and file.
 
-`apply` sets it for the process, `styled` for a block. Units are written in one way: N·m, deg/s, N/mm; a label is
+`apply` sets it for the process, `styled` for a block. Units are written in one way: N·m, rpm, N/mm; a label is
 "quantity, unit". Every picture ends with a caption that describes it.
 """
 
 import io
+import re
 import textwrap
 from pathlib import Path
 
 import matplotlib
 from cycler import cycler
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 from PIL import Image
 
 from .output_file import checked
+from .readable import plain
 from .values import DifferentialError
 from .writing import write_whole
 
@@ -64,12 +67,29 @@ def panels(rows, columns, height, **options):
 
 def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
     """Adds a caption in lines below the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
+    # a number and its unit stay on one line
+    text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", text)
     lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
     share = 0.99 - height - above / picture.get_figheight()
     picture.get_layout_engine().set(rect=(0.0, height, 0.995, share), hspace=0.04, wspace=0.03)
     picture.text(0.02, height - 0.08 / picture.get_figheight(), "\n".join(lines), va="top", fontsize=CAPTION_SIZE,
                  color=TEXT, linespacing=1.3)
+
+
+def plain_decades(axis):
+    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000."""
+    axis.set_major_locator(LogLocator(numticks=12))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def in_rpm(axes):
+    """Adds a second y axis in rpm to axes in deg/s."""
+    second = axes.secondary_yaxis("right", functions=(lambda speed: speed / 6.0, lambda speed: speed * 6.0))
+    second.set_ylabel("speed, rpm")
+    second.spines["right"].set_visible(True)
+    return second
 
 
 def note(axes, x, y, text, **options):
@@ -87,9 +107,11 @@ def save(picture, path, shaded=False):
         picture.savefig(drawn, format=kind)
     except ValueError as error:
         raise DifferentialError(f"{path}: {error}", kind="failed") from None
-    if not shaded and kind == "png":
+    if kind == "png":
         with Image.open(drawn) as image:
-            few = image.convert("RGB").quantize(COLOURS, dither=Image.Dither.NONE)
+            smaller = image.convert("RGB")
+        if not shaded:
+            smaller = smaller.quantize(COLOURS, dither=Image.Dither.NONE)
         drawn = io.BytesIO()
-        few.save(drawn, format=kind, optimize=True)
+        smaller.save(drawn, format=kind, optimize=True)
     write_whole(path, drawn.getvalue())

@@ -47,7 +47,7 @@ spec! {
 choices! {
     /// Gear that has the broken tooth.
     pub enum FaultyGear: "FaultyGear" {
-        None = 1, "none": "no tooth is broken";
+        None = 1, "none": "no broken tooth";
         Planet = 2, "planet": "a tooth of a planet";
         Side = 3, "side": "a tooth of a side gear";
     }

@@ -82,24 +82,23 @@ macro_rules! slip_rows {
         [
             row(
                 concat!($effect, ".stribeck_speed"),
-                "Sliding speed at which the static excess has fallen to 1/e; 0 = a jump",
+                "Sliding speed at which the static excess friction has fallen to 1/e; 0 = immediate drop",
             )
             .when(concat!($effect, ".static_ratio > 1"))
             .real(units::M_PER_S, (0.0, 100.0), |p: &mut Self| &mut p.$field.stribeck_speed),
-            row(concat!($effect, ".slip_slope"), "Change of friction per sliding speed, over its kinetic value").real(
-                units::S_PER_METRE,
-                (-1.0, 1.0),
-                |p: &mut Self| &mut p.$field.slip_slope,
-            ),
+            row(concat!($effect, ".slip_slope"), "Change of friction per sliding speed, relative to kinetic friction")
+                .real(units::S_PER_METRE, (-1.0, 1.0), |p: &mut Self| &mut p.$field.slip_slope),
             temperature(
                 concat!($effect, ".cold_temperature"),
-                "Temperature of the cold point of friction",
+                "Temperature at which cold_factor applies",
                 concat!($effect, ".cold_factor != 1"),
                 |p| &mut p.$field.cold,
             ),
-            factor(concat!($effect, ".cold_factor"), "Friction at the cold point over that at the reference", |p| {
-                &mut p.$field.cold_factor
-            }),
+            factor(
+                concat!($effect, ".cold_factor"),
+                "Friction at cold_temperature relative to reference_temperature",
+                |p| &mut p.$field.cold_factor,
+            ),
             temperature(
                 concat!($effect, ".reference_temperature"),
                 "Temperature at which friction has its given values",
@@ -108,19 +107,21 @@ macro_rules! slip_rows {
             ),
             temperature(
                 concat!($effect, ".hot_temperature"),
-                "Temperature of the hot point of friction",
+                "Temperature at which hot_factor applies",
                 concat!($effect, ".hot_factor != 1"),
                 |p| &mut p.$field.hot,
             ),
-            factor(concat!($effect, ".hot_factor"), "Friction at the hot point over that at the reference", |p| {
-                &mut p.$field.hot_factor
-            }),
+            factor(
+                concat!($effect, ".hot_factor"),
+                "Friction at hot_temperature relative to reference_temperature",
+                |p| &mut p.$field.hot_factor,
+            ),
             row(concat!($effect, ".pv_limit"), "Limit of pressure times speed; 0 = none").real(
                 (units::W_PER_M2, units::W_PER_MM2),
                 (0.0, 1e12),
                 |p: &mut Self| &mut p.$field.pv_limit,
             ),
-            row(concat!($effect, ".beyond_limit"), "Friction beyond pv_limit over that below it")
+            row(concat!($effect, ".beyond_limit"), "Factor on friction above pv_limit")
                 .when(concat!($effect, ".pv_limit > 0"))
                 .real(units::ONE, (0.0, 10.0), |p: &mut Self| &mut p.$field.beyond_limit),
         ]

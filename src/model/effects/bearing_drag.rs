@@ -79,7 +79,7 @@ spec! {
 }
 
 impl Declare for BearingDragSpec {
-    const DESCRIPTION: &'static str = "Friction of bearings and churning of oil";
+    const DESCRIPTION: &'static str = "Bearing friction and oil churning";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.drag", description: "Heat of bearings and oil since the start", at_wheels: false });
     const EXAMPLE: &'static [(&'static str, f64)] = &[
@@ -102,7 +102,7 @@ impl Declare for BearingDragSpec {
                 (0.0, 1e3),
                 |p| &mut p.carrier_viscous,
             ),
-            row("bearing_drag.carrier_churning", "Churning by the carrier, with the square of its speed")
+            row("bearing_drag.carrier_churning", "Churning torque of the carrier per square of its speed")
                 .when("bearing_drag.churning_from_geometry = false")
                 .real(units::NMS2_PER_RAD2, (0.0, 1e2), |p| &mut p.carrier_churning),
             row("bearing_drag.side_torque", "Load-independent bearing torque on each side gear").real(
@@ -115,20 +115,28 @@ impl Declare for BearingDragSpec {
                 (0.0, 1e3),
                 |p| &mut p.side_viscous,
             ),
-            row("bearing_drag.breakaway_speed", "Speed at which the bearing torque has built up")
+            row("bearing_drag.breakaway_speed", "Speed at which the load-independent bearing torque has built up")
                 .when(
                     "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0 or bearing_drag.seal_diameter > 0 \
                      or bearing_drag.bearing_load > 0",
                 )
                 .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
-            row("bearing_drag.viscosity_from_oil", "Viscous drag by the oil's viscosity; false: as given")
-                .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
-                .switch(|p| &mut p.viscosity_from_oil),
-            row("bearing_drag.reference_temperature", "Oil temperature at which viscous drag is as given")
+            row(
+                "bearing_drag.viscosity_from_oil",
+                "Viscous drag proportional to the oil viscosity; false: given \
+                                                    values",
+            )
+            .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
+            .switch(|p| &mut p.viscosity_from_oil),
+            row("bearing_drag.reference_temperature", "Oil temperature at which viscous drag has its given values")
                 .when("bearing_drag.viscosity_from_oil = true")
                 .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.reference_temperature),
-            row("bearing_drag.churning_from_geometry", "Churning by size and oil (ISO/TR 14179-1); false: as given")
-                .switch(|p| &mut p.churning_from_geometry),
+            row(
+                "bearing_drag.churning_from_geometry",
+                "Churning torque from dimensions and oil (ISO/TR 14179-1); \
+                                                        false: given value",
+            )
+            .switch(|p| &mut p.churning_from_geometry),
             row("bearing_drag.carrier_diameter", "Outside diameter of crown wheel and case")
                 .when("bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0")
                 .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.carrier_diameter),
@@ -138,20 +146,20 @@ impl Declare for BearingDragSpec {
             row("bearing_drag.oil_level", "Immersed depth over bearing_drag.carrier_diameter")
                 .when("bearing_drag.churning_from_geometry = true")
                 .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_level),
-            row("bearing_drag.seal_diameter", "Shaft diameter at side gears' seals; 0 = none").real(
+            row("bearing_drag.seal_diameter", "Shaft diameter at the side gear seals; 0 = no seals").real(
                 (units::METRE, MM),
                 (0.0, 1.0),
                 |p| &mut p.seal_diameter,
             ),
-            row("bearing_drag.seal_torque_per_diameter", "Torque of a seal per diameter")
+            row("bearing_drag.seal_torque_per_diameter", "Torque of a seal per shaft diameter")
                 .when("bearing_drag.seal_diameter > 0")
                 .real(units::NEWTON, (1e-3, 1e3), |p| &mut p.seal_torque_per_diameter),
-            row("bearing_drag.bearing_load", "Load of each carrier bearing")
+            row("bearing_drag.bearing_load", "Load on each carrier bearing")
                 .real(units::NEWTON, (0.0, 1e7), |p| &mut p.bearing_load),
-            row("bearing_drag.bearing_diameter", "Mean diameter of carrier bearings")
+            row("bearing_drag.bearing_diameter", "Mean diameter of the carrier bearings")
                 .when("bearing_drag.bearing_load > 0")
                 .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.bearing_diameter),
-            row("bearing_drag.bearing_coefficient", "Palmgren's f1 of carrier bearings")
+            row("bearing_drag.bearing_coefficient", "Palmgren's coefficient f1 of the carrier bearings")
                 .when("bearing_drag.bearing_load > 0")
                 .real(units::ONE, (1e-6, 1.0), |p| &mut p.bearing_coefficient),
         ]
@@ -182,7 +190,7 @@ impl Effect for BearingDragSpec {
         }
         vec![Problem::new(
             "effects.bearing_drag",
-            "nothing drags: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
+            "there is no drag: set a torque, viscous drag, churning, seals or a bearing load under bearing_drag, or \
              switch the effect off",
         )]
     }

@@ -15,7 +15,8 @@ use crate::problem::Problem;
 pub struct BodyComplianceSpec {}
 
 impl Declare for BodyComplianceSpec {
-    const DESCRIPTION: &'static str = "Elastic bodies of the gears on their bores: they turn and tilt under load, and neighbouring teeth move each other";
+    const DESCRIPTION: &'static str = "Elastic gear bodies: they turn and tilt on their bores, and a loaded tooth \
+                                       deflects its neighbours";
     const NEEDS: Option<Needs> =
         Some(Needs { contacts: &[GearContact::Tooth], why: "it adds to the deflection of single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =

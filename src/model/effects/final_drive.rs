@@ -21,10 +21,10 @@ impl Declare for FinalDriveSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            row("final_drive.ring_teeth", "Teeth of the ring gear")
+            row("final_drive.ring_teeth", "Number of teeth of the ring gear")
                 .when("final_drive.amplitude > 0")
                 .integer((1, 1000), |p| &mut p.ring_teeth),
-            row("final_drive.amplitude", "Amplitude of the excitation relative to the carrier's command").real(
+            row("final_drive.amplitude", "Amplitude of the excitation relative to the carrier command").real(
                 units::ONE,
                 (0.0, 1.0),
                 |p| &mut p.amplitude,

@@ -98,7 +98,8 @@ const fn twist(name: &'static str) -> Reading {
         unit: units::RADIAN,
         display: Some(DEG),
         changes: Changes::Always,
-        description: "Twist of the half-shaft, side gear ahead of the wheel; 0 where it is rigid",
+        description: "Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid \
+                      half-shaft",
     }
 }
 

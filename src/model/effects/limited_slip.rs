@@ -54,25 +54,25 @@ impl Declare for LimitedSlipSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("limited_slip.preload", "Torque of each clutch without load").tunable().real(
+            row("limited_slip.preload", "Clutch torque on each side without load").tunable().real(
                 units::NEWTON_METRE,
                 (0.0, 1e6),
                 |p| &mut p.preload,
             ),
-            row("limited_slip.torque_coefficient", "Torque of each clutch per torque of the meshes on its side gear")
+            row("limited_slip.torque_coefficient", "Clutch torque on each side per mesh torque on the side gear")
                 .tunable()
                 .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.static_ratio", "Breakaway torque over sliding torque").real(
+            row("limited_slip.static_ratio", "Ratio of breakaway torque to sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
             ),
-            row("limited_slip.stiffness", "Stiffness of a stuck clutch")
+            row("limited_slip.stiffness", "Stiffness of a sticking clutch")
                 .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
             row("limited_slip.mean_radius", "Mean radius of the plates, for sliding speed")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("limited_slip.friction_area", "Area of all faces of a pack").real(
+            row("limited_slip.friction_area", "Total friction area of a clutch pack").real(
                 (units::SQUARE_METRE, CM2),
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,

@@ -15,16 +15,19 @@ spec! {
 }
 
 impl Declare for LockSpec {
-    const DESCRIPTION: &'static str = "Lock between side gears and carrier, by lock.command";
+    const DESCRIPTION: &'static str = "Lock between side gears and carrier, controlled by lock.command";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
     const EXAMPLE: &'static [(&'static str, f64)] = &[("lock.command", 1.0)];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            row("lock.torque", "Torque of each side at full command")
+            row("lock.torque", "Lock torque on each side at full command")
                 .real(units::NEWTON_METRE, (0.0, 1e7), |p| &mut p.torque),
-            row("lock.stiffness", "Stiffness of each side at full command")
-                .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
+            row("lock.stiffness", "Lock stiffness on each side at full command").real(
+                units::NM_PER_RAD,
+                (1.0, 1e9),
+                |p| &mut p.stiffness,
+            ),
         ]
     }
 

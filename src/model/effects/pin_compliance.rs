@@ -50,7 +50,7 @@ impl Declare for PinComplianceSpec {
                 (1e3, 1e13),
                 |p| &mut p.case_stiffness,
             ),
-            row("pin_compliance.damping_time", "Damping over stiffness of pins and case").real(
+            row("pin_compliance.damping_time", "Ratio of damping to stiffness of pins and case").real(
                 units::SECOND,
                 (0.0, 1.0),
                 |p| &mut p.damping_time,

@@ -93,32 +93,32 @@ impl Declare for ThrustFrictionSpec {
             ),
             row(
                 "thrust_friction.radii_from_geometry",
-                "Radii from the gears: pins fill bores or 0.8 of the root circle at the toe, washers reach that at the \
-                 heel; false: as given",
+                "Radii of pins and washers from the gear geometry: pins fill the bores or 0.8 of the root circle at \
+                 the toe, washers reach the root circle at the heel; false: given values",
             )
             .switch(|p| &mut p.radii_from_geometry),
             row("thrust_friction.pin_radius", "Radius of the pins")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
-            row("thrust_friction.planet_washer_radius", "Mean radius of the planets' washers")
+            row("thrust_friction.planet_washer_radius", "Mean radius of the planet washers")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
-            row("thrust_friction.side_washer_radius", "Mean radius of the side gears' washers")
+            row("thrust_friction.side_washer_radius", "Mean radius of the side gear washers")
                 .when("thrust_friction.radii_from_geometry = false")
                 .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
             row(
                 "thrust_friction.stiffness",
-                "Stiffness of a side gear's stuck washer; planets by the square of the gear ratio",
+                "Stiffness of a sticking side gear washer; scaled by the square of the gear ratio for planets",
             )
             .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-            row("thrust_friction.static_ratio", "Breakaway torque over sliding torque").real(
+            row("thrust_friction.static_ratio", "Ratio of breakaway torque to sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
             ),
-            area("thrust_friction.planet_washer_area", "Area of a planet's washer", |p| &mut p.planet_washer_area),
-            area("thrust_friction.side_washer_area", "Area of a side gear's washer", |p| &mut p.side_washer_area),
-            area("thrust_friction.pin_area", "Projected area of a pin in its planet", |p| &mut p.pin_area),
+            area("thrust_friction.planet_washer_area", "Area of a planet washer", |p| &mut p.planet_washer_area),
+            area("thrust_friction.side_washer_area", "Area of a side gear washer", |p| &mut p.side_washer_area),
+            area("thrust_friction.pin_area", "Projected contact area of a pin in its planet", |p| &mut p.pin_area),
         ];
         rows.extend(slip_rows!("thrust_friction", sliding));
         rows

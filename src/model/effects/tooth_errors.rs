@@ -12,7 +12,7 @@ use crate::problem::Problem;
 
 impl Declare for ToothErrorSpec {
     const DESCRIPTION: &'static str =
-        "Tooth errors: pitch by accuracy grade, runout, tip relief, crowning, misalignment";
+        "Tooth errors: pitch deviations by accuracy grade, runout, tip relief, crowning, misalignment";
     const NEEDS: Option<Needs> =
         Some(Needs { contacts: &[GearContact::Tooth, GearContact::Solid], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
@@ -20,12 +20,9 @@ impl Declare for ToothErrorSpec {
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            row(
-                "tooth_errors.accuracy_grade",
-                "Accuracy grade of the pitch by ISO 17485, 2 to 11; 0 = no pitch deviations",
-            )
-            .integer((0, 11), |p| &mut p.accuracy_grade),
-            row("tooth_errors.seed", "Seed of individual pitch deviations and of the phases of runout")
+            row("tooth_errors.accuracy_grade", "Pitch accuracy grade by ISO 17485, 2 to 11; 0 = no pitch deviations")
+                .integer((0, 11), |p| &mut p.accuracy_grade),
+            row("tooth_errors.seed", "Seed of the individual pitch deviations and runout phases")
                 .when(
                     "tooth_errors.accuracy_grade > 0 or tooth_errors.planet_runout > 0 or tooth_errors.side_runout > 0",
                 )
@@ -36,8 +33,12 @@ impl Declare for ToothErrorSpec {
             row("tooth_errors.side_runout", "Radial runout of each side gear, peak to peak")
                 .when("tooth_errors.runout_by_grade = false")
                 .real((units::METRE, UM), (0.0, 1e-3), |p| &mut p.side_runout),
-            row("tooth_errors.runout_by_grade", "Runout of all gears is the tolerance of the accuracy grade")
-                .switch(|p| &mut p.runout_by_grade),
+            row(
+                "tooth_errors.runout_by_grade",
+                "Runout of all gears from the tolerance of the accuracy grade; \
+                                                 false: given values",
+            )
+            .switch(|p| &mut p.runout_by_grade),
             row("tooth_errors.planet_tip_relief", "Tip relief of the planets along the line of action").real(
                 (units::METRE, UM),
                 (0.0, 1e-3),
@@ -48,17 +49,17 @@ impl Declare for ToothErrorSpec {
                 (0.0, 1e-3),
                 |p| &mut p.side_tip_relief,
             ),
-            row("tooth_errors.relief_length", "Length of both reliefs in base pitches")
+            row("tooth_errors.relief_length", "Length of the tip reliefs of both gears, in base pitches")
                 .when("tooth_errors.planet_tip_relief > 0 or tooth_errors.side_tip_relief > 0")
                 .real(units::ONE, (0.01, 2.0), |p| &mut p.relief_length),
             row(
                 "tooth_errors.crowning",
-                "Lengthwise crowning of a pair: gap at both ends of the face relative to its middle",
+                "Lengthwise crowning of a tooth pair: gap at both ends of the face relative to its middle",
             )
             .real((units::METRE, UM), (0.0, 1e-3), |p| &mut p.crowning),
             row(
                 "tooth_errors.shaft_angle_error",
-                "Each planet axis leans away from the left side gear, toward the right one",
+                "Tilt of each planet axis away from the left side gear, toward the right one",
             )
             .real((units::RADIAN, DEG), (-0.02, 0.02), |p| &mut p.shaft_angle_error),
             row("tooth_errors.planet_axial_offset", "Displacement of each planet along its axis, outward").real(
@@ -68,12 +69,12 @@ impl Declare for ToothErrorSpec {
             ),
             row(
                 "tooth_errors.side_axial_offset",
-                "Displacement of each side gear along its axis, away from the planets' axes",
+                "Displacement of each side gear along its axis, away from the planet axes",
             )
             .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.side_axial_offset),
             row(
                 "tooth_errors.axis_offset",
-                "Displacement of the pins as one body across the side gears' axis, planet 1 forward",
+                "Displacement of all pins together, across the side gear axis, with planet 1 forward",
             )
             .real((units::METRE, UM), (-1e-3, 1e-3), |p| &mut p.axis_offset),
         ]

@@ -11,7 +11,7 @@ use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
 impl Declare for ToothFaultSpec {
-    const DESCRIPTION: &'static str = "A tooth that loses a piece, at a time or by fault.trigger";
+    const DESCRIPTION: &'static str = "Broken tooth: a piece breaks off at a given time or by fault.trigger";
     const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("tooth_fault.at_onset", 1.0), ("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];
@@ -23,13 +23,13 @@ impl Declare for ToothFaultSpec {
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
             row("tooth_fault.gear", "Kind of gear with the broken tooth").choice(|p| &mut p.gear),
-            row("tooth_fault.index", "Which planet (0 = planet[1]), or which side gear (0 = left, 1 = right)")
+            row("tooth_fault.index", "Planet (0 = planet[1]) or side gear (0 = left, 1 = right) with the broken tooth")
                 .when("tooth_fault.gear != none")
                 .integer((0, 3), |p| &mut p.index),
-            row("tooth_fault.tooth", "Number of the broken tooth from 0")
+            row("tooth_fault.tooth", "Number of the broken tooth, counted from 0")
                 .when("tooth_fault.gear != none")
                 .integer((0, 199), |p| &mut p.tooth),
-            row("tooth_fault.missing_fraction", "Missing part of the face width from the heel inward")
+            row("tooth_fault.missing_fraction", "Missing fraction of the face width, from the heel inward")
                 .when("tooth_fault.gear != none and contact.law = line|line_weber")
                 .real(units::ONE, (0.0, 1.0), |p| &mut p.missing_fraction),
             row("tooth_fault.depth", "Depth removed along the line of action").when("tooth_fault.gear != none").real(
@@ -37,12 +37,16 @@ impl Declare for ToothFaultSpec {
                 (0.0, 1e-2),
                 |p| &mut p.depth,
             ),
-            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; otherwise only by fault.trigger")
+            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; false: only by fault.trigger")
                 .when("tooth_fault.gear != none")
                 .switch(|p| &mut p.at_onset),
-            row("tooth_fault.onset", "Time at which the piece breaks off; a run that starts later starts without it")
-                .when("tooth_fault.gear != none and tooth_fault.at_onset = true")
-                .time(|p| &mut p.onset),
+            row(
+                "tooth_fault.onset",
+                "Time at which the piece breaks off; a run that starts later starts with the \
+                                      broken tooth",
+            )
+            .when("tooth_fault.gear != none and tooth_fault.at_onset = true")
+            .time(|p| &mut p.onset),
         ]
     }
 

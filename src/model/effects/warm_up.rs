@@ -87,15 +87,15 @@ macro_rules! heat {
 
 impl Declare for WarmUpSpec {
     const DESCRIPTION: &'static str =
-        "Temperatures of oil, gears, clutch packs, washers and case, by the heat of frictions in the case";
+        "Temperatures of oil, gears, clutch packs, washers and case, from the friction heat";
     const READINGS: &'static [Reading] = &[
         temperature!("oil", "the oil"),
         temperature!("gears", "the gears"),
         temperature!("clutch", "the clutch packs"),
-        temperature!("washers", "washers and pins"),
+        temperature!("washers", "the washers and pins"),
         temperature!("case", "the case"),
-        heat!("stored", "Heat stored in all nodes since the start"),
-        heat!("given_off", "Heat given off to ambient and a given sump since the start"),
+        heat!("stored", "Heat stored in oil, gears, clutch packs, washers and case since the start"),
+        heat!("given_off", "Heat given off to the surroundings and to a given sump since the start"),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
@@ -106,50 +106,63 @@ impl Declare for WarmUpSpec {
         };
         let per_speed = |name, of, at| row(name, of).tunable().real(units::WATT_S_PER_K_RAD, (0.0, 1e4), at);
         vec![
-            row("warm_up.ambient_temperature", "Temperature around the case").tunable().real(
+            row("warm_up.ambient_temperature", "Ambient temperature around the case").tunable().real(
                 (units::KELVIN, DEG_C),
                 units::TEMPERATURES,
                 |p| &mut p.ambient,
             ),
-            row("warm_up.sump_given", "Oil keeps oil.temperature, as with a cooler; false: it warms up")
+            row("warm_up.sump_given", "The oil stays at oil.temperature, as with a cooler; false: it warms up")
                 .switch(|p| &mut p.sump_given),
             capacity("warm_up.oil_capacity", "Heat capacity of the oil", |p| &mut p.oil_capacity),
-            row("warm_up.gear_specific_heat", "Specific heat of the gears, with the masses of their solids").real(
-                units::JOULE_PER_KG_K,
-                (1.0, 1e5),
-                |p| &mut p.gear_specific_heat,
-            ),
+            row("warm_up.gear_specific_heat", "Specific heat of the gears, whose masses follow from their geometry")
+                .real(units::JOULE_PER_KG_K, (1.0, 1e5), |p| &mut p.gear_specific_heat),
             capacity("warm_up.clutch_capacity", "Heat capacity of the clutch packs", |p| &mut p.clutch_capacity),
-            capacity("warm_up.washer_capacity", "Heat capacity of washers and pins", |p| &mut p.washer_capacity),
-            capacity("warm_up.case_capacity", "Heat capacity of case and housing", |p| &mut p.case_capacity),
+            capacity("warm_up.washer_capacity", "Heat capacity of the washers and pins", |p| &mut p.washer_capacity),
+            capacity("warm_up.case_capacity", "Heat capacity of the case and housing", |p| &mut p.case_capacity),
             conductance("warm_up.gears_to_oil", "Conductance from the gears to the oil", |p| &mut p.gears_to_oil),
-            per_speed("warm_up.gears_to_oil_per_speed", "Growth of warm_up.gears_to_oil per carrier speed", |p| {
+            per_speed("warm_up.gears_to_oil_per_speed", "Increase of warm_up.gears_to_oil per carrier speed", |p| {
                 &mut p.gears_to_oil_per_speed
             }),
             conductance("warm_up.clutch_to_oil", "Conductance from the clutch packs to the oil", |p| {
                 &mut p.clutch_to_oil
             }),
-            conductance("warm_up.washers_to_oil", "Conductance from washers and pins to the oil", |p| {
+            conductance("warm_up.washers_to_oil", "Conductance from the washers and pins to the oil", |p| {
                 &mut p.washers_to_oil
             }),
             conductance("warm_up.oil_to_case", "Conductance from the oil to the case", |p| &mut p.oil_to_case),
-            conductance("warm_up.case_to_ambient", "Conductance from the case to ambient", |p| &mut p.case_to_ambient),
+            conductance("warm_up.case_to_ambient", "Conductance from the case to the surroundings", |p| {
+                &mut p.case_to_ambient
+            }),
             per_speed(
                 "warm_up.case_to_ambient_per_speed",
-                "Growth of warm_up.case_to_ambient per carrier speed",
+                "Increase of warm_up.case_to_ambient per carrier speed",
                 |p| &mut p.case_to_ambient_per_speed,
             ),
-            row("warm_up.oil_share", "Share of the heat of teeth, washers and clutches that goes into the oil at once")
-                .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_share),
-            above("warm_up.gears_above_oil", "Gears above the oil at the start", |p| &mut p.gears_above_oil),
-            above("warm_up.clutch_above_oil", "Clutch packs above the oil at the start", |p| &mut p.clutch_above_oil),
-            above("warm_up.washers_above_oil", "Washers and pins above the oil at the start", |p| {
+            row(
+                "warm_up.oil_share",
+                "Fraction of the friction heat of teeth, washers and clutches that heats the \
+                                      oil directly",
+            )
+            .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_share),
+            above("warm_up.gears_above_oil", "Temperature of the gears above the oil at the start", |p| {
+                &mut p.gears_above_oil
+            }),
+            above("warm_up.clutch_above_oil", "Temperature of the clutch packs above the oil at the start", |p| {
+                &mut p.clutch_above_oil
+            }),
+            above("warm_up.washers_above_oil", "Temperature of the washers and pins above the oil at the start", |p| {
                 &mut p.washers_above_oil
             }),
-            above("warm_up.case_above_oil", "Case above the oil at the start", |p| &mut p.case_above_oil),
-            row("warm_up.cycle", "Length of the cycle whose mean heats balance at a start with steady heat")
-                .when("scene.start = steady_heat")
-                .real(units::SECOND, (1e-3, 10.0), |p| &mut p.cycle),
+            above("warm_up.case_above_oil", "Temperature of the case above the oil at the start", |p| {
+                &mut p.case_above_oil
+            }),
+            row(
+                "warm_up.cycle",
+                "Length of the cycle over which scene.start = steady_heat balances the mean heat \
+                                  flows",
+            )
+            .when("scene.start = steady_heat")
+            .real(units::SECOND, (1e-3, 10.0), |p| &mut p.cycle),
         ]
     }
 
@@ -157,12 +170,12 @@ impl Declare for WarmUpSpec {
         // a build without effects accepts no change
         let most = if BUILT { MOST_CHANGE } else { 0.0 };
         vec![
-            row(AMBIENT_CHANGE, "Change of the temperature around the case from warm_up.ambient_temperature").input(
+            row(AMBIENT_CHANGE, "Deviation of the ambient temperature from warm_up.ambient_temperature").input(
                 units::KELVIN_DIFFERENCE,
                 most,
                 |i| &mut i.ambient_change,
             ),
-            row(SUMP_CHANGE, "Change of a given sump from oil.temperature, as by a cooler")
+            row(SUMP_CHANGE, "Deviation of a given sump temperature from oil.temperature, for example by a cooler")
                 .when("warm_up.sump_given = true")
                 .input(units::KELVIN_DIFFERENCE, most, |i| &mut i.sump_change),
         ]

@@ -43,8 +43,7 @@ spec! {
 const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
-    const DESCRIPTION: &'static str =
-        "Brakes that resist and hold the wheels, by left.brake_torque and right.brake_torque";
+    const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
     const READINGS: &'static [Reading] =
@@ -58,7 +57,7 @@ impl Declare for WheelBrakeSpec {
                 (1.0, 1e9),
                 |p| &mut p.stiffness,
             ),
-            row("wheel_brake.static_ratio", "Breakaway torque over sliding torque").real(
+            row("wheel_brake.static_ratio", "Ratio of breakaway torque to sliding torque").real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
@@ -66,7 +65,7 @@ impl Declare for WheelBrakeSpec {
             row("wheel_brake.mean_radius", "Mean radius of the linings, for sliding speed")
                 .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("wheel_brake.friction_area", "Area of the linings of a wheel").real(
+            row("wheel_brake.friction_area", "Lining area of a wheel brake").real(
                 (units::SQUARE_METRE, CM2),
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,
@@ -95,14 +94,14 @@ impl Declare for WheelBrakeSpec {
             torque(
                 "left.brake_torque",
                 |i| &mut i.brake_torque[0],
-                "Torque of the left wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
-                 at standstill",
+                "Brake torque on the left wheel, with effects.wheel_brake; it opposes rotation and holds a standing \
+                 wheel",
             ),
             torque(
                 "right.brake_torque",
                 |i| &mut i.brake_torque[1],
-                "Torque of the right wheel's brake with effects.wheel_brake: opposes rotation, and holds a wheel \
-                 at standstill",
+                "Brake torque on the right wheel, with effects.wheel_brake; it opposes rotation and holds a \
+                 standing wheel",
             ),
         ]
     }

@@ -4,15 +4,15 @@ choices! {
     /// Drive of the carrier.
     pub enum CarrierDrive: "CarrierDrive" {
         Speed = 1, "speed": "carrier.speed_command is imposed";
-        Torque = 2, "torque": "carrier.torque_command acts; carrier.speed_command is the initial speed";
+        Torque = 2, "torque": "carrier.torque_command acts, and carrier.speed_command is the initial speed";
     }
 }
 
 choices! {
     /// Drive of the wheel side of a half-shaft.
     pub enum SideDrive: "SideDrive" {
-        Torque = 1, "torque": "the load torque acts on its wheel side";
-        Speed = 2, "speed": "the speed command is imposed on its wheel side; the half-shaft twists";
+        Torque = 1, "torque": "load torque on the wheel side";
+        Speed = 2, "speed": "speed command imposed on the wheel side; the half-shaft twists";
     }
 }
 
@@ -29,8 +29,8 @@ choices! {
     pub enum GearContact: "GearContact" {
         Ideal = 1, "ideal": "no teeth: Willis' equation as a constraint";
         Lumped = 2, "lumped": "one spring per mesh";
-        Tooth = 3, "tooth": "tooth pair by tooth pair along the path of contact";
-        Solid = 4, "solid": "solids with faceted flanks, pressed together by geometry alone";
+        Tooth = 3, "tooth": "individual tooth pairs along the path of contact";
+        Solid = 4, "solid": "overlap of solid teeth with faceted flanks";
     }
 }
 
@@ -38,9 +38,10 @@ choices! {
     /// State at the start time.
     pub enum Start: "Start" {
         Equilibrium = 1, "equilibrium": "meshes preloaded by the loads at the start time";
-        Rolling = 2, "rolling": "speeds by Willis' equation, teeth in mid-gap, unloaded";
-        Rest = 3, "rest": "everything at rest that is not imposed";
-        SteadyHeat = 4, "steady_heat": "equilibrium, with the temperatures at which the heats of a cycle balance";
+        Rolling = 2, "rolling": "unloaded, with teeth in mid-gap and speeds by Willis' equation";
+        Rest = 3, "rest": "at rest, except for imposed motions";
+        SteadyHeat = 4, "steady_heat": "equilibrium, at temperatures that balance the mean heat flows of \
+                                        warm_up.cycle";
     }
 }
 

@@ -31,8 +31,8 @@ pub struct Attached {
     pub to: usize,
     /// Name in messages.
     pub name: &'static str,
-    /// Description in the interface.
-    pub what: &'static str,
+    /// Descriptions of its position and its velocity in the interface.
+    pub descriptions: [&'static str; 2],
     /// Prefix of the names of its states.
     pub of: &'static str,
     /// Names of its position and its velocity, after the prefix.
@@ -47,16 +47,22 @@ pub const ATTACHED: [Attached; ENDS] = [
     Attached {
         to: LEFT,
         name: "the left wheel",
-        what: "End of the left half-shaft, 0 where it does not move by itself; for the wheel read left.wheel_speed. \
-               Its position is the twist, side gear ahead",
+        descriptions: [
+            "Twist of the left half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
+            "Speed of the wheel end of the left half-shaft; 0 without a separate wheel end, so for the wheel read \
+             left.wheel_speed",
+        ],
         of: "left",
         states: ["shaft_twist", "end_speed"],
     },
     Attached {
         to: LEFT + 1,
         name: "the right wheel",
-        what: "End of the right half-shaft, 0 where it does not move by itself; for the wheel read right.wheel_speed. \
-               Its position is the twist, side gear ahead",
+        descriptions: [
+            "Twist of the right half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
+            "Speed of the wheel end of the right half-shaft; 0 without a separate wheel end, so for the wheel read \
+             right.wheel_speed",
+        ],
         of: "right",
         states: ["shaft_twist", "end_speed"],
     },

@@ -4,7 +4,7 @@ choices! {
     /// Integration method.
     pub enum Method: "SolverMethod" {
         Adaptive = 1, "adaptive": "adaptive L-stable Rosenbrock method of order 5";
-        FixedStep = 2, "fixed_step": "implicit steps of fixed size and bounded work, for real time";
+        FixedStep = 2, "fixed_step": "implicit method with fixed steps and bounded computing effort, for real time";
         Radau = 3, "radau": "Radau IIA of order 5, adaptive, for comparison";
     }
 }

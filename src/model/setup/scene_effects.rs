@@ -36,8 +36,7 @@ impl<'a> SceneEffects<'a> {
         let mut found = Vec::new();
         for (entry, on, _) in configured(self.effects, self.parameters) {
             if let (false, true, Some(switch)) = (BUILT, on, entry.switch) {
-                found
-                    .push(Problem::new(switch, "this build leaves all effects out; switch it off or use a full build"));
+                found.push(Problem::new(switch, "this build has no effects; switch it off or use a full build"));
             }
         }
         let contact = self.setting.scene.gear_contact;

@@ -36,16 +36,13 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     let speed_driven = [scene.left_drive, scene.right_drive].map(|drive| drive == SideDrive::Speed);
     if !BUILT && (speed_driven[0] || speed_driven[1]) {
         let name = if speed_driven[0] { "scene.left_drive" } else { "scene.right_drive" };
-        refuse(name, "a speed-driven side needs its half-shaft, and this build leaves all effects out".into());
+        refuse(name, "a speed-driven side needs its half-shaft, and this build has no effects".into());
     }
     if !FULL && scene.gear_contact == GearContact::Solid {
-        refuse(
-            "scene.gear_contact",
-            "this build, for real time, leaves solid teeth out: choose ideal, lumped or tooth".into(),
-        );
+        refuse("scene.gear_contact", "this real-time build has no solid teeth: choose ideal, lumped or tooth".into());
     }
     if !FULL && !matches!(p.solver.method, Method::Adaptive | Method::FixedStep) {
-        refuse("solver.method", "this build, for real time, has only the methods fixed_step and adaptive".into());
+        refuse("solver.method", "this real-time build has only the methods fixed_step and adaptive".into());
     }
     let contact = &p.contact;
     if contact.stiffness_from_hertz && contact.exponent != crate::contact::hertz::EXPONENT {

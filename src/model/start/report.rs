@@ -47,8 +47,8 @@ pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -
 /// Warning that planets start to roll.
 fn rolling(plan: &Plan, found: &Found) -> String {
     format!(
-        "this is no equilibrium: the teeth do not hold the planets against the difference of both sides, and they begin to \
-         roll; the gears accelerate as ideal ones do, while their teeth carry {}",
+        "not an equilibrium: the teeth do not hold the planets against the difference of both sides, so the planets start \
+         to roll; the gears accelerate like ideal gears, while their teeth transmit {}",
         found.carried(plan)
     )
 }

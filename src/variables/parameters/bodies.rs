@@ -62,8 +62,8 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             .real(units::KG_PER_M3, (100.0, 3e4), |p| &mut p.material.density),
         row(
             "oil.temperature",
-            "Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the initial temperature \
-             or that of a given sump",
+            "Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the temperature at \
+             the start or of a given sump",
         )
         .tunable()
         .when("effects.warm_up = false or warm_up.sump_given = true or initialisation")
@@ -87,33 +87,33 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
             (0.0, 1e3),
             |p| &mut p.oil.density_fall,
         ),
-        row("inertia.from_geometry", "Side gear and planet inertia from their solids; false: as given")
+        row("inertia.from_geometry", "Inertias of side gears and planets from their geometry; false: given values")
             .switch(|p| &mut p.inertia.from_geometry),
-        row("inertia.carrier", "Carrier with ring gear and cross-shaft about its axis, without planets").real(
+        row("inertia.carrier", "Inertia of the carrier with ring gear and cross-shaft, without planets").real(
             units::KG_M2,
             (1e-9, 1e6),
             |p| &mut p.inertia.carrier,
         ),
-        row("inertia.side_gear", "Side gear about its axis, if not from geometry")
+        row("inertia.side_gear", "Inertia of a side gear about its axis, if not from geometry")
             .when("inertia.from_geometry = false")
             .real(units::KG_M2, (1e-12, 1e6), |p| &mut p.inertia.side_gear),
         row(
             "inertia.side_gear_mass",
-            "Mass of a side gear on its axial seat, if not from geometry; 0 = geometry.side_mass",
+            "Mass of a side gear for its axial motion, if not from geometry; 0 = geometry.side_mass",
         )
         .when("inertia.from_geometry = false and effects.pin_compliance = true")
         .real(units::KILOGRAM, (0.0, 1e6), |p| &mut p.inertia.side_gear_mass),
-        row("inertia.planet", "Planet about its own axis, if not from geometry")
+        row("inertia.planet", "Inertia of a planet about its axis, if not from geometry")
             .when("inertia.from_geometry = false")
             .real(units::KG_M2, (1e-12, 1e6), |p| &mut p.inertia.planet),
         row(
             "inertia.left_end",
-            "Wheel side of the left half-shaft; rigid on the side gear unless effects.half_shaft; 0 = none",
+            "Inertia at the wheel side of the left half-shaft; fixed to the side gear without effects.half_shaft",
         )
         .real(units::KG_M2, (0.0, 1e6), |p| &mut p.inertia.left_end),
         row(
             "inertia.right_end",
-            "Wheel side of the right half-shaft; rigid on the side gear unless effects.half_shaft; 0 = none",
+            "Inertia at the wheel side of the right half-shaft; fixed to the side gear without effects.half_shaft",
         )
         .real(units::KG_M2, (0.0, 1e6), |p| &mut p.inertia.right_end),
     ]

@@ -29,10 +29,10 @@ pub fn rows() -> Vec<Row<Parameter<Parameters>>> {
 /// Rows of `scene.…`: drives, representation of tooth contact, and start.
 fn scene() -> Vec<Row<Parameter<Parameters>>> {
     vec![
-        row("scene.carrier_drive", "How the carrier is driven").choice(|p| &mut p.scene.carrier_drive),
-        row("scene.left_drive", "How the left half-shaft is driven").choice(|p| &mut p.scene.left_drive),
-        row("scene.right_drive", "How the right half-shaft is driven").choice(|p| &mut p.scene.right_drive),
-        row("scene.planet_spin", "Whether planets spin freely on their pins").choice(|p| &mut p.scene.planet_spin),
+        row("scene.carrier_drive", "Drive of the carrier").choice(|p| &mut p.scene.carrier_drive),
+        row("scene.left_drive", "Drive of the left half-shaft").choice(|p| &mut p.scene.left_drive),
+        row("scene.right_drive", "Drive of the right half-shaft").choice(|p| &mut p.scene.right_drive),
+        row("scene.planet_spin", "Spin of the planets on their pins").choice(|p| &mut p.scene.planet_spin),
         row("scene.gear_contact", "Representation of tooth contact").choice(|p| &mut p.scene.gear_contact),
         row("scene.start", "State at the start time").choice(|p| &mut p.scene.start),
     ]
@@ -41,8 +41,7 @@ fn scene() -> Vec<Row<Parameter<Parameters>>> {
 /// Switches for two properties of plain teeth.
 fn teeth() -> [Row<Parameter<Parameters>>; 2] {
     [
-        row("effects.backlash", "Backlash geometry.backlash; false: teeth without play")
-            .switch(|p| &mut p.effects.backlash),
+        row("effects.backlash", "Backlash between the teeth; false: none").switch(|p| &mut p.effects.backlash),
         row(
             "effects.corner_contact",
             "Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly",

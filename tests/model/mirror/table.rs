@@ -35,7 +35,7 @@ fn parity(text: &str) -> Parity {
         "lash" => Parity::Lash,
         "wave" => Parity::Wave,
         "teeth" => Parity::Teeth,
-        other => panic!("{other} is no parity"),
+        other => panic!("{other} is not a parity"),
     }
 }
 

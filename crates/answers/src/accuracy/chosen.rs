@@ -26,7 +26,7 @@ pub fn file(answer: &Answer, to: &Path) -> Result<String> {
 
 /// Returns the file's text, derived from the `original` file of the scene.
 pub fn text(answer: &Answer, original: &str) -> Result<String> {
-    let chosen = answer.choice().context("nothing is accurate enough, so that there is no setting to write")?;
+    let chosen = answer.choice().context("no setting is accurate enough to be written")?;
     let mut document: DocumentMut = original.parse().context("the scene's file")?;
     let outputs: Array = answer.scene.outputs.iter().map(|row| row.name).collect();
     document["outputs"] = Item::Value(Value::Array(outputs));

@@ -109,8 +109,8 @@ fn nothing(answer: &Answer) -> String {
     let fixed = answer.trials.iter().filter(is_fixed).min_by(|a, b| a.error().total_cmp(&b.error()));
     match fixed {
         Some(nearest) => format!(
-            "no fixed steps that were tried are accurate enough, and shorter ones cost too much. The nearest are {}: off by {}. Set \
-             solver.method = adaptive, or allow a larger error.",
+            "no tested fixed steps are accurate enough, and shorter steps cost too much. The most accurate are {}, \
+             with an error of {}. Set solver.method = adaptive, or allow a larger error.",
             setting(&nearest.scene.parameters),
             percent(nearest.error())
         ),
@@ -132,7 +132,7 @@ fn error_and_cost(answer: &Answer, run: &Trial) -> String {
     let times = if ratio >= 1.0 {
         format!("{} times cheaper", two_digits(ratio))
     } else {
-        format!("{} times dearer", two_digits(1.0 / ratio))
+        format!("{} times more expensive", two_digits(1.0 / ratio))
     };
     text.push_str(&format!("; {times} than the reference"));
     text
@@ -151,7 +151,7 @@ fn real_time(answer: &Answer, run: &Trial) -> String {
 fn reference(answer: &Answer) -> String {
     let reference = &answer.reference;
     let mut text = format!(
-        "{}; strays by {} with the tolerance",
+        "{}; uncertainty from the tolerance {}",
         setting(&reference.scene.parameters),
         percent(reference.error())
     );
@@ -160,9 +160,9 @@ fn reference(answer: &Answer) -> String {
     if answer.is_uncertain() {
         let name = answer.wants[reference.worst().0].text(&answer.scene);
         text.push_str(&format!(
-            " NOT CERTAIN: {name} strays by more than a third of the accuracy when only the integrator's steps change, as in \
-             motions with blows. Differences below twice this stray mean nothing. Ask for a steadier statistic (mean, rms), a later \
-             --from, or less accuracy."
+            " NOT CERTAIN: {name} changes by more than a third of the accuracy if only the integrator's steps \
+             change, as in motions with impacts. Differences below twice this uncertainty mean nothing. Request a \
+             steadier statistic (mean, rms), a later --from, or less accuracy."
         ));
     }
     text
@@ -176,7 +176,8 @@ fn cancelled(answer: &Answer, chosen: &Trial) -> Option<String> {
     let full = answer.trials[*full.as_ref().ok()?].error();
     (full > answer.within / CANCELLED && full > CANCELLED * chosen.error()).then(|| {
         format!(
-            "Errors cancel: with all effects the same gears are off by {}. At other loads and speeds ask again.",
+            "Errors cancel: with all effects, the error of these gears is {}. Repeat the question at other loads and \
+             speeds.",
             percent(full)
         )
     })

@@ -222,7 +222,7 @@ mod tests {
     #[test]
     fn planets_that_do_not_fit_are_refused_by_name() {
         let spec = GearSpec { planet_count: 3, ..GearSpec::default() };
-        let problem = bodies(&spec, &Position::default()).expect_err("2 · 16 / 3 is no integer");
+        let problem = bodies(&spec, &Position::default()).expect_err("2 · 16 / 3 is not an integer");
         assert_eq!(problem.variable, "geometry.planet_count");
     }
 }

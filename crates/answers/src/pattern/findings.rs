@@ -114,7 +114,7 @@ const HEAD: [&str; CELLS] = [
     "pressure, MPa",
     "peak, MPa at R, mm",
     "face in contact, %",
-    "carries at heights, mm",
+    "loaded heights, mm",
 ];
 
 /// Table of all cases.

@@ -144,7 +144,7 @@ impl Engagement {
     pub fn file() -> Result<CsvFile> {
         let comments = [
             "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
-            "followed: the pair whose engagement is whole; corner: 1 where a tip corner carries; its pressure is calculated",
+            "followed: the pair whose engagement is whole; corner: 1 if a tip corner is loaded; its pressure is calculated",
             "with the radii at the end of the path, and the real one is higher",
             "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
         ];

@@ -8,7 +8,7 @@ from bevel_differential import style
 from bevel_differential.readable import percent, ratio, with_unit, wrapped
 from bevel_differential.records import read
 
-SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the lash is crossed, half-shafts wind up"}
+SCENES = {"turn": "The study's turn, one tooth, settled", "clunk": "Clunk: the backlash is crossed, half-shafts wind up"}
 # number of communication steps of 1 ms in the turn
 TURN_STEPS = 360
 COLORS = ListedColormap(["#2f7d4f", "#8cc084", "#f2d680", "#e59a6f", "#c94f4f"])
@@ -27,11 +27,11 @@ def fidelity_ladder(folder):
         errors(left, own, rungs, title)
         costs(right, [next(row for row in own if row["rung"] == rung) for rung in rungs])
     ideal = next(row for row in rows if (row["scene"], row["rung"]) == ("turn", "ideal"))
-    style.caption(figure, "Error of seven levels of fidelity against the most detailed one, the bottom row of each panel, which holds the "
+    style.caption(figure, "Error of seven levels of fidelity against the most detailed one, the bottom row of each panel, which shows the "
                   "values. Colours: below 0.1 % (dark green), 1 %, 10 %, 50 %, above (red). Mean speeds and forces need no teeth, the "
                   "peaks of a clunk need backlash, ripple needs tooth pairs, deflection needs their stiffness, heat needs friction. Time is that of ideal "
-                  f"gears times the figure; these take {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns for a communication step of 1 ms in the turn. Medians with "
-                  f"quartiles. {machine}.")
+                  f"gears times the number; these take {1e9 * ideal['cpu_s'] / TURN_STEPS:.0f} ns for a communication step of 1 ms in the "
+                  f"turn. Medians with quartiles. {machine}.")
     style.save(figure, folder / "fidelity_ladder.png")
 
 
@@ -42,7 +42,7 @@ def errors(axes, rows, rungs, title):
     texts = [["failed" if cell[rung, quantity]["status"] == "failed" else percent(cell[rung, quantity]["error"])
               for quantity in quantities] for rung in rungs[:-1]]
     last = [cell[rungs[-1], quantity] for quantity in quantities]
-    texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1] for row in last])
+    texts.append([with_unit(row["richest"], row["unit"])[::-1].replace(" ", "\n", 1)[::-1].replace("-", "−") for row in last])
     # a failed run has no error: its cells have the colour of the largest errors
     draw_cells(axes, np.where(np.isfinite(found), found, 1e8), texts, COLORS, LIMITS, lambda error: error < 1e-3 or error >= 0.5)
     axes.set_title(title, fontsize=TITLE, loc="left")

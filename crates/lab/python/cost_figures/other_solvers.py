@@ -33,7 +33,7 @@ def other_solvers(folder):
             axes.set(xscale="log", yscale="log")
             axes.yaxis.set_major_locator(LogLocator(numticks=8))
             axes.yaxis.set_minor_formatter(NullFormatter())
-            axes.xaxis.set_minor_formatter(NullFormatter())
+            style.plain_decades(axes.xaxis)
         grid[i][0].set_ylabel(ylabel)
     for axes, case in zip(grid[0], shown):
         axes.set_title(CASES[case])

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..answers import Progress, about, ask
 from ..extras import require
+from ..readable import plain
 from ..scene import Scene
 from ..values import FileName, Value
 
@@ -19,7 +20,7 @@ KINDS = [("ideal", "o"), ("lumped", "s"), ("tooth impact", "^"), ("tooth line +"
 # settings with fixed steps: their counts cannot be compared with those of the adaptive method
 FIXED = "fixed steps"
 # smallest error that is drawn, as a fraction of the accuracy; smaller errors are drawn at this value
-FLOOR = 1e-7
+FLOOR = 1e-3
 LONGEST = 90
 
 
@@ -135,7 +136,7 @@ def _drawn(style, found, file):
     axes = picture.subplots()
 
     def point(run):
-        return run.price / found.reference.price, 100.0 * max(run.error, FLOOR * within)
+        return 100.0 * run.price / found.reference.price, 100.0 * max(run.error, FLOOR * within)
 
     chosen = [run for run in runs if run.place == "chosen"]
     is_fixed = any(FIXED in run.setting for run in chosen)
@@ -148,7 +149,7 @@ def _drawn(style, found, file):
                       label=text.replace(" +", " + gear bodies"))
     if others:
         axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="adaptive" if is_fixed else FIXED)
-    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its stray with the tolerance)")
+    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its uncertainty from the tolerance)")
     front, best = [], float("inf")
     for x, y in sorted(point(run) for run in tried):
         if y < best:
@@ -160,15 +161,19 @@ def _drawn(style, found, file):
     axes.axhline(100.0 * within, color=style.RED, lw=1, ls="--")
     axes.annotate("wanted", (0.003, 100.0 * within), xycoords=axes.get_yaxis_transform(), xytext=(4, 3),
                   textcoords="offset points", color=style.RED)
-    axes.set(xscale="log", yscale="log", xlabel="cost over that of the reference",
-             ylabel="largest error of the wanted quantities, %")
+    axes.set(xscale="log", yscale="log", xlabel="cost, % of the reference", ylabel="largest error of the wanted quantities, %")
+    axes.set_ylim(bottom=60.0 * FLOOR * within)
+    for axis in (axes.xaxis, axes.yaxis):
+        style.plain_decades(axis)
     short = wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + " …"
     axes.set_title(f"{found.scene}: {short}")
     axes.legend(ncols=2)
     chosen_text = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
+    tiny = (f" Errors below {plain(100.0 * FLOOR * within)} % are drawn at this value."
+            if any(run.error < FLOOR * within for run in runs) else "")
     style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects, tolerance or step, compared with "
                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
-                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.")
+                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.{tiny}")
     if file is not None:
         style.save(picture, file)
     return picture

@@ -89,6 +89,7 @@ def _written(scene: Scene, record: np.ndarray, out: Path, says: str,
             for name, (time, values) in curves.items():
                 panel.plot(time, values, label=name, linewidth=1.2)
             panel.set_ylabel(label)
+            panel.margins(x=0.0)
             panel.legend()
         axes[0].set_title(scene.name)
         axes[-1].set_xlabel("time, s")

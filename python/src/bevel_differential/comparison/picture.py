@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import style
+from ..readable import time_scale
 from ..report import words
 from ..values import FileName
 
@@ -33,16 +34,16 @@ def draw(found: "Comparison", file: FileName | None) -> "Figure":
     rows = -(-len(outputs) // columns)
     with style.styled():
         figure, axes = style.panels(rows, columns, PANEL * rows + REST, sharex=True, squeeze=False)
-        panels = axes.ravel()
+        panels, (factor, unit) = axes.ravel(), time_scale(found.end)
         for panel, output in zip(panels, outputs):
-            _draw(panel, found, output)
+            _draw(panel, found, output, factor)
         # unused panels at the end
         for panel in panels[len(outputs):]:
             panel.remove()
         for place in range(max(0, len(outputs) - columns), len(outputs)):
             panels[place].tick_params(labelbottom=True)
             if place >= columns * (rows - 1):
-                panels[place].set_xlabel("time, s")
+                panels[place].set_xlabel(f"time, {unit}")
         figure.align_ylabels(panels[:len(outputs)])
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(found.names))
         style.caption(figure, _caption(found), density=DENSITY)
@@ -51,12 +52,12 @@ def draw(found: "Comparison", file: FileName | None) -> "Figure":
     return figure
 
 
-def _draw(panel, found, output):
+def _draw(panel, found, output, factor):
     unit, curves = found.shown(output)
     kind = found.fmu.variable(output).kind
     for place, (name, values) in enumerate(curves.items()):
         # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
-        panel.plot(found.records[name]["time"], values, DASHES[place % len(DASHES)], label=name,
+        panel.plot(factor * found.records[name]["time"], values, DASHES[place % len(DASHES)], label=name,
                    linewidth=1.3 + 2.0 * (len(curves) - 1 - place) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_title(output, loc="left", fontsize=style.SMALL)
     panel.set_ylabel(words.unit_text(unit))
@@ -98,6 +99,6 @@ def _apart(found, output):
         place = int(np.argmax(away))
         if away[place] / size > best[0]:
             shown = [float(np.interp(time[place], records[each]["time"], curves[each])) for each in (first, name)]
-            best = (float(away[place]) / size, f"at {words.quantity(time[place], 's')} it is {words.quantity(shown[0], unit)} in {first} and "
-                    f"{words.quantity(shown[1], unit)} in {name}")
+            best = (float(away[place]) / size, f"at {words.moment(time[place], found.end)} it is "
+                    f"{words.quantity(shown[0], unit)} in {first} and {words.quantity(shown[1], unit)} in {name}")
     return best

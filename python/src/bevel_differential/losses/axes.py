@@ -1,4 +1,4 @@
-"""Axes of a map in pictures, tables and sentences: in SI and °C, unless the scene prefers other units."""
+"""Axes of a map in pictures, tables and sentences: in N·m, rpm and °C, unless the scene prefers other units."""
 
 from typing import TypeVar
 
@@ -19,9 +19,11 @@ class Axis:
     """Axis of a map: `unit` as text, and `label`, a name with the unit. All torques have the unit of the first axis."""
 
     def __init__(self, fmu: Fmu, axis: int):
+        if "rad/s" not in fmu.display_units:
+            fmu = fmu.displaying(["rpm"])
         variable = fmu.variable(VARIABLES[axis])
         self._variable = variable.differences() if axis == SLIP_AXIS else variable
-        # temperatures are in °C, although other quantities are in SI
+        # temperatures are in °C, although other quantities may be in SI
         self._preferred = {self._variable.unit or "": ""} if axis == TEMPERATURE_AXIS else fmu.display_units
         unit, _ = self._variable.in_files(0.0, self._preferred)
         self.unit = words.unit_text(unit).replace("degC", "°C")

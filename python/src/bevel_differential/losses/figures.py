@@ -290,11 +290,14 @@ def error(made: MeasuredMap) -> Picture:
 
 @svg_style.drawn("error", 3.4)
 def _error(picture, made):
+    from .. import style
+
     share, where = picture.subplots(1, 2)
     for column, name in zip(made.errors.T, ("left torque", "right torque", "loss")):
-        share.step(np.sort(column), np.arange(1, len(column) + 1) / len(column), where="post", label=name)
+        share.step(np.sort(column), 100.0 * np.arange(1, len(column) + 1) / len(column), where="post", label=name)
     share.axvline(1.0, color=svg_style.RED, ls="--")
-    share.set(xscale="log", xlabel=f"error over {str(made.bound).replace('.m', '·m')}", ylabel="share of the points")
+    share.set(xscale="log", xlabel=f"error over {str(made.bound).replace('.m', '·m')}", ylabel="share of the points, %")
+    style.plain_decades(share.xaxis)
     share.legend(loc="upper left")
     of_slip = axes_of(made.scene)[SLIP_AXIS]
     where.plot(of_slip.values(made.unseen[:, SLIP_AXIS]), made.errors.max(axis=1), ".", color=svg_style.BLUE)

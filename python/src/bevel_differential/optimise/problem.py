@@ -185,7 +185,7 @@ class _Reader:
                      for name, given in flat(self.found.get("follow", {}), ends=FOLLOW).items()]
         objectives = [self.attempt(Objective.parse, self.catalogue, text) for text in self.found.get("objectives", [])]
         if len(objectives) == 1:
-            self.problems.append("objectives: name two or more; one alone has no front")
+            self.problems.append("objectives: name two or more; a single objective has no front")
         conditions = [self.attempt(Condition.parse, self.catalogue, text) for text in self.found.get("conditions", [])]
         self.problems += [f"{want}: {want.name} is one number of a design, without a statistic"
                           for want in (each.want for each in [*objectives, *conditions] if each)

@@ -23,6 +23,11 @@ class Quantity:
     outputs: tuple[str, ...] = ()
 
 
+def _rim(pair, i):
+    """Rim of gear `i` (planet, side gear) between bore and root cone at the toe, in modules there."""
+    return pair.rim(i) / (pair.module * pair.inner_cone / pair.outer_cone)
+
+
 def _pin(values):
     """Diameter of the pin, m, equal to the planet's bore."""
     diameter = values["geometry.planet_bore"]
@@ -60,8 +65,9 @@ QUANTITIES = {
     "teeth.common_divisor": Quantity(NUMBER, lambda _, pair: float(math.gcd(pair.gears[0].teeth, pair.gears[1].teeth))),
     # room for the tip radius of the tool of the roots, in modules
     "teeth.tool_room": Quantity(NUMBER, lambda values, pair: tool_room(pair, values["strength.tool_radius"])),
-    # rim of the planet between pin and root cone at the toe, in modules there
-    "pin.rim": Quantity(NUMBER, lambda _, pair: pair.rim(0) / (pair.module * pair.inner_cone / pair.outer_cone)),
+    # rims between bore and root cone at the toe, in modules there: of the planet on its pin, and of the side gear on its shaft
+    "pin.rim": Quantity(NUMBER, lambda _, pair: _rim(pair, 0)),
+    "shaft.rim": Quantity(NUMBER, lambda _, pair: _rim(pair, 1)),
     # largest shear stress of the pin next to the planet: 4/3 F/(π d²/4), of a solid round section (Shigley, Mechanical Engineering
     # Design). The case supports the pin outside each planet, so one section transmits the planet's whole force
     "pin.shear": Quantity(STRESS, lambda values, _: 16.0 * values[PIN_FORCE] / (3.0 * pi * _pin(values) ** 2), (PIN_FORCE,)),

@@ -11,7 +11,7 @@ from ..records import read
 PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
 # remarks on the cases of the documentation
 REMARKS = {
-    "aligned": "even load; dark band: one pair alone carries",
+    "aligned": "even load; dark band: only one pair is loaded",
     "crowned": "load moves from both ends to the middle",
     "angle_wide": "even along the face; less load at the root",
     "angle_narrow": "even along the face; more load at the root",
@@ -33,6 +33,10 @@ INSTANTS = 6
 # relative radius of the flanks over its value at the pitch point, below which the foot is a seam (as in the report and on the page)
 LEAST_RADIUS = 0.25
 COLUMNS = 3
+# inches: largest height of a flank; room next to a flank, and above and below a flank with its line load
+HIGHEST, BESIDE, AROUND = 5.0, 0.55, 0.95
+# height of the panel of the line load, over the width of the flank
+LOAD_HEIGHT = 0.19
 # smallest half-width of a line of contact in the picture, mm
 THINNEST = 0.12
 # height for the legend above the panels, inches
@@ -68,55 +72,67 @@ def tooth(axes, outline, names=False):
         axes.text(heel + 0.25, 0.0, "heel", rotation=90, ha="left", va="center", fontsize=9.5)
         axes.text(0.5 * (toe + heel), 0.5 * (outline["tip"]["toe_height"] + outline["tip"]["heel_height"]) + 0.35,
                   "tip", ha="center", fontsize=9.5)
-    axes.set(xlim=(toe - 1.3, heel + 1.3), ylim=(outline["root"]["heel_height"] - 0.3,
-                                                 outline["tip"]["heel_height"] + 0.4))
-    axes.set_aspect("equal")
+    axes.set(xlim=limits(outline)[0], ylim=limits(outline)[1])
+    axes.set_aspect("equal", anchor="N")
     axes.grid(False)
+
+
+def limits(outline):
+    """Ranges of cone distance and height of a flank's panel, mm."""
+    tip = outline["tip"]
+    return (tip["toe_cone"] - 1.3, tip["heel_cone"] + 1.3), (outline["root"]["heel_height"] - 0.3, tip["heel_height"] + 0.4)
 
 
 def patterns(folder, data, outlines, cases):
     columns = min(COLUMNS, len(cases))
     rows = -(-len(cases) // columns)
-    height = {1: 6.8, 2: 4.8, 3: 3.55}[columns]
-    figure = style.figure(height * rows + 2.2)
-    # rows of the grid: flank, line load, and a gap above the title of the next case
-    # a single flank gets margins, so that its load curve below it has the same width
-    margins = 1 if columns == 1 else 0
-    grid = figure.add_gridspec(3 * rows, columns + 2 * margins, height_ratios=[2.6, 1, 0.3] * rows,
-                               width_ratios=[0.4, 1, 0.4] if margins else None)
+    # height of a flank and of its line load, over its width: all flanks have the same scale in both directions
+    shape = max(np.ptp(high) / np.ptp(wide) for wide, high in (limits(outlines[name]) for name, _ in cases))
+    room = (style.WIDTH - BESIDE * columns) / columns
+    width = min(room, HIGHEST / shape)
+    figure = style.figure((width * (shape + LOAD_HEIGHT) + AROUND) * rows + 2.5)
+    # flanks that would be too high are narrower than their column
+    margin = 0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0
+    grid = figure.add_gridspec(rows, columns + 2, width_ratios=[margin + 1e-3, *[1.0] * columns, margin + 1e-3])
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
     scale, first = plt.Normalize(0.0, top_of(data, cases)), None
     for i, (name, title) in enumerate(cases):
         row, column = divmod(i, columns)
-        axes = figure.add_subplot(grid[3 * row, column + margins])
+        axes = figure.add_subplot(grid[row, column + 1])
         first = first or axes
         result = next(one for one in data["summary"] if one["case"] == name)
         flank(axes, outlines[name], [one for one in data["pattern"] if one["case"] == name], scale)
-        axes.set_title(f"{title} ({result['flank']} flank)", fontsize=11.5, loc="left", pad=19)
-        style.note(axes, 0.0, 1.07, REMARKS.get(name, ""), ha="left", fontsize=style.SMALL)
-        below = figure.add_subplot(grid[3 * row + 1, column + margins], sharex=axes)
+        remark = REMARKS.get(name, "")
+        axes.set_title(f"{title} ({result['flank']} flank)", fontsize=11.5, loc="left", pad=19 if remark else None)
+        style.note(axes, 0.0, 1.07, remark, ha="left", fontsize=style.SMALL)
+        # a part of the flank's panel, so that both show the same places along the face whatever the shape of the flank
+        wide, high = limits(outlines[name])
+        own = LOAD_HEIGHT * np.ptp(wide) / np.ptp(high)
+        below = axes.inset_axes([0.0, -1.2 * own, 1.0, own], sharex=axes)
         line_load(below, outlines[name]["tip"], np.array(strip(data, name)), result, most_load)
         if column == 0:
             axes.set_ylabel("height, mm")
-            below.set_ylabel("N/mm")
+            below.set_ylabel("line load,\nN/mm", fontsize=style.SMALL)
         if i >= len(cases) - columns:
             below.set_xlabel("cone distance R, mm")
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, PRESSURE), ax=figure.axes, orientation="horizontal", shrink=0.5,
+    bar = figure.colorbar(plt.cm.ScalarMappable(scale, PRESSURE), ax=figure.axes, orientation="horizontal", shrink=1.0 if columns == 1 else 0.5,
                           aspect=50, extend="max", pad=0.01)
     bar.set_label("largest Hertz pressure of the engagement, MPa")
     legend(figure, first)
     is_study = REMARKS.keys() >= dict(cases).keys()
-    where = "the study's turn (835 N·m on each half-shaft)" if is_study else "the given scenes"
+    where = ("the study's turn (835 N·m on each half-shaft)" if is_study else f"the scene {cases[0][1]}" if len(cases) == 1 else
+             "the given scenes")
+    shared = "One scale for all panels; only" if len(cases) > 1 else "Only"
     errors = ("Offsets bring one end of the face into contact first, and the load moves there; an error of the shaft angle turns the "
               "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
               "opposite one. ") if is_study else ""
     style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
                   "trapezoid with the small end (toe) left; colour is the largest pressure at each spot while one pair goes from "
-                  "first touch to parting, as marking compound would show it. One scale for all panels; only the seam at the base "
-                  "circle exceeds it, as the flank has no radius there. Blue: line load over the face while the pair is nearest to "
+                  f"first touch to parting, as marking compound would show it. {shared} the seam at the base "
+                  "circle exceeds the scale, because the flank has no radius there. Blue: line load over the face while the pair is nearest to "
                   f"the pitch line. Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
-                  "tip corner carries, the pressure is calculated with the flanks' radii; the true one is higher.", LEGEND)
-    style.save(figure, folder / "contact_pattern.png")
+                  "tip corner touches, the pressure is calculated with the flanks' radii; the true one is higher.", LEGEND)
+    style.save(figure, folder / "contact_pattern.png", shaded=True)
 
 
 def teeth_of(data):
@@ -141,7 +157,8 @@ def line_load(axes, tip, points, result, most):
     middle = 0.5 * (tip["toe_cone"] + tip["heel_cone"])
     centroid = middle + result["centroid"]
     axes.axvline(centroid, color=CENTROID, lw=1.3)
-    axes.text(centroid + 0.15, 1.4 * most, f"{result['force']:.1f} kN, {round(result['centroid'], 1) + 0.0:+.1f} mm",
+    shift = f"{round(result['centroid'], 1) + 0.0:+.1f}".replace("-", "−")
+    axes.text(centroid + 0.15, 1.4 * most, f"{result['force']:.1f} kN, {shift} mm",
               color=CENTROID, fontsize=style.SMALL, va="top")
     axes.set(ylim=(0, 1.45 * most))
 
@@ -171,19 +188,21 @@ def strip(data, name):
 def lines(folder, data, outlines, cases):
     names = dict(cases)
     chosen = [name for name in LINES if name in names][:2] or [name for name, _ in cases][:2]
-    figure, grid = style.panels(INSTANTS, len(chosen), 2.4 * INSTANTS + 1.8, squeeze=False, sharex=True, sharey=True)
+    # one column for each of two cases; a single case fills two columns, row by row
+    high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
+    figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
     colours, scale = plt.get_cmap(PRESSURE), plt.Normalize(0.0, top_of(data, cases))
     for column, name in enumerate(chosen):
         rows = [row for row in data["contacts"] if row["case"] == name]
         followed = sorted({row["time"] for row in rows if row["followed"]})
         picks = [followed[round(i * (len(followed) - 1) / (INSTANTS - 1))] for i in range(INSTANTS)]
         for i, time in enumerate(picks):
-            axes = grid[i, column]
+            axes = (grid[:, column] if len(chosen) == 2 else grid.ravel())[i]
             tooth(axes, outlines[name], i == 0)
             now = [row for row in rows if row["time"] == time]
             for pair in sorted({(row["planet_tooth"], row["side_tooth"]) for row in now}):
                 line = [row for row in now if (row["planet_tooth"], row["side_tooth"]) == pair]
-                draw_line(axes, line, lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
+                draw_line(axes, line, outlines[name]["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
             share = (time - picks[0]) / ((picks[-1] - picks[0]) or 1.0)
             axes.set_title(f"{names[name]}, {100.0 * share:.0f} % of the engagement, {1e-3 * force_of(now):.1f} kN in all",
                            fontsize=11, loc="left")
@@ -191,25 +210,27 @@ def lines(folder, data, outlines, cases):
         axes.set_ylabel("height, mm")
     for axes in grid[-1]:
         axes.set_xlabel("cone distance R, mm")
-    tips = [outlines[name]["tip"] for name in chosen]
+    # room for the forces on the right, and at least as wide as a panel of the grid
+    wide, tall = (np.array([limits(outlines[name])[axis] for name in chosen]) for axis in (0, 1))
+    toe, heel, height = wide.min(), wide.max(), np.ptp(tall)
     for axes in grid.flat:
-        axes.set_xlim(min(tip["toe_cone"] for tip in tips) - 1.3, max(tip["heel_cone"] for tip in tips) + 7.5)
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max",
-                          panchor=False if len(chosen) == 1 else (1.0, 0.5))
+        axes.set_xlim(toe, max(heel + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * height))
+    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
     bar.set_label("Hertz pressure, MPa")
     legend(figure, grid[0, 0])
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if names.keys() <= REMARKS.keys() else ""
-    style.caption(figure, "Lines of contact on the planet's flank while one pair goes from first touch (top) to parting (bottom), "
-                  f"{teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
+    style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, "
+                  f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
                   f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
                   "each line's load, a circle for the pair that is followed and a square for its neighbours.", LEGEND)
-    style.save(figure, folder / "contact_lines.png")
+    style.save(figure, folder / "contact_lines.png", shaded=True)
 
 
-def draw_line(axes, line, colour, indent):
-    """Draws the line of contact of one pair with its force. The line is as wide as the contact, or the smallest visible width."""
+def draw_line(axes, line, heel, colour, indent):
+    """Draws the line of contact of one pair with its force beyond the heel. The line is as wide as the contact, or the smallest visible
+    width."""
     for row in line:
         half = max(row["half_width"], THINNEST)
         ends = [row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]]
@@ -221,8 +242,10 @@ def draw_line(axes, line, colour, indent):
     height = np.interp(centre, [row["cone"] for row in line], [row["planet_height"] for row in line])
     own = bool(line[0]["followed"])
     axes.plot(centre, height, ls="", marker="o" if own else "s", mfc="white", mec=CENTROID, ms=6, zorder=6)
-    name = f"{'this pair' if own else 'neighbour'} {1e-3 * force:.1f} kN{', tip corner' if line[0]['corner'] else ''}"
-    axes.annotate(name, (line[-1]["cone"] + 0.5 * line[-1]["width"], line[-1]["planet_height"]), xytext=(indent, 0),
+    size = f"{1e-3 * force:.1f} kN" if force >= 50.0 else f"{force:.0f} N"
+    name = f"{'this pair' if own else 'neighbour'} {size}{', tip corner' if line[0]['corner'] else ''}"
+    # on the ray through the apex that the line follows
+    axes.annotate(name, (heel, line[-1]["planet_height"] * heel / line[-1]["cone"]), xytext=(indent, 0),
                   textcoords="offset points", fontsize=9.5, va="center", annotation_clip=False)
 
 

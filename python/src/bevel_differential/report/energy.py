@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..plot import shown_times
 from . import svg_style, words
 from .blocks import Picture, Section
 from .head import energy_balance
@@ -33,9 +34,10 @@ def section(run: Simulated) -> Section:
 def _draw_bias(picture, run, left, right):
     traces, plane = picture.subplots(1, 2, width_ratios=[1.4, 1])
     unit = words.unit_text(run.unit("left.shaft_torque"))
-    traces.plot(run.time, left, color=svg_style.BLUE, label="left half-shaft", lw=2.2)
-    traces.plot(run.time, right, color=svg_style.RED, label="right half-shaft")
-    traces.set(xlabel="time, s", ylabel=f"torque, {unit}", title="over time")
+    times, label = shown_times(run.time)
+    traces.plot(times, left, color=svg_style.BLUE, label="left half-shaft", lw=2.2)
+    traces.plot(times, right, color=svg_style.RED, label="right half-shaft")
+    traces.set(xlabel=label, ylabel=f"torque, {unit}", title="over time")
     traces.legend(loc="best")
     reach = 1.08 * max(float(np.max(np.abs(left))), float(np.max(np.abs(right))))
     low = -reach if min(left.min(), right.min()) < -0.02 * reach else -0.04 * reach
@@ -58,7 +60,7 @@ def _bias_caption(run, left, right):
     locked = float(locking[-1]) if abs(locking[-1]) > 1e-6 else 0.0
     even = np.max(np.abs(left - right)) < 1e-3 * np.max(np.abs(left) + np.abs(right))
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
-             f"farthest apart at {words.quantity(run.time[k], 's')}, left {words.number(left[k])} and right "
+             f"farthest apart at {words.moment(run.time[k], run.time[-1])}, left {words.number(left[k])} and right "
              f"{words.quantity(right[k], run.unit('right.shaft_torque'))}")
     return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that is printed next to them; the large "
             f"dot is the end. The FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
@@ -77,17 +79,18 @@ def _draw_power(picture, run):
     picture.set_figheight(5.6 if heats else 4.0)
     panels = picture.subplots(3 if heats else 2, 1, sharex=True, height_ratios=[1.3, 1, 1] if heats else [1.3, 1])
     scale, unit = svg_style.unit_prefix([run.series(name) for name in ("power.in", "power.out")])
+    times, time_label = shown_times(run.time)
     for name, colour, label in (("power.in", svg_style.BLUE, "in"), ("power.out", svg_style.GREEN, "out to the wheels"),
                                 ("power.loss", svg_style.RED, "loss")):
-        panels[0].plot(run.time, run.series(name) / scale, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
+        panels[0].plot(times, run.series(name) / scale, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
     panels[0].set(ylabel=f"power, {unit}W")
     if heats:
         series = [np.maximum(run.series(name), 0.0) for name in heats]
-        panels[1].stackplot(run.time, *series, labels=[name.removeprefix("heat.").replace("_", " ") for name in heats],
+        panels[1].stackplot(times, *series, labels=[name.removeprefix("heat.").replace("_", " ") for name in heats],
                             colors=svg_style.CYCLE[1:1 + len(heats)], alpha=0.75)
         panels[1].set(ylabel="heat so far, J")
-    panels[-1].plot(run.time, run.series("solver.energy_residual"), color=svg_style.GREY, label="energy residual")
-    panels[-1].set(xlabel="time, s", ylabel="residual, J")
+    panels[-1].plot(times, run.series("solver.energy_residual"), color=svg_style.GREY, label="energy residual")
+    panels[-1].set(xlabel=time_label, ylabel="residual, J")
     for panel in panels:
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     picture.align_ylabels(panels)

@@ -5,6 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..plot import shown_times
 from ..values import DifferentialError
 from ..want import COARSEST, figures
 from . import svg_style, words
@@ -42,14 +43,15 @@ def _draw(picture, run, planets):
     picture.set_figheight(PANEL * 2 * len(planets) + 0.6)
     scale, prefix = svg_style.unit_prefix([run.shown(_name(planet, side)) for planet in planets for side in SIDES])
     axes = picture.subplots(2 * len(planets), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
+    times, label = shown_times(run.time)
     for panel, (planet, side) in zip(axes, [(planet, side) for planet in planets for side in SIDES]):
         force = run.shown(_name(planet, side))
-        for begin, end in bands(run.time, force):
+        for begin, end in bands(times, force):
             panel.axvspan(begin, end, color=svg_style.OCHRE, alpha=0.25, lw=0)
-        panel.plot(run.time, force / scale, color=svg_style.BLUE if side == "left" else svg_style.RED)
+        panel.plot(times, force / scale, color=svg_style.BLUE if side == "left" else svg_style.RED)
         panel.set(title=f"planet {planet} with the {side} side gear", ylabel=f"normal force, {prefix}{run.unit(_name(planet, side))}")
-    axes[0].set_xlim(run.time[0], run.time[-1])
-    axes[-1].set_xlabel("time, s")
+    axes[0].set_xlim(times[0], times[-1])
+    axes[-1].set_xlabel(label)
 
 
 def _caption(run, drawn, alike):
@@ -61,15 +63,15 @@ def _caption(run, drawn, alike):
             free = bands(run.time, force)
             lash = "never in the lash" if not free else (f"in the lash {words.percent(share(run.time, free), 2)} of the time, "
                                                          f"{len(free)} stretch{'es' if len(free) > 1 else ''}")
-            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at {words.quantity(run.time[k], 's')}, "
-                         f"{lash}")
+            parts.append(f"planet {planet} {side} up to {words.quantity(force[k], run.unit(_name(planet, side)))} at "
+                         f"{words.moment(run.time[k], run.time[-1])}, {lash}")
     same = f" Planet{'s' if len(alike) > 1 else ''} {words.listed(map(str, alike))}: the same to the last bit." if alike else ""
     return (f"Normal force, summed over tooth pairs; shaded if neither drive nor coast flanks are loaded, at communication points every "
             f"{words.quantity(1e3 * run.scene.step, 'ms')}. {'; '.join(parts)}.{same}")
 
 
 def bands(times: np.ndarray, force: np.ndarray) -> list[tuple[float, float]]:
-    """Time intervals (s) in which a mesh is unloaded, on both its drive and its coast flanks.
+    """Time intervals in which a mesh is unloaded, on both its drive and its coast flanks, in the unit of `times`.
 
     `force`: normal force of the mesh at `times`, N; in the backlash it is exactly zero. An interval ends in the middle between a point
     with and a point without load, because the record has no points between them."""
@@ -135,15 +137,19 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
 def _draw_error(picture, run, part, orders, sizes):
     picture.set_figheight(2.6 if orders is None else 3.0)
     panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
-    panels[0].plot(run.time, UM * run.series(SIGNAL), color=svg_style.BLUE)
-    panels[0].set(xlabel="time, s", ylabel="transmission error, µm", title="planet 1 with the left side gear")
+    times, label = shown_times(run.time)
+    panels[0].plot(times, UM * run.series(SIGNAL), color=svg_style.BLUE)
+    panels[0].set(xlabel=label, ylabel="transmission error, µm", title="planet 1 with the left side gear")
     if orders is not None:
-        panels[0].axvspan(run.time[part][0], run.time[part][-1], color=svg_style.GREEN, alpha=0.12, lw=0)
+        panels[0].axvspan(times[part][0], times[part][-1], color=svg_style.GREEN, alpha=0.12, lw=0)
         panels[1].bar(orders, UM * sizes, color=svg_style.BLUE, width=0.5)
         panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
         # a logarithmic axis within a decade has no round numbers for its labels
         if sizes.max() > 10.0 * sizes.min():
+            from .. import style
+
             panels[1].set(yscale="log", ylim=(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0))
+            style.plain_decades(panels[1].yaxis)
 
 
 def _over_time(run):

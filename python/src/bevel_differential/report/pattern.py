@@ -21,6 +21,8 @@ THINNEST = 0.006
 # pressure is twice as high there
 LEAST_RADIUS = 0.25
 MM, MPA = 1e3, 1e6
+# room above and below a flank, mm
+EDGE = 0.3
 FLANKS = ((1.0, "drive"), (-1.0, "coast"))
 
 
@@ -88,7 +90,7 @@ def section(run: Simulated) -> Section:
     if not loaded:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
         return found
-    caption = " ".join(_caption(name, contacts) for name, contacts in loaded) + _reading(pair, loaded)
+    caption = " ".join(_caption(name, contacts, run.time[-1]) for name, contacts in loaded) + _reading(pair, loaded)
     found.add(Picture("pattern", _draw(run, pair, loaded), caption))
     return found
 
@@ -138,7 +140,7 @@ def _draw(picture, run, pair: Pair, loaded):
         flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=svg_style.GREY, fontsize=8, va="center")
         flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=svg_style.GREY, fontsize=8, va="bottom")
         flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
-                  xlim=(ends[0] - 1.0, ends[1] + 3.0))
+                  xlim=(ends[0] - 1.0, ends[1] + 3.0), ylim=(MM * root * cones[-1] / mean - EDGE, MM * tip * cones[-1] / mean + EDGE))
         flank.set_aspect("equal")
         flank.grid(False)
         bar = picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither")
@@ -146,18 +148,18 @@ def _draw(picture, run, pair: Pair, loaded):
         scale, unit = svg_style.unit_prefix([contacts.force])
         loads.plot(contacts.force / scale, MM * contacts.height, ".", color=svg_style.BLUE, ms=4)
         loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
-                                                                             "mm", ylim=(MM * root, MM * tip))
+                                                                             "mm", ylim=(MM * root - EDGE, MM * tip + EDGE))
         loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
 
 
-def _caption(name, contacts):
+def _caption(name, contacts, end):
     low, high = MM * contacts.height.min(), MM * contacts.height.max()
     sound = np.where(contacts.in_seam & ~np.all(contacts.in_seam), 0.0, contacts.pressure.max(axis=1))
     k = int(np.argmax(sound))
     where = ENDS[int(np.argmax(contacts.pressure[k]))]
     widest = 2.0 * MM * contacts.half_width.max()
     peak = (f"up to {words.quantity(contacts.pressure[k].max() / MPA, 'MPa')} ({where}, "
-            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch line, {words.quantity(contacts.time[k], 's')})")
+            f"{words.quantity(MM * contacts.height[k], 'mm', 3)} from the pitch line, {words.moment(contacts.time[k], end)})")
     teeth = len(np.unique(contacts.tooth))
     who = f"{teeth} {'tooth' if teeth == 1 else 'teeth'} loaded"
     if high - low < widest:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..plot import shown_times
 from ..spectrum.damage import pushed_along
 from . import svg_style, words
 from .blocks import Picture, Section, Table
@@ -82,17 +83,18 @@ def section(run: Simulated) -> Section:
 @svg_style.drawn("stress", 4.0)
 def _draw(picture, run, stresses: tuple[Limited, ...]):
     upper, lower = picture.subplots(2, 1, sharex=True)
+    times, time_label = shown_times(run.time)
     for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
         top = 0.0
         for limited in rows:
             label, colour = LABELS[limited.output]
-            panel.plot(run.time, limited.stress / MPA, color=colour, label=label)
+            panel.plot(times, limited.stress / MPA, color=colour, label=label)
             top = max(top, float(np.max(limited.stress)) / MPA, float(np.max(limited.limit)) / MPA)
             # rolling at a point describes the step that ends there
-            panel.step(run.time, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
+            panel.step(times, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
         panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    lower.set_xlabel("time, s")
+    lower.set_xlabel(time_label)
 
 
 def _limit(limited):
@@ -104,8 +106,8 @@ def _caption(run, stresses):
     parts = []
     for limited in stresses:
         k = limited.worst()
-        parts.append(f"{LABELS[limited.output][0]} {words.quantity(limited.stress[k] / MPA, 'MPa')} at {words.quantity(run.time[k], 's')}, "
-                     f"{words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
+        parts.append(f"{LABELS[limited.output][0]} {words.quantity(limited.stress[k] / MPA, 'MPa')} at "
+                     f"{words.moment(run.time[k], run.time[-1])}, {words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
     highest = float(np.max(run.series("stress.contact_max"))) / MPA
     return (f"Stresses of all teeth that are rated, each with its own limit, at the points at which they come nearest to it: "
             f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll are loaded on both flanks and keep "

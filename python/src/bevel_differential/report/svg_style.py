@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..extras import require
-from ..plot import by_unit, draw_panel
+from ..plot import by_unit, draw_panel, shown_times
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -67,9 +67,10 @@ def over_time(picture: "Figure", run: "Simulated", names: Iterable[str], panel_h
     panels = by_unit(run.scene.fmu, record, names)
     picture.set_figheight(panel_height * len(panels) + 0.6)
     axes = picture.subplots(len(panels), 1, sharex=True, squeeze=False)[:, 0]
+    times, label = shown_times(record["time"])
     for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-        draw_panel(panel, record["time"], unit, "held" if held else kind, curves)
-    axes[-1].set_xlabel("time, s")
+        draw_panel(panel, times, unit, "held" if held else kind, curves)
+    axes[-1].set_xlabel(label)
     return axes
 
 

@@ -62,7 +62,7 @@ def _speeds(run):
     if np.abs(apart[k]) < 1e-6 * size:
         split = "Both side gears turn equally all the time"
     else:
-        split = (f"The side gears are farthest apart at {words.quantity(run.time[k], 's')}: left {words.number(left[k])}, right "
+        split = (f"The side gears are farthest apart at {words.moment(run.time[k], run.time[-1])}: left {words.number(left[k])}, right "
                  f"{words.quantity(right[k], unit)}")
     return (f"{split}. Their mean leaves the carrier's speed by {words.quantity(mean, unit, 2)} at most, through lash and "
             "deflection of the teeth." if run.has_teeth else f"{split}. Their mean is the carrier's speed to within "

@@ -104,6 +104,8 @@ def _drives(up):
 def _draw(picture, run, spectra: Waterfall, expected):
     from matplotlib.colors import LogNorm
 
+    from .. import style
+
     sizes = UM * spectra.amplitudes
     top = float(sizes.max())
     upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
@@ -116,6 +118,8 @@ def _draw(picture, run, spectra: Waterfall, expected):
     bar.set_label("amplitude, µm")
     mean = UM * spectra.mean
     lower.semilogy(spectra.orders, mean, color=svg_style.BLUE)
+    style.plain_decades(lower.yaxis)
+    style.plain_decades(bar.ax.yaxis)
     teeth = float(run.value("geometry.planet_teeth"))
     marks = upper.secondary_xaxis("top")
     marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"

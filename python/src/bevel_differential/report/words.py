@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 
+from ..readable import time_scale
 from ..values import Number, Variable
 
 DIGITS = 4
@@ -23,6 +24,12 @@ def unit_text(unit: str) -> str:
 def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
     """Text of a number with its unit."""
     return f"{number(value, digits)} {unit_text(unit)}".strip()
+
+
+def moment(time: float, duration: float) -> str:
+    """A time of a run [s], in the unit of the time axes of a run of this duration [s]."""
+    factor, unit = time_scale(duration)
+    return quantity(factor * time, unit)
 
 
 def mm(length: float) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..extras import require
+from ..readable import plain
 from ..values import FileName
 from .slow import SnCurve
 
@@ -43,7 +44,7 @@ def _draw_events(axes, result, colour):
     axes.set_yticks(places, names)
     axes.invert_yaxis()
     axes.set_xlim(0.0, 105.0)
-    axes.set_xlabel("share of the damage per duty cycle [%]")
+    axes.set_xlabel("share of the damage per duty cycle, %")
     axes.set_title(f"Damage by event: {result.critical_name}")
     axes.legend(loc="center")
     axes.grid(visible=False, axis="y")
@@ -69,7 +70,7 @@ def _draw_spectrum(axes, result, colours):
     axes.set_xlim(1.0, 1e13)
     axes.set_ylim(0.0, 1.3 * highest / MPA)
     axes.set_xlabel("cycles at this stress or above, in one life")
-    axes.set_ylabel("rated contact pressure [MPa]" if result.is_flank else "root stress, from 0 to its peak [MPa]")
+    axes.set_ylabel("rated contact pressure, MPa" if result.is_flank else "root stress, from 0 to its peak, MPa")
     axes.set_title(f"Load spectrum: {result.critical_name}")
     axes.legend()
 
@@ -78,9 +79,9 @@ def _caption(result):
     if not np.isfinite(result.cycles_to_failure):
         return "No event does any damage."
     worst = result.table()[0]
-    km = f" or {result.life_km:.3g} km" if np.isfinite(result.life_km) else ""
-    return (f"Miner sum of the {result.critical_name}: {1.0 / result.cycles_to_failure:.3g} per duty cycle, "
-            f"life {result.life_hours:.3g} h{km}. \"{worst['event']}\" does {worst['share']:.0%} of the damage. "
+    km = f" or {plain(result.life_km)} km" if np.isfinite(result.life_km) else ""
+    return (f"By Miner's rule, the {result.critical_name} fails after {plain(result.cycles_to_failure)} duty cycles: "
+            f"{plain(result.life_hours)} h{km}. \"{worst['event']}\" does {100.0 * worst['share']:.0f} % of the damage. "
             "The stress nearest to its S–N curve does most of the damage.")
 
 

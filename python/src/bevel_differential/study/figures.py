@@ -60,6 +60,7 @@ def start_of_speeds(axes, run):
                "the speed that theory gives (ω₁ = ω₂ = ω₀)")
     axes.set(title=f"Straight ahead, {run.case.vehicle_speed:.0f} km/h: the first {1e3 * THROWN:.1f} ms",
              xlabel="time, ms", ylabel="speed, deg/s", xlim=(0, 1e3 * THROWN))
+    style.in_rpm(axes)
     axes.legend(loc="lower right")
 
 
@@ -76,6 +77,7 @@ def speeds_in_turn(axes, run):
     span = left - right
     axes.set(title=f"Turn, {run.case.vehicle_speed:.0f} km/h: {end:g} s", xlabel="time, s", ylabel="speed, deg/s",
              xlim=(0, end), ylim=(right - 0.2 * span, left + 0.42 * span))
+    style.in_rpm(axes)
     axes.legend(loc="upper left", ncols=3)
 
 
@@ -208,6 +210,7 @@ def lines_of_force(axes, spectrum, floor):
         axes.vlines(frequency[shown], bottom, amplitude[shown], color=color, lw=7.0 if "thrust" in name else 3.0, label=label)
         highest = max(highest, amplitude[shown].max())
     axes.set(yscale="log", xlabel="frequency, Hz", ylabel="amplitude, N", xlim=(0, SPECTRUM_END), ylim=(bottom, 6.0 * highest))
+    style.plain_decades(axes.yaxis)
     axes.grid(axis="x", visible=False)
 
 

@@ -162,11 +162,12 @@ def _histogram(style, axes, plan, result, want):
         axes.hist(values, bins="auto", color=style.PALE_BLUE, edgecolor=style.BLUE, linewidth=0.6)
     for limit in plan.study.limits:
         if limit.want == want:
-            label = limit_text(plan, limit).removeprefix(f"{want} ")
+            label = limit_text(plan, limit).removeprefix(f"{want} ").replace("<=", "≤").replace(">=", "≥")
             axes.axvline(variable.shown(limit.limit)[1], color=style.RED, label=f"limit {label}")
     if axes.get_legend_handles_labels()[0]:
         axes.legend(loc="best")
     axes.set(xlabel=f"{in_words(want)}, {unit}" if unit else in_words(want), ylabel="differentials")
+    axes.locator_params(axis="x", nbins=6)
 
 
 def _bars(style, axes, result, want, with_legend):
@@ -177,10 +178,10 @@ def _bars(style, axes, result, want, with_legend):
         return
     place = np.arange(len(result.names))[::-1]
     error = {"error_kw": {"ecolor": style.GREY, "elinewidth": 1.0}, "height": 0.4}
-    axes.barh(place + 0.2, indices.first, xerr=indices.first_half, color=style.BLUE, label="by itself", **error)
-    axes.barh(place - 0.2, indices.total, xerr=indices.total_half, color=style.PALE_BLUE, label="with others", **error)
+    axes.barh(place + 0.2, 100.0 * indices.first, xerr=100.0 * indices.first_half, color=style.BLUE, label="by itself", **error)
+    axes.barh(place - 0.2, 100.0 * indices.total, xerr=100.0 * indices.total_half, color=style.PALE_BLUE, label="with others", **error)
     axes.set_yticks(place, result.names)
-    axes.set(xlim=(0.0, 1.05), xlabel="part of the variance of the figure at the left")
+    axes.set(xlim=(0.0, 105.0), xlabel="share of the variance of the quantity at the left, %")
     if with_legend:
         axes.legend(loc="lower right")
 
@@ -190,23 +191,23 @@ def _draw_yields(style, axes, result, found):
     names = ["as it is", *(textwrap.shorten(verdict.alternative.name, 60) for verdict in found)]
     yields = [base, *(verdict.yield_ for verdict in found)]
     place = np.arange(len(names))[::-1]
-    value = np.array([each.value for each in yields])
-    ends = np.array([[each.value - each.low, each.high - each.value] for each in yields]).T
+    value = 100.0 * np.array([each.value for each in yields])
+    ends = 100.0 * np.array([[each.value - each.low, each.high - each.value] for each in yields]).T
     colours = [style.BLUE if verdict.gain.low > 0.0 else style.RED if verdict.gain.high < 0.0 else style.GREY for verdict in found]
-    axes.axvline(base.value, color=style.GREY, linestyle="--", linewidth=1.0)
+    axes.axvline(100.0 * base.value, color=style.GREY, linestyle="--", linewidth=1.0)
     for y, x, end, colour in zip(place, value, ends.T, [style.GREY, *colours]):
         axes.errorbar(x, y, xerr=end[:, None], fmt="o", color=colour, capsize=3)
     axes.set_yticks(place, names)
-    axes.set(xlabel="yield: part of the differentials within all limits", ylim=(-0.7, len(names) - 0.3))
+    axes.set(xlabel="yield: share of the differentials within all limits, %", ylim=(-0.7, len(names) - 0.3))
 
 
 def _caption(plan, result, found):
-    what = (f"{len(result.base.good)} differentials drawn: {plan.description}. Left: how each figure is spread, with its "
-            "limits. Right: Sobol indices with 95 % intervals: the part of the variance that a factor causes by itself, and "
-            "the part it takes part in together with others.")
+    what = (f"{len(result.base.good)} differentials drawn: {plan.description}. Left: scatter of each quantity, with its limits. "
+            "Right: Sobol indices with 95 % intervals: the share of the variance that a factor causes by itself, and "
+            "its share together with others.")
     best = next((verdict for verdict in found if verdict.gain.low > 0.0), None)
     if found:
         answer = best.line(float(result.base.good.mean())) if best else "none is surely better"
         what += (" Bottom: yield with 95 % intervals (Wilson) of the same draws with another tolerance; a good differential "
-                 f"becomes cheaper (blue), dearer (red), or the runs do not tell (grey). Best: {answer}.")
+                 f"becomes cheaper (blue), more expensive (red), or the runs do not tell (grey). Best: {answer}.")
     return what

@@ -16,9 +16,9 @@ macro_rules! peaks {
             display: Some($display),
             changes: Changes::ByStep,
             description: concat!(
-                "Peak-to-peak value of ",
+                "Peak-to-peak ",
                 $what,
-                " over the last whole mesh cycle; 0 before, and in model exchange"
+                " over the last whole mesh cycle; 0 before the first cycle has ended, and in model exchange"
             ),
         }
     };
@@ -37,16 +37,16 @@ impl Declare for MeshHistorySpec {
         why: "it follows from the motion of teeth against each other",
     });
     const READINGS: &'static [Reading] = &[
-        peaks!("left.speed", "left.speed", RAD_PER_S, DEG_PER_S),
-        peaks!("right.speed", "right.speed", RAD_PER_S, DEG_PER_S),
-        peaks!("planet[1].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
-        peaks!("planet[1].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
-        peaks!("planet[2].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
-        peaks!("planet[2].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
-        peaks!("planet[3].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
-        peaks!("planet[3].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
-        peaks!("planet[4].left_transmission_error", "the transmission error to the left side gear", METRE, MM),
-        peaks!("planet[4].right_transmission_error", "the transmission error to the right side gear", METRE, MM),
+        peaks!("left.speed", "value of left.speed", RAD_PER_S, DEG_PER_S),
+        peaks!("right.speed", "value of right.speed", RAD_PER_S, DEG_PER_S),
+        peaks!("planet[1].left_transmission_error", "transmission error to the left side gear", METRE, MM),
+        peaks!("planet[1].right_transmission_error", "transmission error to the right side gear", METRE, MM),
+        peaks!("planet[2].left_transmission_error", "transmission error to the left side gear", METRE, MM),
+        peaks!("planet[2].right_transmission_error", "transmission error to the right side gear", METRE, MM),
+        peaks!("planet[3].left_transmission_error", "transmission error to the left side gear", METRE, MM),
+        peaks!("planet[3].right_transmission_error", "transmission error to the right side gear", METRE, MM),
+        peaks!("planet[4].left_transmission_error", "transmission error to the left side gear", METRE, MM),
+        peaks!("planet[4].right_transmission_error", "transmission error to the right side gear", METRE, MM),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {

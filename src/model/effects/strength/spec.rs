@@ -54,84 +54,93 @@ impl Declare for StrengthSpec {
         why: "it follows from the forces of the meshes",
     });
     const READINGS: &'static [Reading] = &[
-        stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs where they touch"),
+        stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs at their contact positions"),
         stress(
             "stress.contact_pitch",
-            "Hertz pressure at the pitch point of the mean section if one pair carried the whole mesh; \
-             largest of all meshes",
+            "Largest Hertz pressure at the pitch point of all meshes, at the mean section: one tooth pair transmits \
+             the whole mesh load",
         ),
         stress("stress.root_planet_max", "Largest root stress of the planets by ISO 10300 method B1"),
         stress("stress.root_side_max", "Largest root stress of the side gears by ISO 10300 method B1"),
         stress(
             "stress.contact_rated",
-            "Largest contact pressure by which flanks are rated, for safety.flank_min and damage: one pair \
-             carries the mesh at the worse inner point of single contact, under the load factor of its face",
+            "Largest contact pressure for the flank rating, used by safety.flank_min and damage: one tooth pair \
+             transmits the mesh load at the worse inner point of single contact, with the face load factor",
         ),
         temperature(
             "temperature.flash",
             (units::KELVIN_DIFFERENCE, None),
-            "Largest flash temperature of the flanks over their whole face (Blok) with effects.tooth_friction; else 0",
+            "Largest flash temperature of the flanks over the whole face (Blok); 0 without effects.tooth_friction",
         ),
         temperature(
             "temperature.contact",
             (units::KELVIN, Some(DEG_C)),
-            "Largest contact temperature of the flanks: temperature.gears and, with effects.strength, the flash \
-             temperature",
+            "Largest contact temperature of the flanks: temperature.gears, plus temperature.flash with \
+             effects.strength",
         ),
         Reading {
             name: "safety.scuffing",
             unit: units::ONE,
             display: None,
             changes: Changes::Always,
-            description: "Safety factor S_B against scuffing at this instant: strength.scuffing_temperature less \
-                          temperature.oil over temperature.contact less temperature.oil; 1000 at most",
+            description: "Instantaneous safety factor S_B against scuffing: strength.scuffing_temperature minus \
+                          temperature.oil, divided by temperature.contact minus temperature.oil; at most 1000",
         },
-        damage("damage.planet", "Miner sum of the roots of the worst planet"),
-        damage("damage.side", "Miner sum of the roots of the worse side gear"),
-        damage("damage.planet_flank", "Miner sum of pitting of the worst planet"),
-        damage("damage.side_flank", "Miner sum of pitting of the worse side gear"),
+        damage("damage.planet", "Miner sum of root bending of the most damaged planet"),
+        damage("damage.side", "Miner sum of root bending of the more damaged side gear"),
+        damage("damage.planet_flank", "Miner sum of pitting of the most damaged planet"),
+        damage("damage.side_flank", "Miner sum of pitting of the more damaged side gear"),
         safety(
             "safety.root_min",
-            "Smallest safety factor S_F of all roots so far: bending strength at the knee, of planets that \
-             roll times the idler factor, over root stress; 1000 at most, and before the first step that is \
-             rated",
+            "Smallest safety factor S_F of all tooth roots so far: bending strength at the knee over root stress, \
+             with strength.idler_factor for planets that roll; at most 1000, and 1000 before the first evaluated \
+             step",
         ),
         safety(
             "safety.flank_min",
             "Smallest safety factor S_H of all flanks so far: contact strength at the knee over \
-             stress.contact_rated; 1000 at most, and before the first step that is rated",
+             stress.contact_rated; at most 1000, and 1000 before the first evaluated step",
         ),
     ];
 
     fn parameters() -> Vec<Row<Parameter<Self>>> {
         vec![
-            row("strength.tool_radius", "Tip radius of the tool that cuts the roots, per module").real(
+            row("strength.tool_radius", "Tip radius per module of the tool that cuts the tooth roots").real(
                 units::ONE,
                 (0.0, 0.6),
                 |p| &mut p.tool_radius,
             ),
             row(
                 "strength.bending_strength",
-                "Bending strength of the roots at the knee under pulsating load (carburised MQ, ISO 6336-5: 2 x \
-                 500 MPa)",
+                "Bending strength of the tooth roots under pulsating load at the knee of the S-N curve (carburised \
+                 MQ, 2 x 500 MPa in ISO 6336-5)",
             )
             .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.bending_strength),
-            row("strength.bending_cycles", "Cycles at the knee of bending")
-                .real(units::ONE, (1e4, 1e12), |p| &mut p.bending_cycles),
+            row("strength.bending_cycles", "Number of cycles at the knee of the S-N curve for bending").real(
+                units::ONE,
+                (1e4, 1e12),
+                |p| &mut p.bending_cycles,
+            ),
             row("strength.bending_life_factor", "Life factor of bending at 1e3 cycles (ISO 6336-3)").real(
                 units::ONE,
                 (1.05, 10.0),
                 |p| &mut p.bending_life_factor,
             ),
-            row("strength.idler_factor", "Part of the bending strength that teeth loaded on alternate flanks keep")
-                .real(units::ONE, (0.5, 1.0), |p| &mut p.idler_factor),
+            row("strength.idler_factor", "Factor on the bending strength of teeth loaded on alternate flanks").real(
+                units::ONE,
+                (0.5, 1.0),
+                |p| &mut p.idler_factor,
+            ),
             row(
                 "strength.contact_strength",
-                "Contact strength of the flanks at the knee (carburised MQ, ISO 6336-5: 1500 MPa)",
+                "Contact strength of the flanks at the knee of the S-N curve (carburised MQ, 1500 MPa in ISO 6336-5)",
             )
             .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.contact_strength),
-            row("strength.contact_cycles", "Cycles at the knee of pitting")
-                .real(units::ONE, (1e6, 1e12), |p| &mut p.contact_cycles),
+            row("strength.contact_cycles", "Number of cycles at the knee of the S-N curve for pitting").real(
+                units::ONE,
+                (1e6, 1e12),
+                |p| &mut p.contact_cycles,
+            ),
             row("strength.contact_life_factor", "Life factor of pitting at 1e5 cycles (ISO 6336-2)").real(
                 units::ONE,
                 (1.05, 10.0),
@@ -139,7 +148,8 @@ impl Declare for StrengthSpec {
             ),
             row(
                 "strength.application_factor",
-                "Application factor: load on the teeth over the simulated one, for what the scene does not contain",
+                "Application factor, the ratio of real to simulated tooth load: covers loads that the scene leaves \
+                 out",
             )
             .real(units::ONE, (0.1, 10.0), |p| &mut p.application_factor),
             row("strength.thermal_contact_coefficient", "Thermal contact coefficient of the flanks (steel)")
@@ -147,14 +157,14 @@ impl Declare for StrengthSpec {
                 .real(units::EFFUSIVITY, (100.0, 1e5), |p| &mut p.thermal_contact_coefficient),
             row(
                 "strength.scuffing_temperature",
-                "Contact temperature at which flanks scuff, by a test of the oil (FZG; ISO/TS 10300-20)",
+                "Contact temperature at which flanks scuff, from an oil test (FZG; ISO/TS 10300-20)",
             )
             .when("effects.tooth_friction = true or effects.warm_up = true")
             .real((units::KELVIN, DEG_C), (300.0, 2000.0), |p| &mut p.scuffing_temperature),
             row(
                 "strength.rate_from",
-                "Time after the start of the run from which safety and damage count: what a start that is not in \
-                 equilibrium takes to settle",
+                "Time after the start of the run from which safety and damage are evaluated: excludes the settling \
+                 of a start outside equilibrium",
             )
             .real(units::SECOND, (0.0, 1e9), |p| &mut p.rate_from),
         ]
