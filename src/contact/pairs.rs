@@ -78,8 +78,11 @@ pub struct Engagement {
     half_backlash: f64,
     base_pitch: f64,
     per_base_pitch: f64,
+    /// Position s of a tooth pair whose planet tooth is centred on the plane of both axes [rad].
     centred: f64,
+    /// Lower end of the path [rad].
     low: f64,
+    /// Upper end of the path [rad].
     pub(super) high: f64,
     pub(super) corner_contact: bool,
     /// Ranges in which tooth pairs can touch: at working loads, and up to the largest approach.

@@ -15,6 +15,7 @@ pub struct Block<const N: usize> {
     inverse: Inverse<N>,
     /// s K by columns.
     stiffness: Matrix<N>,
+    /// s of I/s − J [s].
     s: f64,
 }
 

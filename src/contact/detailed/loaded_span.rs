@@ -19,7 +19,9 @@ pub struct Span {
 /// At an end that moves with the load, p(R; A, E) = 0. The end therefore moves by dR = −(dA − dE/R)/p′.
 #[derive(Clone, Copy, Debug)]
 pub struct Moves {
+    /// Lower end [m].
     from: f64,
+    /// Reciprocal of the part's length [1/m].
     per_length: f64,
     /// ∂R/∂A and ∂R/∂E of both ends.
     ends: [[f64; 2]; 2],
@@ -47,7 +49,7 @@ impl Moves {
     }
 }
 
-/// True if the face is loaded at the cone distance `r`.
+/// True if the face is loaded at the cone distance `r` [m]. `a` is the approach minus the turn [rad].
 #[inline(always)]
 pub fn is_loaded_at(a: f64, even: f64, bend: f64, r: f64) -> bool {
     a * r - even - bend * r * r > 0.0

@@ -45,7 +45,8 @@ struct Near<P> {
 /// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
-/// Elastic load of a face at an own arc, divided by J, with its derivatives.
+/// Elastic load ω = M/J of a face at an own arc [N/m²], with its derivatives with respect to arc, opening E and
+/// position s, and the energy divided by J.
 #[derive(Clone, Copy, Default)]
 struct ElasticLoad {
     load: f64,

@@ -16,6 +16,7 @@ pub struct Chip {
     tooth: usize,
     /// Cone distance beyond which material is missing [m].
     from: f64,
+    /// Missing depth along the line of action [m].
     depth: f64,
 }
 

@@ -41,9 +41,11 @@ const NONE: Near = [0, -1];
 #[derive(Clone)]
 pub struct Candidates {
     trees: [Bvh; 2],
+    /// Number of pieces of a flank of each gear.
     pieces: [usize; 2],
     /// Number of the last tooth; the first tooth has the negative number.
     last: i32,
+    /// Largest gap of aligned gears at which flanks can touch [rad].
     apart: f64,
     /// Placement of gears without displacement.
     aligned: Placement,
@@ -51,6 +53,7 @@ pub struct Candidates {
     half_backlash: f64,
     /// Cells in order of x from −½ to ½ base pitch.
     cells: Vec<Near>,
+    /// Reciprocal of the length of a cell [1/rad].
     per_cell: f64,
     /// Largest overlap for which the cells are valid [rad].
     deepest: f64,
