@@ -2,7 +2,7 @@
 //!
 //! - `scene`: drives, inputs, material, integration, and the plan of bodies,
 //! - `thermal`: temperatures,
-//! - - `effect_kinds`: components of effects: forces on bodies, dry friction, changes to teeth,
+//! - `effect_kinds`: forces on bodies, dry friction and changes to teeth, of which effects consist,
 //! - `effects`: the effects, one file each, and their list,
 //! - `setup`: all parameters, and checks for contradictions,
 //! - `assembly`: constants computed from the parameters,

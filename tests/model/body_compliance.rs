@@ -147,15 +147,15 @@ fn assumptions_about_bores_are_logged_only_with_the_effect() {
     let [planet, side] = &added([0.0, 0.0])[..] else { panic!("two bores of 0") };
     assert!(planet.starts_with("geometry.planet_bore: 0 mm: the planet is taken as one piece with a pin"), "{planet}");
     assert!(side.starts_with("geometry.side_bore: 0 mm: the side gear is taken as one piece with a shaft"), "{side}");
-    // the rim of a quarter module at the toe, whose root circle is 33.931 mm
+    // the widest bore leaves a rim of a quarter of the module at the toe, where the root circle has 33.931 mm
     assert!(side.contains("about as stiff as on the widest bore, 32.743 mm"), "{side}");
-    // a pin transmits no torque, so that a thin pin has no effect
+    // pins transmit no torque, so the narrow bore of the planet causes no message
     let [side] = &added([4e-3, 8e-3])[..] else { panic!("one bore that takes torque") };
     assert!(side.starts_with("geometry.side_bore: 8.000 mm is less than half the root circle at the toe"), "{side}");
 }
 
-/// Transmission error with a side bore [m], straight ahead without backlash, under a load that a shaft of half a
-/// millimetre can transmit.
+/// Transmission error [m] with the diameter `side_bore` [m], straight ahead and without backlash. Even a shaft of 0.5
+/// mm can transmit the load of 20 N·m.
 fn error_on(side_bore: f64) -> f64 {
     let (p, mut inputs) = turn(true, |p| {
         (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
@@ -181,8 +181,8 @@ fn transmission_error_falls_with_the_bore_and_without_a_bore_is_close_to_that_of
     assert!((none / widest - 1.0).abs() < 0.1, "{none:e} {widest:e}");
 }
 
-/// Gears with many small teeth. `load` is the force of a tooth over face width, module and Young's modulus; `spin` is
-/// imposed on the planets [rad/s].
+/// Turn with the given numbers of teeth of planet and side gear, without bores. `load` is the tooth force divided by
+/// face width, module and Young's modulus. `spin` is the imposed speed of the planets [rad/s].
 fn many(teeth: [i32; 2], law: ContactLaw, load: f64, spin: f64) -> (Parameters, Inputs) {
     let (p, mut inputs) = turn(true, |p| {
         (p.geometry.planet_teeth, p.geometry.side_teeth, p.contact.law) = (teeth[0], teeth[1], law);
@@ -208,7 +208,7 @@ fn many_small_teeth_carry_their_load_from_the_start() {
                     let left = (inertia[s] * acceleration[s] / still.1.load_torque[s]).abs();
                     assert!(left < 1e-6, "{teeth:?} {law:?} {load}: {left:e} of the load is not balanced");
                 }
-                // over a pitch; loads with jumps took a hundred thousand steps there
+                // one pitch of rolling would take a hundred thousand steps if the tooth loads jumped
                 let scene = many(teeth, law, load, 2.0);
                 let pitch = std::f64::consts::TAU / f64::from(teeth[0]) / scene.1.planet_spin;
                 let ledger = ran(&scene, pitch).ledger();

@@ -54,7 +54,7 @@ fn scenes() -> Vec<Scene> {
 }
 
 /// Sequences of communication points up to `stop` [s].
-fn ways(stop: f64) -> Vec<Vec<f64>> {
+fn communication_points(stop: f64) -> Vec<Vec<f64>> {
     let even = |h: f64| {
         let count = (stop / h).round();
         (1..=count as u32).map(|k| stop * f64::from(k) / count).collect::<Vec<f64>>()
@@ -73,12 +73,12 @@ fn steps_of(state: &State) -> String {
 }
 
 #[test]
-fn the_integrator_s_steps_do_not_depend_on_communication_points() {
+fn steps_of_the_integrator_do_not_depend_on_communication_points() {
     const STOP: f64 = 0.05;
     for scene in scenes() {
         let mut whole = scene.start();
         whole.advance(STOP).unwrap();
-        for points in ways(STOP) {
+        for points in communication_points(STOP) {
             let mut simulation = scene.start();
             for &point in &points {
                 simulation.advance(point).unwrap();
@@ -149,10 +149,10 @@ fn the_integration_restarts_when_something_changes() {
             for k in 1..=100 {
                 fine.advance(f64::from(k) * 1e-4).unwrap();
             }
-            assert_eq!(fine.state().held_since, Some(0.0), "{}", scene.name);
+            assert_eq!(fine.state().constant_since, Some(0.0), "{}", scene.name);
             change(&mut fine, &scene);
             fine.advance(0.0101).unwrap();
-            assert_eq!(fine.state().held_since, Some(0.01), "{}: {what}", scene.name);
+            assert_eq!(fine.state().constant_since, Some(0.01), "{}: {what}", scene.name);
             let mut coarse = scene.start();
             coarse.advance(0.01).unwrap();
             change(&mut coarse, &scene);
@@ -215,7 +215,7 @@ fn energy_balances_as_well_as_without_communication_points() {
         let mut whole = scene.start();
         whole.advance(STOP).unwrap();
         let reference = whole.ledger().energy_residual;
-        for points in ways(STOP) {
+        for points in communication_points(STOP) {
             let mut simulation = scene.start();
             points.iter().for_each(|&point| simulation.advance(point).unwrap());
             let residual = simulation.ledger().energy_residual;
@@ -242,7 +242,7 @@ fn a_failure_beyond_a_communication_point_is_not_reported_at_it() {
     let failure = whole.advance(0.5).unwrap_err();
     assert!(failure.message.contains("tooth deflection exceeds"), "{failure}");
     assert!(failure.time > 1e-6 && whole.time() == failure.time);
-    // small steps come nearly as far, because a failure of the pending step beyond the present is not reported
+    // small steps reach nearly the same time, because a failure of the pending step beyond the present is not reported
     let mut simulation = scene.start();
     let h = failure.time / 200.0;
     let mut reached = 0;

@@ -3,7 +3,9 @@
 
 use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Method, Parameters, Simulation};
 
+/// Stiffness k of each half-shaft [N·m/rad].
 const STIFFNESS: f64 = 9000.0;
+/// Damping c of each half-shaft [N·m·s/rad].
 const DAMPING: f64 = 5.0;
 /// Inertia of each wheel [kg·m²].
 const END: f64 = 1.0;
@@ -12,7 +14,8 @@ const TORQUE: f64 = 250.0;
 /// Communication step [s].
 const H: f64 = 1e-3;
 
-/// Twist and twist rate `h` [s] after they were `twist` and `rate`: φ̈ = f − a (k φ + c φ̇).
+/// Twist [rad] and twist rate [rad/s] `h` [s] after they were `twist` and `rate`, by the closed-form solution of
+/// φ̈ = f − a (k φ + c φ̇).
 fn twist_after(h: f64, [twist, rate]: [f64; 2], f: f64, a: f64) -> [f64; 2] {
     let rest = f / (a * STIFFNESS);
     let decay = 0.5 * a * DAMPING;

@@ -20,7 +20,8 @@ const SPIN: f64 = 24.0;
 /// Duration of two and a half cycles [s].
 const STOP: f64 = 0.065;
 
-/// Turn before its first step, with mesh history, these `integers`, and these Booleans set to true.
+/// Turn before its first step, with mesh history. `integers` are values of integer variables, and `switches` are
+/// Boolean variables that are set to true. The `sign` −1 reverses speeds and loads.
 fn turn(sign: f64, integers: &[(&str, i32)], switches: &[&str]) -> Host {
     let host = Host::new();
     for name in switches.iter().chain(&["effects.mesh_history"]) {
@@ -53,7 +54,7 @@ fn load(host: &Host, millisecond: usize, varies: bool) {
     }
 }
 
-/// Runs with `per` steps per millisecond.
+/// Runs up to [`STOP`] with `per` steps per millisecond.
 fn run(host: &Host, per: usize, varies: bool) {
     for k in 0..(STOP * 1e3).round() as usize {
         load(host, k, varies);

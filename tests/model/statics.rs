@@ -160,7 +160,7 @@ fn free_planets_hold_small_imbalance_and_roll_beyond_the_threshold_of_statics() 
         }
         assert!(m.spin_angle[0].abs() < 0.1, "+{extra} N·m rolled {} rad", m.spin_angle[0]);
     }
-    // quasi-statically, the threshold of the program is that of its potential
+    // from an equilibrium, the planets of the program start to roll at the threshold computed from the potential
     assert!(run(0.97 * threshold, Start::Equilibrium, 0.2).spin_speed[0].abs() < 1e-3);
     for extra in [1.03 * threshold, 60.0] {
         let m = run(extra, Start::Equilibrium, 0.1);

@@ -24,12 +24,13 @@ ALL = [
 COLUMNS = ["quantity", "scene", "want", "accuracy", "gears", "effects", "solver", "error", "stray", "real_time", "price",
            "reference_price"]
 HEAD = ["quantity", "within", "gears", "effects", "tolerance", "error", "× real time"]
+QUESTION = ["quantity", "scene", "`--want`"]
 TITLE = "The cheapest setting by quantity, each found and checked by `bevel-differential accuracy`"
 
 
 def decisions(folder, count, begin, end):
     """Answers the first `count` questions, writes the file, and returns the table; the bar moves from `begin` to `end`."""
-    rows, table, asked = [COLUMNS], [HEAD], {}
+    rows, table, questions = [COLUMNS], [HEAD], [QUESTION]
     for place, (quantity, name, want, within) in enumerate(ALL[:count]):
         stop = read_scene(find(name))["stop"]
         # the start is a transient
@@ -45,11 +46,11 @@ def decisions(folder, count, begin, end):
         rows.append([quantity, name, want, within, gears, effects.replace(", ", " "), solver, run.error, stray,
                      stop / run.seconds if run.seconds else math.nan, run.price, found.reference.price])
         error = percent(run.error) + (f"; two runs of the richest model differ by {percent(stray)}" if found.uncertain else "")
-        asked.setdefault(f"`{name}{f' --from {start:g}s' if start else ''}`", []).append(f"`{want}`")
+        questions.append([quantity, f"`{name}{f' --from {start:g}s' if start else ''}`", f"`{want}`"])
         # without teeth and effects, the motion has a closed form
         tolerance = solver.removeprefix("tolerance ") if effects or gears != "ideal" else "–"
         table.append([quantity, f"{100.0 * within:g} %", gears, effects or "–", tolerance, error,
                       significant(stop / run.seconds, 2) if run.seconds else ""])
     write_measured(folder / "decisions.csv", ["error: of the chosen setting against the richest model, as a fraction"], rows)
-    questions = "; ".join(f"{scene}: {', '.join(wants)}" for scene, wants in asked.items())
-    return f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nScenes and `--want`, in the order of the rows: {questions}."
+    return (f"{TITLE}:\n\n{markdown(table, range(len(HEAD)))}\nThe questions to `accuracy`:\n\n"
+            f"{markdown(questions, range(len(QUESTION)))}")

@@ -17,14 +17,15 @@ LOADS, STUDY_LOAD, STUDY_CONE = (0.1, 0.5, 1.0), 835.0, 42.45e-3
 # compared quantities: columns of the table
 WANTS = {"mean force": "planet[1].left_normal_force:mean", "largest force": "planet[1].left_normal_force:max",
          "mean transmission error": "planet[1].left_transmission_error:mean",
-         "its swing": "planet[1].left_transmission_error:peak_to_peak", "ripple of speed": "left.speed:peak_to_peak"}
+         "peak to peak": "planet[1].left_transmission_error:peak_to_peak", "ripple of speed": "left.speed:peak_to_peak"}
 # laws, with elastic gear bodies if True; the last one is the richest
 LAWS = {"`impact`": ("impact", False), "`line`": ("line", False), "`line_weber`": ("line_weber", False),
         "`line` + gear bodies": ("line", True), "`line_weber` + gear bodies": ("line_weber", True)}
 # fraction of the turn in which the teeth meet, which is ignored
 START = 0.1
-TITLE = ("Errors of each law against `line_weber` + gear bodies, least and largest over four gear pairs (10/16, 12/20 and 14/18 teeth, "
-         "modules 3 to 6 mm, with and without bores) and loads from 10 to 100 % of the study's, scaled by size")
+TITLE = ("Smallest and largest errors of each law, compared with `line_weber` + gear bodies. There are four gear pairs with 10/16, 12/20 "
+         "and 14/18 teeth, modules from 3 to 6 mm, with and without bores. Loads are 10 to 100 % of the study's load, scaled to the size "
+         "of the gears")
 
 
 def figures(fmu, scene, values, law, bodies):

@@ -19,7 +19,7 @@ from tools import machine, say, significant
 
 STEP = 1e-3
 COUNTED = 0.5
-# from here on an evaluation of a pair over the sum of both alone is told
+# ratio of a pair's cost to the sum of both effects from which the pair is listed
 DEAR = 1.3
 # runs of each, and for a quick look
 RUNS, FEW = 9, 3
@@ -92,7 +92,7 @@ class Prices:
         return counted, taken, over, of_one
 
     def moving(self, values):
-        """× real time while a load moves, held through each step and along lines."""
+        """× real time while a load moves: held within each step, and with slopes."""
         sines = [Sine(how, LOAD, float(self.fmu.variable(LOAD).start), AMPLITUDE, FREQUENCY) for how in ("held", "lines")]
         taken, _ = self.bench.compare(*((self.fmu, values, [], sine) for sine in sines))
         return [significant(STEP / each, 2) for each in taken]
@@ -114,7 +114,8 @@ def prices(bench, fmu, switches, with_pairs, folder):
     pairs = [(a, b) for k, a in enumerate(["line", *switches]) for b in ["line", *switches][k + 1:]] if with_pairs else []
     stages = 2 + len(singles) + len(pairs)
     priced = Prices(bench, fmu)
-    rows = [["on", "steps", "rejected", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "× real time", "load held", "along lines"]]
+    rows = [["on", "steps", "rejected", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "× real time",
+             "load held", "with slopes"]]
     known, data = {}, []
     for done, (name, values) in enumerate({"nothing": {}, **singles}.items()):
         say(done / stages, f"timing {name}")
@@ -131,8 +132,9 @@ def prices(bench, fmu, switches, with_pairs, folder):
     write(folder, "prices.csv", [["on", "evaluation", "communication_step"], *data])
     write(folder, "alone.csv", rows)
     added = 1.0 + sum(known[name] - 1.0 for name in ALL)
-    text = (f"Each alone; \"all together\" is {', '.join(f'`{name}`' for name in ALL)}, grade 6.\n\n{markdown([short(row) for row in rows])}\n"
-            f"All together an evaluation costs {of_all:.1f} times that of plain teeth; single surcharges would add up to {added:.1f}.\n")
+    text = (f"Each row has one level, law or effect on. \"All together\" is {', '.join(f'`{name}`' for name in ALL)} of grade 6.\n\n"
+            f"{markdown([short(row) for row in rows])}\nWith all together, an evaluation costs {of_all:.1f} times that of plain teeth; "
+            f"adding up the single effects would give {added:.1f}.\n")
     if pairs:
         rows = [["on", "steps", "evaluations", "µs per 1 ms", "over plain (quartiles)", "of an evaluation", "over the sum"]]
         for done, (a, b) in enumerate(pairs):
@@ -145,11 +147,12 @@ def prices(bench, fmu, switches, with_pairs, folder):
 
 
 def pairs_text(rows):
-    """Pairs that cost far more than the sum of both alone, and the range of the others."""
+    """Pairs that cost far more than the sum of both effects, and the range of the others."""
     dear = sorted((row for row in rows if float(row[-1]) >= DEAR), key=lambda row: -float(row[-1]))
     others = [float(row[-1]) for row in rows if float(row[-1]) < DEAR]
-    most_pairs = f"\nOf {len(rows)} pairs {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both alone"
-    return f"{most_pairs}. The others:\n\n{markdown([['on', 'over plain', 'over the sum'], *([row[0], row[4].split(' ')[0], row[-1]] for row in dear)])}"
+    most_pairs = f"\nOf {len(rows)} pairs, {len(others)} cost {min(others):.2f} to {max(others):.2f} times the sum of both effects"
+    table = [["on", "over plain", "over the sum"], *([row[0], row[4].split(" ")[0], row[-1]] for row in dear)]
+    return f"{most_pairs}. The others:\n\n{markdown(table)}"
 
 
 def write(folder, name, rows):
@@ -189,7 +192,7 @@ def main():
         text = builds(bench, fmu, Fmu.of(given.against), switches)
     else:
         text = prices(bench, fmu, switches, not given.quick, given.folder)
-    print(f"{text}\nMedians of {runs} runs each, which alternate. {machine()}.")
+    print(f"{text}\nMedians of {runs} alternating runs. {machine()}.")
 
 
 if __name__ == "__main__":

@@ -72,8 +72,8 @@ def study(found):
     tooth = found.tooth
     table.append(["exact teeth", "0", *cells(tooth), *cells(tooth)])
     worst = max(row.look["tangential"] for row in found.rows)
-    text = (f"Exact teeth swing by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of the mean "
-            f"of {tooth.look['mean']:.0f} N, where tip corners take load over or hand it on. A single loaded pair overlaps by "
-            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the study's own quantity, moves by {three(worst)} N at most, "
-            f"whatever the facets: the load is constant and the gears are light.\n")
+    text = (f"The force of exact teeth swings by {three(tooth.look['ripple'])} N, {percent(tooth.look['ripple'], tooth.look['mean'])} % of "
+            f"the mean of {tooth.look['mean']:.0f} N, because tip corners take over and release load. A single loaded pair overlaps by "
+            f"{three(1e3 * found.overlap)} mm under the study's K. T/r_p, the quantity of the study, varies by at most {three(worst)} N "
+            f"for any number of facets, because the load is constant and the gears are light.\n")
     return f"{markdown(table, left=())}\n{text}"

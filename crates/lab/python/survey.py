@@ -146,27 +146,27 @@ def surveyed(fmu, folder, scenes, seed):
 
 
 def verdict(cases, failed):
-    """Counts in sentences, and tables of misses and of uncertain references."""
+    """Counts in sentences, and tables of wrong and of uncertain answers."""
     certain = [one for one in cases if not one.uncertain]
     good = sum(one.is_within for one in certain)
     gain, spent = [one.gain for one in cases], [one.spent for one in cases]
     middle = [significant(statistics.median(values) if values else np.nan, 2) for values in (gain, spent)]
-    lines = wrapped(f"{len(cases)} questions; in {len(cases) - len(certain)} the answer says that its reference is not certain. Of the "
-                    f"other {len(certain)}, {good} are within the accuracy, {100.0 * good / max(len(certain), 1):.1f} %. In the median the "
-                    f"chosen setting is {middle[0]} times cheaper than the reference, and the search costs {middle[1]} reference runs, "
-                    f"{significant(max(spent, default=0.0), 2)} at most.")
+    lines = wrapped(f"{len(cases)} questions. {len(certain)} answers are certain, and {good} of them "
+                    f"({100.0 * good / max(len(certain), 1):.1f} %) are within the accuracy. In the median, the "
+                    f"chosen setting is {middle[0]} times cheaper than the reference. In the median, a search costs as much as {middle[1]} "
+                    f"reference runs; the most expensive one as much as {significant(max(spent, default=0.0), 2)}.")
     for title, some in [
-            ("Misses: the chosen setting in the FMU is off by more than wanted", [one for one in cases if not one.is_within]),
-            ("Silent: the reference was off by more than a third of the accuracy, and the answer did not say so",
+            ("Wrong: in the FMU, the error of the chosen setting exceeds the accuracy", [one for one in cases if not one.is_within]),
+            ("Silent: the error of the reference exceeds a third of the accuracy, and the answer does not say so",
              [one for one in cases if one.is_silent]),
-            ("Said: the answer says that its reference is not certain", [one for one in cases if one.uncertain])]:
+            ("Uncertain: the answer says NOT CERTAIN", [one for one in cases if one.uncertain])]:
         lines += ["", f"{title}: {len(some)}"]
         if some:
             rows = [["case", "quantity", "within", "error in the FMU", "error of the answer", "uncertainty", "references apart"]]
             rows += [[one.case, one.want, *map(percent, (one.within, one.error, one.promised, one.stray, one.apart))] for one in some]
             lines += ["", *aligned(rows)]
     if failed:
-        lines += ["", f"Scenes that cannot be asked: {len(failed)}", *(line for text in failed for line in wrapped(text))]
+        lines += ["", f"Scenes without an answer: {len(failed)}", *(line for text in failed for line in wrapped(text))]
     return "\n".join(["", "```text", *lines, "```", ""])
 
 

@@ -17,7 +17,7 @@ pub struct BodyEffects {
     pub friction: Vec<FrictionSource>,
     /// The half-shafts.
     pub half_shafts: HalfShafts,
-    /// True if there are effects. Without them, a lock may still be commanded.
+    /// True if anything other than a commanded lock acts in addition to plain gears.
     pub has_effects: bool,
     /// True if wheels have brakes.
     pub has_brakes: bool,

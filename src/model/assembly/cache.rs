@@ -60,7 +60,8 @@ impl<V> Cache<V> {
 }
 
 impl<V: Clone> Cache<V> {
-    /// Returns the value of the key `key`. If the cache does not contain it, `make` computes it.
+    /// Returns the value of the key `key`. If the cache does not contain it, `make` computes it. A value whose key
+    /// cannot be serialised is computed each time.
     pub fn get(&self, key: &impl Serialize, make: impl FnOnce() -> V) -> V {
         match postcard::to_extend(key, Vec::with_capacity(USUAL)) {
             Ok(key) => self.entry(key).get_or_init(make).clone(),

@@ -73,7 +73,8 @@ impl GearCache {
         self.engagements.get(&(pair, corner_contact, reach), || Engagement::new(pair, corner_contact, reach))
     }
 
-    /// Stiffness of the tooth pairs of `pair` in the scene `p`.
+    /// Stiffness of the tooth pairs of `pair` in the scene `p`. Fails if material, root fillet or reference line load
+    /// give teeth without a valid stiffness.
     pub fn stiffness(&self, p: &Parameters, pair: &Pair) -> Result<Arc<PairStiffness>, Problem> {
         let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
         self.stiffness.get(&(pair, fillet, young, poisson, load), || {
@@ -82,7 +83,7 @@ impl GearCache {
     }
 
     /// Tooth pairs of `pair` on elastic gear bodies in the scene `p`. Side gears are held by splines, and planets by
-    /// pins that transmit no torque.
+    /// pins that transmit no torque. Fails as [`Self::stiffness`] does, or if a bore leaves no body below the teeth.
     pub fn on_bodies(&self, p: &Parameters, pair: &Pair) -> Result<Arc<OnBodies>, Problem> {
         let (fillet, [young, poisson, load]) = (p.geometry.root_fillet, elasticity(p));
         let (bores, planets) = ([p.geometry.planet_bore, p.geometry.side_bore], p.geometry.planet_count.unsigned_abs());
@@ -100,7 +101,7 @@ impl GearCache {
         })
     }
 
-    /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`.
+    /// Mean stiffness of the mesh of `pair` per unit of width [Pa] in the scene `p`. Fails as [`Self::stiffness`] does.
     pub fn mesh_mean(&self, p: &Parameters, pair: &Pair) -> Result<f64, Problem> {
         let key = (pair, p.geometry.root_fillet, elasticity(p));
         self.means.get(&key, || Ok(self.stiffness(p, pair)?.mesh_mean()))
@@ -129,7 +130,9 @@ fn elasticity(p: &Parameters) -> [f64; 3] {
 
 /// Shared cache, and the number of its users.
 struct Common {
+    /// Number of handles.
     shares: usize,
+    /// Cache; `None` without handles.
     cache: Option<Arc<GearCache>>,
 }
 

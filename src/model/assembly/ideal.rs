@@ -48,8 +48,8 @@ impl Ideal {
         [0, 1].map(|s| j.side[s] - if self.plan.shafts[s] { j.end[s] } else { 0.0 })
     }
 
-    /// Jump of a free speed over the jump of an imposed speed: spin over carrier, and carrier over spin. Sides of
-    /// unequal inertia couple both speeds.
+    /// Ratios Δψ̇/Δω_c and Δω_c/Δψ̇ of the jump of a free speed to the jump of an imposed speed. A ratio is 0 unless
+    /// only its denominator is imposed. Sides of unequal inertia couple both speeds.
     pub fn impulse(&self) -> [f64; 2] {
         let [m11, m12, m22] = self.mass();
         let plan = &self.plan;
@@ -59,7 +59,7 @@ impl Ideal {
         ]
     }
 
-    /// Accelerations of the side gears.
+    /// Accelerations of the side gears [rad/s²].
     pub fn side_accelerations(&self, m: &IdealMotion) -> [f64; 2] {
         [m.carrier + self.ratio * m.spin, m.carrier - self.ratio * m.spin]
     }

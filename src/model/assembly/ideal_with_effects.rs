@@ -14,7 +14,7 @@ use crate::numeric::lanes;
 /// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and half-shaft ends.
 pub const IDEAL_SIZE: usize = PLANET + 1 + ATTACHED_COUNT;
 
-/// Motions that may be imposed: carrier, spin, left and right end.
+/// Number of motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;
 
 /// Constants of a scene whose forces are linear, because only half-shafts act.

@@ -7,8 +7,8 @@ use crate::model::setup::Parameters;
 
 /// Inertias that the equations of motion need [kg·m²].
 ///
-/// Planet axes are perpendicular to the carrier axis, so the kinetic energy is diagonal in the absolute speeds of
-/// carrier and side gears and the relative spins of the planets.
+/// Planet axes are perpendicular to the carrier axis. The kinetic energy is therefore diagonal in the absolute speeds
+/// of carrier and side gears and the relative spins of the planets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertias {
     /// Carrier with the transverse inertia of all planets.
@@ -52,8 +52,8 @@ impl Inertias {
         }
     }
 
-    /// Inertia by degree of freedom of `plan`, for a single planet and pin of each group, and inertias of the ends that
-    /// are rigid on their side gears.
+    /// Inertia of each degree of freedom of `plan` [kg·m², for seats kg], for a single planet and pin of each group.
+    /// The second value contains the inertias of the ends that are rigid on their side gears [kg·m²].
     pub fn by_freedom(&self, plan: &Plan) -> ([f64; MAX_DOF], [f64; 2]) {
         let layout = plan.layout();
         let mut inertia = [0.0; MAX_DOF];

@@ -25,7 +25,7 @@ pub struct Laws {
     pub spring: AnySpring,
     /// Position of the resultant of a pair.
     pub whole: Resultant,
-    /// Solid teeth.
+    /// Mesh of solid teeth, if the scene has them.
     pub solid: Option<Box<SolidMesh>>,
     /// Face over which loads are summed in detail.
     pub face: DetailedFace,
@@ -37,13 +37,14 @@ pub struct Laws {
 
 impl Laws {
     /// Law of the scene with the influence of effects on the teeth: elastic bodies, and loads that differ over the face
-    /// if the law is valid at every cone distance.
+    /// if the law is valid at every cone distance. Fails if the stiffness of teeth or gear bodies cannot be computed.
     pub fn new(p: &Parameters, pair: &Pair, tooth: &ToothEffects, cache: &GearCache) -> Result<Self, Problem> {
         let distributed = tooth.distributed;
         let (outer, inner) = (pair.outer_cone, pair.inner_cone);
         let moment = (outer * outer * outer - inner * inner * inner) / 3.0;
         let centroid = centroid(pair);
-        // the resultant at `cone` of a load that grows with R, spread over a width that gives the line load at `cone`
+        // a single slice at `cone` stands for the whole face; if the load per width grows with R, force over this width
+        // is the load per width at `cone`
         let width = |cone: f64| (outer - inner) * pair.mean_cone / cone;
         let whole = |cone: f64, weight: f64| DetailedFace::whole(Slice { cone, weight, width: width(cone) });
         if p.scene.gear_contact == GearContact::Lumped {
@@ -106,7 +107,8 @@ impl Laws {
     }
 }
 
-/// Law from the stiffness of the teeth, and the gear bodies that pairs share, if they are elastic.
+/// Law from the stiffness of the teeth, and the gear bodies that pairs share, if they are elastic. Fails if their
+/// stiffness cannot be computed.
 fn of_teeth<S>(
     p: &Parameters,
     pair: &Pair,

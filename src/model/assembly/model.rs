@@ -97,7 +97,7 @@ impl Model {
         let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
         let gears = match plan.contact {
             GearContact::Ideal => {
-                // a closed form has no steps that could be recorded
+                // warming up is recorded step by step, but the closed form has no steps
                 body_effects.has_effects |= parameters.effects.warm_up;
                 Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
             }
@@ -147,7 +147,7 @@ impl Model {
         self.watch.as_ref()?.strength.as_ref()
     }
 
-    /// Applies the tunable parameters of `parameters`, which must differ only in these.
+    /// Applies the tunable parameters of `parameters`. All other parameters must be unchanged.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
         if let Some(thermal) = &mut self.thermal {
@@ -173,7 +173,7 @@ impl Model {
     }
 }
 
-/// Thermal network with gears of these masses.
+/// Thermal network of a scene whose planet and side gear have the given `masses`.
 fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
     let [planet, side] = masses.map(|gear| gear.mass);
     let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;

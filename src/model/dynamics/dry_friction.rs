@@ -52,7 +52,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.add_friction_torques(at, &self.all_surface_loads(loads), sum, ledger_rates);
     }
 
-    /// Loads on all rubbing surfaces. `loads` are those of side gears and planets.
+    /// Loads on all rubbing surfaces. `loads` contains the loads on side gears and planets.
     fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
         let mut all = self.by_body(loads);
         all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(&self.applied.inputs));

@@ -272,7 +272,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     #[inline]
     pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         (lin.acceleration, lin.ledger_rates) = ([0.0; N], LedgerRates::default());
-        // rows beyond are always zero
+        // rows beyond the last degree of freedom are always zero
         for i in 0..self.count() {
             (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
         }

@@ -30,7 +30,8 @@ pub enum Happening {
 pub struct Event {
     /// Kind of the event.
     pub what: Happening,
-    /// Number of the friction surface: side gears, planet groups, wheels; 0 for teeth.
+    /// Index of the body that friction starts or stops holding: side gears, then planet groups, then wheels. It is 0
+    /// for teeth.
     pub place: u8,
     /// Time [s].
     pub time: f64,

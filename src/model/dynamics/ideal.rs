@@ -71,7 +71,8 @@ impl<'a> IdealEquations<'a> {
         (&self.applied.inputs, &self.applied.input_derivatives.rates[0])
     }
 
-    /// Forces, including commanded torques except those of imposed motions, and the accelerations of imposed motions.
+    /// Forces, including the commanded torques of motions that are not imposed, and the accelerations of imposed
+    /// motions.
     fn forces(
         &self,
         at: &Point<IDEAL_SIZE>,

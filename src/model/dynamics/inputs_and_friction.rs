@@ -102,7 +102,7 @@ impl InputsAndFriction {
 
 /// Bodies on which friction acts.
 fn bodies_with_friction<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = usize> {
-    // the bits of a number are found with few branches
+    // a loop over the set bits of a mask needs few branches
     let mut left = of.applied().friction().mask(of.sticking().len());
     std::iter::from_fn(move || {
         let body = left.trailing_zeros();
@@ -129,7 +129,8 @@ pub trait FrictionEquations<const N: usize> {
     fn has_dry_friction(&self) -> bool;
     /// True if half-shafts have ends.
     fn has_ends(&self) -> bool;
-    /// Number of planets in each group that may stick on its pins.
+    /// Number of planets in each group that dry friction may hold on their pins. Empty for ideal gears, because their
+    /// planets stick together with the side gears.
     fn sticking(&self) -> &[f64];
     /// Loads of the meshes on the surfaces of side gears and planets at `at`, if friction depends on them.
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];
@@ -376,8 +377,8 @@ pub trait FrictionEquations<const N: usize> {
         })
     }
 
-    /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction, at `at` and
-    /// `time` [s] after the inputs were set.
+    /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction. This is evaluated
+    /// at `at`, `time` [s] after the inputs were set.
     fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
         let direction = self.applied().friction_state[i].mode.direction();
         if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {
@@ -387,7 +388,7 @@ pub trait FrictionEquations<const N: usize> {
         direction * self.slip(&Point { q: at.q, v }, i).speed <= 0.0
     }
 
-    /// Drags the anchors of sliding bodies to the point `at` with these ledger rates.
+    /// Drags the anchors of sliding bodies to the point `at`. `ledger_rates` contain the limit torques at this point.
     #[inline]
     fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.has_dry_friction() {

@@ -52,8 +52,12 @@ impl LedgerRates {
         }
     }
 
-    /// Residual of the energy balance of a step of size `h`, and the energy exchanged in the step: stored energy, work
-    /// and heat. Only the rounding of the kinetic energy counts, because most of this energy is never exchanged.
+    /// Residual of the energy balance of a step of size `h` [s], and the energy exchanged in the step: stored energy,
+    /// work and heat. The energies before and after the step are kinetic and stored energy [J]. Without `ALL`, only
+    /// contact produces heat.
+    ///
+    /// Kinetic energy does not count as exchanged, because most of it stays in the bodies. The residual is reduced by
+    /// its rounding.
     #[inline]
     pub fn imbalance<const ALL: bool>([before, after]: [[f64; 2]; 2], h: f64, [a, m, b]: &[Self; 3]) -> Imbalance {
         let simpson = |of: &dyn Fn(&Self) -> f64| h / 6.0 * (of(a) + 4.0 * of(m) + of(b));

@@ -17,7 +17,7 @@ pub struct Clock {
     pub time: f64,
     /// Present time, or the target time of an integration.
     pub now: f64,
-    /// Time at which the equations end, because a tooth breaks or inputs change.
+    /// Time up to which the present equations are valid, because a tooth breaks or inputs change then.
     pub end: f64,
     /// Time at which inputs are expected to change.
     pub expected: f64,
@@ -51,13 +51,16 @@ type Motion = [[f64; MAX_DOF]; 2];
 pub struct PendingStep {
     /// Inputs during the step.
     pub inputs: Inputs,
-    /// Clock with the start of the step, the present, and the end of the equations.
+    /// Clock with the start of the step, the present time, and the time up to which the equations are valid.
     pub clock: Clock,
     attempt: Attempt,
     start: Motion,
     end: Motion,
+    /// Coefficients of the dense output (`integrate::Extension`).
     coefficients: [Motion; 3],
+    /// Ledger rates at the start of the step and halfway.
     ledger_rates: [LedgerRates; 2],
+    /// Kinetic and stored energy at the start of the step [J].
     energy: [f64; 2],
 }
 

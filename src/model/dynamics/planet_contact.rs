@@ -42,7 +42,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Present gaps of the teeth.
+    /// Gaps of the tooth pairs with intact or broken teeth; `None` for perfect teeth.
     pub(in crate::model) fn gaps(&self) -> Option<&FlankGaps> {
         self.teeth.contact.gaps(self.is_tooth_broken)
     }
@@ -52,14 +52,14 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         self.gaps().is_some() || self.teeth.contact.bodies.is_some()
     }
 
-    /// Friction along the flanks at the present viscosity of the oil.
+    /// Friction along the flanks at the present viscosity of the oil; `None` without tooth friction.
     pub(in crate::model) fn flank_friction(&self) -> Option<ToothFriction> {
         self.teeth.contact.friction(self.applied.oil_viscosity.map(|oil| oil.dynamic))
     }
 
     /// Returns an earlier group whose meshes have exactly the state of the meshes of group `g`, so that both have the
     /// same loads. Planets that are simulated individually move identically until an event, such as a broken tooth,
-    /// makes one of them differ.
+    /// makes one of them differ. Returns `None` if no earlier group has this state.
     #[inline]
     pub(in crate::model) fn twin(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if self.groups() == 1 || self.teeth.contact.solid.is_some() {
@@ -74,8 +74,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         })
     }
 
-    /// Twin of group `g` for loads of type `L`. Detailed loads have no twin, because the teeth of two planets may
-    /// differ.
+    /// Returns [`Self::twin`] of group `g` for loads of type `L`, but `None` for detailed loads, because the teeth of
+    /// two planets may differ.
     #[inline(always)]
     fn twin_under<L: MeshLoad>(&self, at: &Point<N>, g: usize) -> Option<usize> {
         if L::PRESSES { None } else { self.twin(at, g) }
@@ -277,7 +277,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     }
 
     /// Elastic energy that tooth pairs of the mesh of group `g` with side `s` add when they enter or leave contact
-    /// between two points [J]. Pairs of both sides may do so at the same time.
+    /// between two points [J]. Both meshes may do so at the same time. The left mesh is therefore evaluated with the
+    /// right mesh before its change, and the right mesh with the left mesh after its change.
     pub(in crate::model) fn energy_brought(&self, [before, after]: [&Point<N>; 2], g: usize, s: usize) -> f64 {
         let [from, to] = if s == 0 { [[before, before], [after, before]] } else { [[after, before], [after, after]] };
         let state = |at: [&Point<N>; 2]| {
@@ -302,7 +303,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         loads.map(|load| load.force()[Q])
     }
 
-    /// Fraction of a step of `h` [s] from `at` after which a force has its first kink.
+    /// Fraction of a step of `h` [s] from `at` after which a force has its first kink; `None` if no kink is expected.
     #[inline]
     pub(super) fn first_kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         with_contact!(S::MAY_ACT, self.contact(), contact => {

@@ -32,12 +32,12 @@ impl TorqueMeans {
 ///
 /// Cycles begin at the position of the start, and at whole pitches from it. Forward and backward rolling therefore
 /// divide time identically, and so does a differential with exchanged sides.
-pub struct Cycle {
+pub struct CycleCounter {
     /// Pitch of a side gear [rad].
     pub pitch: f64,
 }
 
-impl Cycle {
+impl CycleCounter {
     /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s]. Left and right side gear turned by `turned` [rad]
     /// relative to the carrier. Half the difference of both angles is the rolling angle, which does not contain
     /// deflections of the teeth.
@@ -74,7 +74,7 @@ mod tests {
     /// Rolls through the positions `places`, in cycles, with steps of 0.1 s. Torques are `torque` at the middle of each
     /// step.
     fn rolled(places: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> TorqueMeans {
-        let (cycle, mut means) = (Cycle { pitch: 2.0 }, TorqueMeans::default());
+        let (cycle, mut means) = (CycleCounter { pitch: 2.0 }, TorqueMeans::default());
         for pair in places.windows(2) {
             let by = 2.0 * (pair[1] - pair[0]);
             cycle.add(&mut means, [by, -by], 0.1, torque(0.5 * (pair[0] + pair[1])).map(|t| 0.1 * t));

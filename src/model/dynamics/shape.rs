@@ -13,10 +13,9 @@ pub const PLAIN_SIZE: usize = 4;
 pub const TWO_GROUPS_SIZE: usize = 5;
 /// Number of degrees of freedom with identical planets and half-shafts that twist.
 pub const ENDS_SIZE: usize = 6;
-/// Maximum number of degrees of freedom for which other shapes use small matrices. It is a multiple of any vector
-/// width.
+/// Matrix size for other shapes with at most this number of degrees of freedom. It is a multiple of any vector width.
 pub const MEDIUM_SIZE: usize = 8;
-/// Number of degrees of freedom that fits every scene. It is a multiple of any vector width.
+/// Matrix size that fits every scene. It is a multiple of any vector width.
 pub const MAX_SIZE: usize = 16;
 
 // otherwise another attached body could exceed this number unnoticed

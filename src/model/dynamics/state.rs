@@ -23,6 +23,7 @@ const MOST_PERIODS: u64 = 1 << 53;
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
+    /// Time [s].
     time: f64,
     /// Positions [rad; seats m]. Angles of gears are wrapped into a tooth pitch, the carrier's angle into a turn.
     pub q: [f64; MAX_DOF],
@@ -56,16 +57,17 @@ pub struct State {
     pub input_derivatives: Option<InputDerivatives>,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// Time of the last change of the inputs or of anything else [s]. Inputs are constant since then.
-    pub held_since: Option<f64>,
-    /// Time between the last two such changes [s]; infinite before the second one.
-    pub held_before: f64,
-    /// Step of the integrator that contains the present. Work, heat, friction and damage are those at the start of this
-    /// step.
+    /// Start of the present interval of constant inputs [s]: the time at which the integration last restarted or
+    /// torques last changed. `None` before the first start.
+    pub constant_since: Option<f64>,
+    /// Length of the previous interval of constant inputs [s]; infinite if there was none.
+    pub constant_before: f64,
+    /// Step of the integrator that contains the present. Work, heat, friction and damage are still the values at the
+    /// start of this step.
     pub pending_step: Option<PendingStep>,
     /// Last events.
     pub events: Events,
-    /// Pause between two communication points, which tells from where the remaining interval counts.
+    /// Pause between two communication points. It contains the point from which the remaining interval counts.
     pub pause: Option<Pause>,
 }
 
@@ -90,8 +92,8 @@ impl State {
             carrier_command: 0.0,
             input_derivatives: None,
             energy_at_start: 0.0,
-            held_since: None,
-            held_before: f64::INFINITY,
+            constant_since: None,
+            constant_before: f64::INFINITY,
             pending_step: None,
             events: Events::default(),
             pause: None,
@@ -242,8 +244,8 @@ impl State {
             carrier_command,
             input_derivatives,
             energy_at_start,
-            held_since,
-            held_before,
+            constant_since,
+            constant_before,
             pending_step: _,
             events: _,
             pause: _,
@@ -259,8 +261,8 @@ impl State {
             && whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(lock)
             && control.is_valid()
-            && *held_before >= 0.0
-            && Finite::is_finite(held_since)
+            && *constant_before >= 0.0
+            && Finite::is_finite(constant_since)
     }
 }
 

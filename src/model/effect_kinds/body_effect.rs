@@ -35,7 +35,7 @@ pub struct Action<'a> {
 
 /// Derivatives of the forces, row by row.
 pub struct Slopes<'a> {
-    /// Degrees of freedom in a row.
+    /// Number of columns of the matrices.
     pub n: usize,
     /// ∂force/∂position.
     pub by_position: &'a mut [f64],

@@ -34,6 +34,7 @@ const ROUNDING: f64 = 2.0 * f64::EPSILON;
 const STANDSTILL_TOLERANCE: f64 = 0.25;
 /// Range of step fractions within which a switch is located.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
+
 /// Friction on a body: its parts, and the sources with their laws of sliding.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction<'a> {
@@ -90,6 +91,7 @@ impl<'a> DryFriction<'a> {
         })
     }
 
+    /// Limit torque of a held body: static ratio times kinetic limit torque, summed over all parts [N·m].
     fn breakaway(&self, by: &SurfaceLoad) -> f64 {
         self.parts().map(|(part, source)| source.static_ratio * part.at(by)).sum()
     }

@@ -65,7 +65,7 @@ pub const fn pv_reading(name: &'static str, description: &'static str) -> Readin
 pub struct Needs {
     /// Representations with which the effect works.
     pub contacts: &'static [GearContact],
-    /// Reason, for messages.
+    /// Reason why the effect needs them, as a clause for messages.
     pub why: &'static str,
 }
 
@@ -112,11 +112,11 @@ pub struct Instant<'a> {
 pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeOwned {
     /// Description of its switch in the interface.
     const DESCRIPTION: &'static str;
-    /// Its heat.
+    /// Heat in the ledger; `None` if the effect dissipates nothing.
     const HEAT: Option<Heat> = None;
-    /// Its outputs in addition to heat.
+    /// Outputs in addition to the heat.
     const READINGS: &'static [Reading] = &[];
-    /// Representations of tooth contact that the effect needs. With `None` it works with all of them.
+    /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     const NEEDS: Option<Needs> = None;
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
@@ -154,17 +154,17 @@ pub trait Effect {
         Requests::default()
     }
 
-    /// Adds the effect's influence on single teeth to `teeth`.
+    /// Adds the effect's influence on single teeth to `teeth`. Fails if its parameters contradict the gears.
     fn on_teeth(&self, _setting: &Setting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
         Ok(())
     }
 
-    /// Friction along the flanks.
+    /// Friction along the flanks, if the effect adds any.
     fn on_flanks(&self, _setting: &Setting) -> Option<FlankFriction> {
         None
     }
 
-    /// Forces and torques on bodies, other than dry friction.
+    /// Forces and torques on bodies other than dry friction, if the effect adds any.
     fn on_bodies(&self, _setting: &Setting, _plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         None
     }
@@ -174,7 +174,7 @@ pub trait Effect {
         false
     }
 
-    /// Dry friction.
+    /// Dry friction on bodies, if the effect adds any.
     fn friction(&self, _setting: &Setting) -> Option<FrictionSource> {
         None
     }

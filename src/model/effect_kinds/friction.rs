@@ -15,6 +15,7 @@ pub struct Friction {
     pub planet: BodyFriction,
     /// Friction on the left and the right wheel.
     pub wheel: [BodyFriction; 2],
+    /// Function that returns the limit torques of both wheels [N·m]; `None` without brakes.
     wheel_limit: Option<fn(&Inputs) -> [f64; 2]>,
 }
 
@@ -71,6 +72,8 @@ impl Friction {
         }
     }
 
+    /// Adds the brakes `wheel` of source number `index`. A brake whose torque and its derivatives are 0 adds no
+    /// friction.
     fn brake(
         &mut self,
         wheel: &WheelFriction,
@@ -126,7 +129,7 @@ impl Friction {
         self.side.depends_on_load() || self.planet.depends_on_load()
     }
 
-    /// Limit torques of the wheels under `inputs`, as loads.
+    /// Surface loads of both wheels under `inputs`: their limit torques.
     #[inline]
     pub fn wheel_loads(&self, inputs: &Inputs) -> [SurfaceLoad; 2] {
         match self.wheel_limit {

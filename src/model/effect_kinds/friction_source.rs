@@ -37,10 +37,10 @@ pub struct PlanetFriction {
     pub pressed: [Pressed; 2],
 }
 
-/// Dry friction between a wheel and the axle it turns on.
+/// Dry friction of a brake, between a wheel and the ground.
 #[derive(Clone, Copy, Debug)]
 pub struct WheelFriction {
-    /// Limit torques of left and right wheel [N·m].
+    /// Function that returns the limit torques of left and right wheel [N·m].
     pub limit: fn(&Inputs) -> [f64; 2],
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,

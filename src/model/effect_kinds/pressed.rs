@@ -5,8 +5,8 @@
 //! ```
 //!
 //! with the slip speed ω, the thrust F and the load L on the surface. A normal force N on the area A at the radius r
-//! has p = N/A and v = ω r, so a friction torque T = μ N r has p v = T ω/(μ A). From the limit (u = 0) to 1.05 × the
-//! limit (u = 1) the factor is g = 1 + (b − 1) u² (3 − 2u), which is differentiable everywhere. Temperature changes μ
+//! has p = N/A and v = ω r. A friction torque T = μ N r therefore has p v = T ω/(μ A). From the limit (u = 0) to 1.05 ×
+//! the limit (u = 1), the factor is g = 1 + (b − 1) u² (3 − 2u). It is differentiable everywhere. Temperature changes μ
 //! but not N, so it does not change p v.
 //!
 //! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can

@@ -4,10 +4,10 @@
 //! φ(v) = 1 + (s − 1) exp(−v/v_S) + k v
 //! ```
 //!
-//! multiplies the kinetic torque, with the speed v at the mean radius, the static ratio s, the Stribeck speed v_S and
-//! the slope k. With v_S > 0, sliding begins at the breakaway torque. With v_S = 0, friction jumps from s to 1. A
-//! falling φ causes judder and a rising φ damps it, because dT/dω = T_k r φ′(v). Friction never falls below a fraction
-//! of its kinetic value ([`LEAST`]), which it approaches smoothly.
+//! φ multiplies the kinetic torque. Its parameters are the speed v at the mean radius, the static ratio s, the Stribeck
+//! speed v_S and the slope k. With v_S > 0, sliding begins at the breakaway torque. With v_S = 0, friction jumps from s
+//! to 1. A falling φ causes judder and a rising φ damps it, because dT/dω = T_k r φ′(v). Friction never falls below a
+//! fraction of its kinetic value ([`LEAST`]), which it approaches smoothly.
 //!
 //! Sources: L. C. Bo and D. Pavelescu, Wear 82 (1982), p. 277, with the exponent 1; the clutch of the Modelica Standard
 //! Library, Mechanics.Rotational.Components.Clutch, for μ over slip.

@@ -1,11 +1,11 @@
-//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier, the first two terms on the side
-//! gears.
+//! Drag of bearings and churned oil: T = T₀ tanh(ω/ω₀) + b ω + c ω |ω| on the carrier. The first two terms also act on
+//! each side gear.
 //!
 //! The terms are a load-independent bearing torque, viscous drag, and churning with the square of the speed. With
 //! `viscosity_from_oil`, b is proportional to the dynamic viscosity of the oil and has its given value at a reference
 //! temperature.
 //!
-//! Two carrier bearings under the load F and a lip seal on each side gear's shaft add to T₀:
+//! Two carrier bearings, each under the load F, and a lip seal on each side gear's shaft add to T₀:
 //!
 //! ```text
 //! carrier     2 f₁ F d_m     f₁ = 0.0004 for tapered rollers (A. Palmgren, Ball and Roller Bearing Engineering, 1959; T. A.
@@ -207,6 +207,7 @@ impl Effect for BearingDragSpec {
 /// Drag on carrier and side gears.
 #[derive(Clone, Copy, Debug)]
 struct Drag {
+    /// Resistances of the carrier and of each side gear.
     on: [Resistance; 2],
     /// Speed ω₀ at which the constant torque has reached tanh 1 = 76 % [rad/s].
     breakaway_speed: f64,
@@ -214,6 +215,7 @@ struct Drag {
     churning_per_viscosity: f64,
     /// Viscosity of the oil at which viscous drag has its given value [Pa·s], if viscous drag depends on the oil.
     reference: Option<f64>,
+    /// Index of the heat in the ledger.
     heat_index: usize,
 }
 

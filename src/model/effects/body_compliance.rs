@@ -34,8 +34,9 @@ const NARROW: f64 = 0.5;
 /// Names of the bores, of the gears, and of the parts that hold them.
 const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geometry.side_bore", "side gear", "shaft"]];
 
-/// Warning about the assumption for gear `i` if it has no bore, or if the bore of a side gear is so narrow that it
-/// dominates the compliance. A narrow bore of a planet does not, because pins transmit no torque.
+/// Warning about the assumed support of gear `i` if it has no bore, or if the bore of a side gear is so narrow that it
+/// dominates the compliance. `None` for other bores. A narrow planet bore causes no warning, because pins transmit no
+/// torque.
 fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     let [name, gear, holder] = BORES[i];
     let bore = [setting.geometry.planet_bore, setting.geometry.side_bore][i];

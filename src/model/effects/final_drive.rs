@@ -43,8 +43,11 @@ impl Effect for FinalDriveSpec {
 /// Excitation of the carrier.
 #[derive(Clone, Copy, Debug)]
 struct Excitation {
+    /// Teeth of the ring gear, z.
     teeth: f64,
+    /// Amplitude ε relative to the carrier's command.
     amplitude: f64,
+    /// True if the carrier's speed is imposed.
     imposed: bool,
 }
 

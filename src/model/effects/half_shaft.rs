@@ -106,7 +106,9 @@ const fn twist(name: &'static str) -> Reading {
 /// Stiffness and damping of the half-shafts whose ends are degrees of freedom.
 #[derive(Clone, Copy, Debug)]
 pub struct HalfShafts {
+    /// Stiffness k, left and right [N·m/rad].
     stiffness: [f64; 2],
+    /// Damping c, left and right [N·m·s/rad].
     damping: [f64; 2],
 }
 

@@ -101,8 +101,8 @@ impl Effect for LimitedSlipSpec {
         };
         found.push(problem!(
             "limited_slip.torque_coefficient",
-            "{}: a torque-proportional clutch needs the forces of the meshes: with scene.gear_contact = {contact} \
-             it must be 0 (preload only), or choose lumped or tooth",
+            "{}: a torque-proportional clutch needs the forces of the meshes, which scene.gear_contact = {contact} \
+             does not provide to it; set the coefficient to 0 (preload only), or choose lumped or tooth",
             self.torque_coefficient
         ));
     }
@@ -120,7 +120,7 @@ impl Effect for LimitedSlipSpec {
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
-        // a friction torque T = μ N r needs the pressure N/A = T/(μ A r)
+        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
         let per_torque = 1.0 / (self.plate_coefficient * self.friction_area);
         let pressed = Pressed { constant: self.preload, per_load: self.torque_coefficient, ..Pressed::NONE };
         let side = SideFriction {

@@ -34,13 +34,13 @@ pub struct EffectEntry {
     pub description: &'static str,
     /// Name of its switch; `None` if an input commands the effect.
     pub switch: Option<&'static str>,
-    /// Representations of tooth contact that the effect needs. With `None` it works with all of them.
+    /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     pub needs: Option<Needs>,
     /// True if the effect may act although its switch is off.
     pub may_act_unswitched: bool,
-    /// Its heat.
+    /// Heat in the ledger; `None` if the effect dissipates nothing.
     pub heat: Option<Heat>,
-    /// Its outputs in addition to heat.
+    /// Outputs in addition to the heat.
     pub readings: &'static [Reading],
     /// Values that make the effect visible in an example.
     pub example: &'static [(&'static str, f64)],
@@ -61,8 +61,8 @@ impl EffectEntry {
     }
 }
 
-/// Rows of an effect's parameters within the parameters of all effects. Each row names the switch without which it has
-/// no influence.
+/// Rows of an effect's parameters within the parameters of all effects. Each row names the switch without which its
+/// parameter has no influence.
 fn within<E: Declare + 'static>(
     switch: Option<&'static str>,
     group: fn(&mut EffectParameters) -> &mut E,

@@ -80,8 +80,11 @@ impl Effect for PinComplianceSpec {
 /// Springs of pins and case.
 #[derive(Clone, Copy, Debug)]
 struct Springs {
+    /// Stiffness k_p r² of a pin [N·m/rad].
     pin: f64,
+    /// Stiffness k_c of the case [N/m].
     case: f64,
+    /// Damping over stiffness τ [s].
     time: f64,
     heat_index: usize,
 }

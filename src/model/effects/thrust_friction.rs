@@ -128,6 +128,7 @@ impl Declare for ThrustFrictionSpec {
 /// Radii at which thrust friction acts [m].
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Radii {
+    /// Radius of the pins.
     pin: f64,
     /// Mean radii of the washers of planet and side gear.
     washer: [f64; 2],
@@ -147,7 +148,7 @@ fn toe_root(pair: &Pair, i: usize) -> f64 {
     pair.inner_cone * sin(pair.gears[i].root)
 }
 
-/// Radius of the back face of gear `i`, which ends at the root circle at the heel [m].
+/// Outer radius of the back face of gear `i` [m]: the root circle at the heel.
 fn back_face(pair: &Pair, i: usize) -> f64 {
     pair.outer_cone * sin(pair.gears[i].root)
 }
@@ -160,7 +161,7 @@ impl ThrustFrictionSpec {
         Radii { pin: self.pin_radius, washer: [self.planet_washer_radius, self.side_washer_radius] }
     }
 
-    /// Warning about a pin that does not fit the planet.
+    /// Warning if the given pin radius does not fit the planet; `None` if it fits.
     fn misfit_of_pin(&self, setting: &Setting) -> Option<Problem> {
         let (pin, bore) = (self.pin_radius, 0.5 * setting.geometry.planet_bore);
         // a radius of 0 switches the friction of a surface off
@@ -177,7 +178,7 @@ impl ThrustFrictionSpec {
         misfit.then(|| misfitting("thrust_friction.pin_radius", pin, what, other))
     }
 
-    /// Warning about a washer of gear `i` that does not fit it.
+    /// Warning if the given washer radius does not fit gear `i`; `None` if it fits.
     fn misfit_of_washer(&self, setting: &Setting, i: usize) -> Option<Problem> {
         let names = ["thrust_friction.planet_washer_radius", "thrust_friction.side_washer_radius"];
         let gear = ["planet", "side gear"][i];

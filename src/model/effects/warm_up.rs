@@ -22,7 +22,7 @@ spec! {
         pub sump_given: bool = false,
         /// Heat capacity of the oil [J/K].
         pub oil_capacity: f64 = 1800.0,
-        /// Specific heat of the gears, whose masses are those of their solids [J/(kg·K)].
+        /// Specific heat of the gears [J/(kg·K)]. Their masses follow from their solids.
         pub gear_specific_heat: f64 = 460.0,
         /// Heat capacity of the clutch packs [J/K].
         pub clutch_capacity: f64 = 300.0,
@@ -46,13 +46,13 @@ spec! {
         pub case_to_ambient_per_speed: f64 = 0.1,
         /// Share of the heat of teeth, washers and clutches that enters the oil directly.
         pub oil_share: f64 = 0.0,
-        /// Temperature of the gears minus that of the oil at the start [K].
+        /// Temperature of the gears minus oil temperature, at the start [K].
         pub gears_above_oil: f64 = 0.0,
-        /// Temperature of the clutch packs minus that of the oil at the start [K].
+        /// Temperature of the clutch packs minus oil temperature, at the start [K].
         pub clutch_above_oil: f64 = 0.0,
-        /// Temperature of washers and pins minus that of the oil at the start [K].
+        /// Temperature of washers and pins minus oil temperature, at the start [K].
         pub washers_above_oil: f64 = 0.0,
-        /// Temperature of the case minus that of the oil at the start [K].
+        /// Temperature of the case minus oil temperature, at the start [K].
         pub case_above_oil: f64 = 0.0,
         /// Length of the cycle whose mean heats balance at a start with steady heat [s].
         pub cycle: f64 = 1.0,

@@ -39,7 +39,7 @@ spec! {
     }
 }
 
-/// Largest brake torque: far above that of any brake, but small enough that no intermediate result overflows [N·m].
+/// Largest brake torque [N·m]. It is far above the torque of any brake, but no intermediate result overflows.
 const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
@@ -119,7 +119,7 @@ impl Effect for WheelBrakeSpec {
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
             radius: self.mean_radius,
-            // a friction torque T = μ N r needs the pressure N/A = T/(μ A r)
+            // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
             pressed: Pressed { per_load: 1.0 / (self.lining_coefficient * self.friction_area), ..Pressed::NONE },
         };
         let Self { static_ratio, sliding, .. } = *self;

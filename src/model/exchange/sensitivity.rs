@@ -65,6 +65,7 @@ impl Direction {
 /// Readings at the points of the central difference along a direction.
 pub struct StencilReadings<T> {
     read: [T; STENCIL.len()],
+    /// Distance between neighbouring points, as a multiple of the direction.
     apart: f64,
 }
 

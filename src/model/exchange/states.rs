@@ -52,7 +52,7 @@ pub const STATES: usize = 2 * MAX_DOF;
 /// Number of event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets
 /// and wheels.
 pub const INDICATORS: usize = 4 * MAX_PLANETS + FRICTION_PLANETS + MAX_PLANETS + 2;
-/// Indicator of an event that cannot occur.
+/// Value of an indicator whose event cannot occur.
 const NEVER: f64 = 1.0;
 
 impl Body {

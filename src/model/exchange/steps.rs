@@ -13,7 +13,7 @@ use crate::model::run::timeline::{breaks_tooth, next_change};
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
 
-/// Result of an event.
+/// Result of an event in model exchange.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Update {
     /// True if states have changed.
@@ -28,11 +28,12 @@ impl Simulation {
         self.accept(self.inputs);
     }
 
-    /// Records the present state as the end of a completed step. Free speeds have responded to jumps of imposed speeds
-    /// up to the commands `followed`.
-    fn accept(&mut self, followed: Inputs) {
+    /// Records the present state as the end of a completed step. `followed_commands` are the latest commands to whose
+    /// jumps of imposed speeds the free speeds have responded.
+    fn accept(&mut self, followed_commands: Inputs) {
         let State { q, v, .. } = self.state;
-        self.accepted = Some(Accepted { time: self.state.time(), q, v, inputs: self.inputs, followed });
+        let (time, inputs) = (self.state.time(), self.inputs);
+        self.accepted = Some(Accepted { time, q, v, inputs, followed_commands });
         self.forces = None;
     }
 
@@ -41,13 +42,14 @@ impl Simulation {
         self.state.follow_host(time);
     }
 
-    /// Moves to `states`. Imposed motions follow their commands. A pending step is completed up to the present first.
+    /// Moves to `states`, except imposed motions, which follow their commands. If a step is pending, it is first
+    /// completed up to the present time.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
         complete(&self.model, (&mut self.state, &mut self.watched));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
-            // a period may be infinite, and its count is then 0
+            // a position that is not wrapped has an infinite period and the count 0
             let count = self.state.whole_periods[i];
             self.state.q[i] = if count == 0 { q[i] } else { q[i] - count as f64 * self.model.periods[i] };
         }
@@ -55,7 +57,8 @@ impl Simulation {
         self.follow_commands();
     }
 
-    /// Moves to `states` at an event, if they differ only in positions. The energy of this jump is work of the host.
+    /// Moves to `states` at an event. They must differ from the present states only in positions. The energy of this
+    /// jump is work of the host. Fails if the step up to the event fails.
     pub fn jump_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
         self.complete_step_to_event()?;
         let stored = |simulation: &Self, from: &Accepted| {
@@ -77,7 +80,8 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Records the step from the last completed step to the present. Returns true if an event is due.
+    /// Records the step from the last completed step to the present. Returns true if an event is due. Fails if a tooth
+    /// bends too far at its end.
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
@@ -119,14 +123,14 @@ impl Simulation {
             state.control.last = h;
             state.wrap(&model.periods, &model.layout);
         }
-        let jumps = imposed::is_impulse(model, &from.followed, inputs);
+        let jumps = imposed::is_impulse(model, &from.followed_commands, inputs);
         let commanded = inputs.lock != state.lock || have_brakes_changed(model, inputs, state);
         let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
-        self.accept(from.followed);
+        self.accept(from.followed_commands);
         Ok(due)
     }
 
-    /// True if the present time and inputs are those of the last completed step or event.
+    /// True if time and inputs have not changed since the last completed step or event.
     pub fn is_accepted(&self) -> bool {
         self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
     }
@@ -136,7 +140,8 @@ impl Simulation {
         next_change(&self.model, &self.state)
     }
 
-    /// Completes the step up to an event. The host does not complete a step before an event whose time is known.
+    /// Completes the step up to an event, because the host does not complete the step before an event whose time is
+    /// known. Fails as [`Self::complete_step`] does.
     fn complete_step_to_event(&mut self) -> Result<(), StepFailure> {
         if self.accepted.is_some_and(|from| from.time < self.state.time()) {
             self.complete_step()?;
@@ -144,12 +149,13 @@ impl Simulation {
         Ok(())
     }
 
-    /// Handles an event: applies the changes of commands, friction and teeth that are due.
+    /// Handles an event: applies the changes of commands, friction and teeth that are due. Fails as
+    /// [`Self::complete_step`] does.
     pub fn update(&mut self) -> Result<Update, StepFailure> {
         self.complete_step_to_event()?;
         let (model, inputs, state) = (&*self.model, &self.inputs, &mut self.state);
         let (before, followed) = match &self.accepted {
-            Some(from) => (from.applied_to(state), from.followed),
+            Some(from) => (from.applied_to(state), from.followed_commands),
             None => (*state, *inputs),
         };
         imposed::follow_impulse(model, &followed, inputs, state);

@@ -80,8 +80,8 @@ pub struct Forces {
 /// The fast side is ahead in the sense of the torques: the left side is fast if (ω_L − ω_R)(T_L + T_R) > 0. This is
 /// valid forward and backward, in drive and overrun, and with the carrier turning or at rest. Friction turns the power
 /// (T_R − T_L)(ω_L − ω_R)/2 ≥ 0 into heat. It therefore always takes torque from the fast side, and a bias by friction
-/// is at least 1. If both sides have the same speed within the tolerance of dry friction, the side with less torque is
-/// the fast one, because it would be ahead if it slipped.
+/// is at least 1. If the speeds of both sides differ by less than the tolerance of dry friction, the side with less
+/// torque counts as the fast one. It would be ahead if it slipped.
 pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     let sum = torque[0] + torque[1];
     // a torque that is NaN has no bias
@@ -96,7 +96,7 @@ pub fn bias(torque: [f64; 2], speed: [f64; 2]) -> (f64, f64) {
     (ratio, ((torque[0] - torque[1]).abs() / sum.abs()).min(MOST_BIAS))
 }
 
-/// Difference of speeds up to which both sides turn equally fast [rad/s].
+/// Difference of speeds up to which both sides count as equally fast [rad/s].
 const ALIKE: f64 = SPEED_TOLERANCE;
 /// Sum of the shaft torques below which no bias is computed [N·m].
 const LEAST_TORQUE: f64 = 1e-3;
@@ -286,6 +286,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
 
 /// Accelerations and torques at an instant, from one evaluation.
 struct ForcesAtInstant {
+    /// Accelerations by degree of freedom [rad/s²; seats m/s²].
     acceleration: [f64; MAX_SIZE],
     /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],

@@ -9,8 +9,8 @@ pub struct Motion {
     pub carrier_angle: f64,
     /// Carrier speed [rad/s].
     pub carrier_speed: f64,
-    /// Side gear angles, left and right [rad]. They are 0 as assembled, with teeth in mid-gap, and include lash and
-    /// deflection.
+    /// Side gear angles, left and right [rad]. They are 0 as assembled, with teeth in mid-gap. They include movement
+    /// within the backlash and deflection.
     pub side_angle: [f64; 2],
     /// Side gear speeds, left and right [rad/s].
     pub side_speed: [f64; 2],

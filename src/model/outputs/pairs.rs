@@ -1,13 +1,13 @@
 //! Loaded tooth pairs of a mesh at an instant: their position on the planet's flank, force and pressure.
 //!
-//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact cosφ =
-//! cosδ_b cos(ψ_p0 + s). The planet's tip corner has the planet's tip angle. The side gear's tip corner has the polar
-//! angle of the corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
+//! A pair touches along a line from toe to heel at polar angle φ about the planet's axis. On the path of contact,
+//! cosφ = cosδ_b cos(ψ_p0 + s). At the planet's tip corner, φ is the planet's tip angle. At the side gear's tip corner,
+//! φ is the polar angle of this corner about the planet's axis. The height along the profile is h = R_m (φ − δ).
 //!
 //! The pressure is Hertz's for two cylinders under the line load w(R) with the relative radius R τ(s). An aligned pair
 //! has a uniform w under IMPACT, with the resultant at R_m, and w = 2FR/(R_e² − R_i²) under a line law. With errors or
-//! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth w is
-//! interpolated linearly between the loaded sections, and extrapolated to toe and heel down to zero.
+//! displacements that differ over the face, w follows from the law at the depth of each position. For solid teeth, w is
+//! interpolated linearly between the loaded sections. Toward toe and heel, w is extrapolated linearly, but not below 0.
 
 use crate::contact::shared::MAX_PAIRS;
 use crate::contact::{Flank, Mesh, Spot, ToothLoad};
@@ -51,14 +51,19 @@ pub type PairLines = [PairLine; PAIRS];
 #[derive(Clone, Copy)]
 struct Gathered {
     flank: Flank,
+    /// Numbers of the planet's and the side gear's tooth.
     teeth: [usize; 2],
+    /// Sum of the normal forces [N].
     force: f64,
-    /// Sums of force × height [N·m] and of force × position on the path [N·rad].
+    /// Sum of force × height [N·m].
     by_height: f64,
+    /// Sum of force × position on the path [N·rad].
     by_place: f64,
     /// Cone distance [m] and line load [N/m] of the sections.
     sections: [[f64; 2]; SECTIONS],
+    /// Number of sections.
     count: usize,
+    /// True if a single load represents the whole face.
     is_whole: bool,
     /// Line load at toe, mean cone distance and heel [N/m], if the law gives it.
     known: Option<[f64; 3]>,

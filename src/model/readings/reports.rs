@@ -133,8 +133,8 @@ impl Simulation {
             .map(|(commanded, kept)| Some([commanded?, kept?]).filter(|[commanded, kept]| commanded != kept))
     }
 
-    /// Warning about the surface of `effect` whose p·v exceeds its limit the most at this instant. `variable` is the
-    /// name of the limit.
+    /// Warning about the surface of `effect` whose p·v exceeds its limit the most at this instant; `None` if no p·v
+    /// exceeds it. `variable` is the name of the limit.
     #[inline(never)]
     fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
@@ -168,7 +168,7 @@ impl Simulation {
         let time = state.time();
         Some(problem!(
             variable,
-            "p v of {what} of {pv} W/mm2 exceeds the limit of {limit} W/mm2 at t = {time:.6} s; reported once"
+            "p v of {what} is {pv} W/mm2, above the limit of {limit} W/mm2, at t = {time:.6} s; reported once"
         ))
     }
 
@@ -196,7 +196,8 @@ impl Simulation {
         ))
     }
 
-    /// Warning about a quantity outside the range of the friction law at this instant. Coulomb's law has no such range.
+    /// Warning about a quantity outside the range of the tooth friction law at this instant; `None` if all quantities
+    /// are inside. Coulomb's law has no such range.
     fn outside_friction_law(&self) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
         let p = &model.parameters;

@@ -18,10 +18,10 @@ pub struct Accepted {
     /// Inputs.
     pub inputs: Inputs,
     /// Commands of the imposed speeds to whose jumps the free speeds have already responded.
-    pub followed: Inputs,
+    pub followed_commands: Inputs,
 }
 
-finite!(Accepted { time, q, v, inputs, followed });
+finite!(Accepted { time, q, v, inputs, followed_commands });
 
 impl Accepted {
     /// Returns `state` moved to the end of this step.

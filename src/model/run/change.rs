@@ -56,7 +56,7 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
 /// `clock` [s].
 pub fn begin_interval(state: &mut State, clock: &mut Clock) -> f64 {
     state.pause = None;
-    timeline::begin_holding(state);
+    timeline::begin_constant_inputs(state);
     clock.expected = clock.now + timeline::expected(state);
     clock.now
 }

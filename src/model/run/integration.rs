@@ -56,6 +56,7 @@ pub struct Integration<'a> {
 }
 
 /// Integrates `state` until the pending step contains the clock's `now`, the equations end, or the clock must be reset.
+/// Fails if a step cannot be completed within the `budget` of attempted steps, or if a tooth bends too far.
 pub fn integrate(
     model: &Model,
     state: &mut State,
@@ -71,7 +72,7 @@ pub fn integrate(
     }
 }
 
-/// Integrates with `teeth`, which may group planets that the model treats separately.
+/// Integrates with `teeth`, which may group planets that the model treats separately. Fails as [`integrate`] does.
 pub fn integrate_teeth(
     teeth: &Teeth,
     model: &Model,

@@ -7,7 +7,7 @@ use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
-use crate::model::dynamics::shaft_means::Cycle;
+use crate::model::dynamics::shaft_means::CycleCounter;
 use crate::model::dynamics::shaft_means::TorqueMeans;
 use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
@@ -62,7 +62,7 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
         if self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
-            Cycle { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
+            CycleCounter { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
         }
     }
 }

@@ -24,7 +24,7 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &m
     state.pause = None;
     imposed::jump(model, inputs, state);
     apply_changes(model, inputs, state);
-    timeline::begin_holding(state);
+    timeline::begin_constant_inputs(state);
 }
 
 /// Completes the pending step up to the present, under the inputs that acted in it. Friction that is due to switch at
@@ -58,7 +58,8 @@ pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
 }
 
 /// Integrates to `until` [s], or to the first event if `options.pauses`; the state then contains a pause. `jump` is the
-/// jump of the accelerations at the present [rad/s²] if only torques have changed within the pending step.
+/// jump of the accelerations at the present [rad/s²] if only torques have changed within the pending step. Fails if a
+/// step fails; the time is then the last one that was reached.
 pub fn integrate(
     model: &Model,
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
@@ -128,7 +129,7 @@ fn step_past_stop(
     let mut begin = time - shown;
     let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
     clock.now = wanted;
-    // one turn per interval of the clock
+    // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
         let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
@@ -158,7 +159,8 @@ fn step_past_stop(
     }
 }
 
-/// Moves the time to the stop, or to `reached` [s] if the motion has not reached the stop.
+/// Moves the time to the stop, or to `reached` [s] if the motion has not reached the stop. Returns the error in
+/// `outcome`, or an error if the stop was not reached.
 fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepFailure>) -> Result<(), StepFailure> {
     state.pause = None;
     if outcome.is_err() {

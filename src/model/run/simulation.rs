@@ -26,7 +26,9 @@ pub struct Simulation {
     pub(in crate::model) state: State,
     /// Fatigue damage and mesh history of the completed steps.
     pub(in crate::model) watched: Watched,
+    /// Inputs that act from now on.
     pub(in crate::model) inputs: Inputs,
+    /// Cache of the forces under the present inputs; `None` after a change.
     pub(in crate::model) forces: Option<Forces>,
     /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
@@ -47,14 +49,15 @@ enum Beginning {
 }
 
 impl Simulation {
-    /// Simulation of `parameters` that continues from `state`, without damage and mesh history.
+    /// Simulation of `parameters` that continues from `state`, without damage and mesh history. Fails with all problems
+    /// of the parameters.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
         Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
     }
 
     /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`.
-    /// `given` contains optional data.
+    /// `given` contains optional data. Fails with all problems of the parameters.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
@@ -112,7 +115,7 @@ impl Simulation {
         self.forces = None;
     }
 
-    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the state is that of the last good
+    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the simulation is at the last good
     /// time.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.advance_by(until, AdvanceOptions::default())
@@ -162,7 +165,8 @@ impl Simulation {
 
     /// Integrates to `until` [s], or to the first event if `options.pauses`. If `options.is_part`, `until` precedes the
     /// next communication point. The next call continues with the same bits as without the stop. An event at the start
-    /// (see [`Self::begin`]) does not pause the motion.
+    /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the simulation is then at
+    /// the last good time.
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
@@ -222,7 +226,7 @@ impl Simulation {
     }
 
     /// Returns the end [s] of the solver step that contains the present or starts there. Returns `None` if solver steps
-    /// end at the times that the host requests.
+    /// end at the times that the host requests. Fails if no step can start.
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
         let (model, state) = (&self.model, &self.state);
         let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
@@ -250,7 +254,7 @@ impl Simulation {
         FULL && self.accepted.is_some()
     }
 
-    /// End of the last step that the host's solver completed, for snapshots.
+    /// End of the last step that the host's solver completed, for snapshots; `None` in co-simulation.
     pub fn accepted(&self) -> Option<&Accepted> {
         self.accepted.as_ref()
     }

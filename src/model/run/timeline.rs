@@ -87,14 +87,14 @@ pub fn move_within(model: &Model, state: &mut State, (until, options): (f64, Adv
     moves
 }
 
-/// Starts an interval of constant inputs, after a change of the inputs or of anything else. A further change at the
-/// same time, such as a reaction to an event, does not end the interval.
-pub fn begin_holding(state: &mut State) {
-    if state.held_since == Some(state.time()) {
+/// Starts an interval of constant inputs at the present, because inputs or something else have changed. A further
+/// change at the same time, such as a reaction to an event, does not start another interval.
+pub fn begin_constant_inputs(state: &mut State) {
+    if state.constant_since == Some(state.time()) {
         return;
     }
-    state.held_before = state.held_since.map_or(f64::INFINITY, |since| state.time() - since);
-    state.held_since = Some(state.time());
+    state.constant_before = state.constant_since.map_or(f64::INFINITY, |since| state.time() - since);
+    state.constant_since = Some(state.time());
 }
 
 /// Clock of the pending step, or a new clock that starts now.
@@ -108,7 +108,7 @@ pub fn clock(model: &Model, state: &State) -> Clock {
 
 /// Remaining time for which inputs are expected to be constant [s].
 pub fn expected(state: &State) -> f64 {
-    let left = state.held_before - state.held_since.map_or(0.0, |since| state.time() - since);
+    let left = state.constant_before - state.constant_since.map_or(0.0, |since| state.time() - since);
     left * (1.0 + ROUNDING)
 }
 

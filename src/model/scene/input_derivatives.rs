@@ -53,7 +53,8 @@ impl InputDerivatives {
     }
 }
 
-/// Advances a value and its first and second derivatives by `time` [s].
+/// Advances a value and its first and second derivatives by `time` [s]. If the value would pass one of its `limits`, it
+/// stays at the limit, and both derivatives become 0.
 #[inline(never)]
 fn follow_parabola(value: &mut f64, [first, second]: [&mut f64; 2], limits: [f64; 2], time: f64) {
     let unlimited = *value + time * *first + 0.5 * time * time * *second;

@@ -19,7 +19,7 @@ const DENSITY_POINT: f64 = 288.15;
 const WALTHER: f64 = 0.7;
 /// Square metres per second in a square millimetre per second.
 const MM2: f64 = 1e-6;
-/// Lower limit of the density relative to the given one, below that of any oil.
+/// Lower limit of the density, as a fraction of the given density. No oil becomes so light.
 const LEAST_DENSITY: f64 = 0.1;
 
 spec! {

@@ -1,7 +1,7 @@
 //! Scene plan: bodies that move, imposed motions, and groups of planets that move identically.
 //!
-//! Planets that are identical and in phase move identically from the start. One of them is simulated and counted for
-//! all of them.
+//! Planets that are identical and in phase move identically from the start. They form a group: one planet of the group
+//! is simulated, and its forces are multiplied by the number of members.
 
 use super::{
     ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin,
@@ -88,7 +88,8 @@ impl Plan {
             plan.add_group([0.0; 2], 0);
             plan.groups[0].members = phases.len() as f64;
         } else if requests.individual {
-            // opposite planets next to each other, because they may be identical
+            // groups of opposite planets are adjacent, because sums add adjacent groups first and opposite planets may
+            // move identically
             let order: &[usize] = if phases.len() == 4 { &[0, 2, 1, 3] } else { &[0, 1, 2][..phases.len()] };
             for &i in order {
                 plan.add_group(phases[i].map(|f| f * pair.base_pitch), i);
@@ -114,7 +115,7 @@ impl Plan {
         self.group_count += 1;
     }
 
-    /// Returns the plan with planets that do not spin freely.
+    /// Returns the plan with imposed planet spin.
     pub fn with_spin_held(self) -> Self {
         Self { spin_imposed: true, ..self }
     }
@@ -188,6 +189,13 @@ impl Plan {
             + self.side_imposed.iter().filter(|&&imposed| imposed).count()
     }
 
+    /// Describes the groups in which planets are simulated, for example "1 group (of 2)" or "2 groups (of 1 + 1)".
+    pub fn describe_groups(&self) -> String {
+        let members: Vec<String> = self.groups().iter().map(|group| group.members.to_string()).collect();
+        let plural = if members.len() == 1 { "" } else { "s" };
+        format!("{} group{plural} (of {})", members.len(), members.join(" + "))
+    }
+
     /// Describes the simulated scene in one line: representation, drives, planets, states.
     pub fn describe(&self) -> String {
         let level = match self.contact {
@@ -203,14 +211,14 @@ impl Plan {
             (false, false) => "torque",
         };
         format!(
-            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated as {}; \
+            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated in {}; \
              {} states",
             drive(self.carrier_imposed),
             drive(self.spin_imposed),
             side(0),
             side(1),
             self.planets,
-            self.groups().iter().map(|g| format!("1 x {}", g.members)).collect::<Vec<_>>().join(" + "),
+            self.describe_groups(),
             2 * self.degrees_of_freedom(),
         )
     }

@@ -10,8 +10,8 @@ pub fn warnings(p: &Parameters) -> Vec<Problem> {
     stiffness_of_the_study(p).into_iter().chain(imposed_bias(p)).collect()
 }
 
-/// Warning about friction whose bias is not visible: the loads are given, so friction moves torque to the drive that
-/// imposes the spin.
+/// Warning if friction has no visible torque bias because both loads and the spin are given. Friction then changes only
+/// the torque that imposes the spin.
 fn imposed_bias(p: &Parameters) -> Option<Problem> {
     let (scene, effects) = (&p.scene, &p.effects);
     let has_friction = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
@@ -27,8 +27,8 @@ fn imposed_bias(p: &Parameters) -> Option<Problem> {
     })
 }
 
-/// Warning about load torques that nobody set and that turn the wheels backward from rest. `is_set` is true for the
-/// loads that were set, left and right.
+/// Warning if load torques that nobody set turn the wheels backward from rest. `is_set` is true for the loads that were
+/// set, left and right.
 ///
 /// From rest, the carrier's torque T and the loads L accelerate the mean speed in proportion to T − L_left − L_right.
 /// If the other wheel has an imposed speed, a wheel that is driven by torque accelerates in proportion to T/2 − L.
@@ -50,10 +50,11 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
     let given: f64 = (0..2).filter(|&s| is_set[s]).map(load).sum();
     let unset: f64 = (0..2).filter(is_unset).map(load).sum();
     let brakes: f64 = if p.effects.wheel_brake { inputs.brake_torque.iter().sum() } else { 0.0 };
-    // along the direction in which these loads turn the wheels
-    let [net, drive, alone, without] =
+    // components along the direction in which the unset loads turn the wheels
+    let [net, drive, only_unset, only_given] =
         [unset + given - torque, -torque, unset - torque, given - torque].map(|of| of * unset.signum());
-    if unset == 0.0 || net <= brakes || without > 0.0 && alone <= 0.0 {
+    // no warning if the wheels do not turn backward, or if the loads that were set turn them and the others do not
+    if unset == 0.0 || net <= brakes || only_given > 0.0 && only_unset <= 0.0 {
         return None;
     }
     let names: Vec<String> =
@@ -77,7 +78,7 @@ pub fn turned_backward(p: &Parameters, inputs: &Inputs, is_set: [bool; 2]) -> Op
 /// Inputs that load the wheels.
 const LOADS: [&str; 2] = ["left.load_torque", "right.load_torque"];
 
-/// Warning about gears that differ from the study's gears but have their stiffness.
+/// Warning if gears differ from the study's gears but have their contact stiffness.
 fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     let start = Parameters::default();
     let (gears, usual) = (&p.geometry, &start.geometry);
@@ -90,10 +91,10 @@ fn stiffness_of_the_study(p: &Parameters) -> Option<Problem> {
     ]
     .iter()
     .any(|(own, usual)| own != usual);
-    let (contact, as_built) = (&p.contact, &start.contact);
+    let (contact, usual_contact) = (&p.contact, &start.contact);
     let of_the_study = contact.law == ContactLaw::Impact
         && !contact.stiffness_from_hertz
-        && (contact.stiffness, contact.exponent) == (as_built.stiffness, as_built.exponent);
+        && (contact.stiffness, contact.exponent) == (usual_contact.stiffness, usual_contact.exponent);
     if p.scene.gear_contact != GearContact::Tooth || !own_gears || !of_the_study {
         return None;
     }

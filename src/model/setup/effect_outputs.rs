@@ -84,7 +84,7 @@ pub const HEAT_OUTPUTS: [&str; HEATS] = {
     outputs
 };
 
-/// Index of a heat in the ledger.
+/// Index of a heat in the ledger. Without a heat, it is the index of the contact heat.
 pub fn heat_index(heat: Option<Heat>) -> usize {
     let place = heat.and_then(|heat| heats().position(|other| other.output == heat.output));
     place.map_or(CONTACT_HEAT, |place| CONTACT_HEAT + 1 + place)

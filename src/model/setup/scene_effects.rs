@@ -63,7 +63,7 @@ impl<'a> SceneEffects<'a> {
         self.acting().flat_map(|(_, setting, effect)| effect.warnings(&setting)).collect()
     }
 
-    /// Influence of the effects on single teeth.
+    /// Influence of the effects on single teeth. Fails if their parameters contradict the gears.
     pub fn on_teeth(&self) -> Result<ToothEffects, Problem> {
         let mut teeth = ToothEffects::default();
         for (_, setting, effect) in self.acting() {
@@ -90,7 +90,7 @@ impl<'a> SceneEffects<'a> {
         self.acting().filter_map(|(_, setting, effect)| effect.on_bodies(&setting, plan)).collect()
     }
 
-    /// Friction along the flanks.
+    /// Friction along the flanks, if any effect adds it.
     pub fn on_flanks(&self) -> Option<FlankFriction> {
         self.acting().find_map(|(_, setting, effect)| effect.on_flanks(&setting))
     }

@@ -22,8 +22,8 @@ pub struct Carried {
 }
 
 impl Carried {
-    /// Torques under `inputs` at the speeds of `state`, for gears that move as `ideal`. This is the ideal differential
-    /// of the scene, or the one whose planets do not spin.
+    /// Torques under `inputs` at the speeds of `state`, for gears that move as the differential `ideal`: the ideal
+    /// differential of the scene, or its variant with imposed planet spin.
     pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
         let on_bodies = on_bodies(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);

@@ -22,8 +22,8 @@ pub const ROUNDS: usize = 12;
 /// Loads below this value count as zero [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-/// Turns each side gear until plain teeth carry `torque`, while planets keep their spin angles. Unloaded sides stay in
-/// the middle of the gap.
+/// Turns each side gear until plain teeth carry `torque` [N·m], while planets keep their spin angles. Unloaded sides
+/// stay in the middle of the gap. Fails if teeth would bend beyond their limit.
 pub fn press_sides(
     model: &Model,
     equations: &Largest,
@@ -88,7 +88,8 @@ fn press(
 ///
 /// At this point, teeth with errors may still be separated, so that no force guides the search. Elastic gear bodies may
 /// deflect far beyond this point, so that the search may find no minimum. In both cases, the search starts again from a
-/// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic.
+/// point at which actual teeth carry the loads. Actual teeth have errors, and their gear bodies are elastic. Returns
+/// `None` if no minimum is found.
 pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<MAX_SIZE>) -> Option<Point<MAX_SIZE>> {
     let is_other = equations.is_open_or_elastic();
     let touches = || {
@@ -100,13 +101,14 @@ pub fn settle(equations: &Largest, loads: &Carried, pressed: &Point<MAX_SIZE>) -
 }
 
 /// Minimum of the potential under `loads`, searched from a point at which actual teeth carry the loads. Unloaded
-/// planets roll with the others.
+/// planets roll with the others. Returns `None` if no minimum is found.
 pub fn settle_actual_teeth(equations: &Largest, loads: &Carried) -> Option<Point<MAX_SIZE>> {
     minimum(equations, loads, &press_actual_teeth(equations, loads, 1)?, true)
 }
 
 /// Point at which each side gear is turned until actual teeth carry `loads`, while planets keep their spin angles.
-/// There are `rounds` rounds, because elastic planet bodies couple both sides.
+/// Both sides are pressed `rounds` times, because elastic planet bodies couple them. Returns `None` if a side cannot
+/// carry its load.
 pub fn press_actual_teeth(equations: &Largest, loads: &Carried, rounds: usize) -> Option<Point<MAX_SIZE>> {
     let mut pressed = Point::ZERO;
     let carry = |s: usize, at: &Point<MAX_SIZE>| {
@@ -188,6 +190,7 @@ struct Well<'a> {
     /// Torques T_i on each body [N·m].
     against: [f64; MAX_SIZE],
     point: &'a Point<MAX_SIZE>,
+    /// Indices of the unknown positions, and the number of identical bodies that each represents.
     unknowns: Vec<(usize, f64)>,
     /// Largest spin angle that a planet may have in either direction [rad].
     farthest_spin_angle: f64,

@@ -18,12 +18,13 @@ use crate::problem::Problem;
 const FIRST_STEP: f64 = 1e-6;
 
 impl Simulation {
-    /// Starts a simulation at `time` [s]. Values must be within the ranges of the interface.
+    /// Starts a simulation at `time` [s]. Values must be within the ranges of the interface. Fails with all problems of
+    /// the scene.
     pub fn start(parameters: &Parameters, inputs: &Inputs, time: f64) -> Result<Self, Vec<Problem>> {
         Self::start_with(parameters, inputs, time, &Given::default())
     }
 
-    /// Starts a simulation at `time` [s] with the optional data in `given`.
+    /// Starts a simulation at `time` [s] as [`Self::start`] does, with the optional data in `given`.
     pub fn start_with(
         parameters: &Parameters,
         inputs: &Inputs,

@@ -55,7 +55,7 @@ impl Simulation {
     }
 
     /// Describes a speed that changes right after the start at the temperatures `at` [K], with a remedy. This is for
-    /// motions whose cycles cannot be run.
+    /// motions whose cycles cannot be run. Returns `None` if no speed changes, or if even a short motion fails.
     pub(super) fn runs_away(&self, network: &Network<HEATS>, at: &[f64; NODES]) -> Option<String> {
         self.means(network, at, BEFORE_FAILURE)?.changing_speed()
     }
@@ -80,7 +80,7 @@ impl Simulation {
 }
 
 impl Means {
-    /// Describes the first speed that changes, with a remedy.
+    /// Describes the first speed that changes, with a remedy. Returns `None` if no speed changes.
     fn changing_speed(&self) -> Option<String> {
         let (span, [speeds, next]) = (self.span, self.speeds);
         let fastest = speeds.iter().chain(&next).fold(0.0, |fastest, speed| speed.abs().max(fastest));

@@ -23,16 +23,17 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 pub struct Preload {
     /// Torques of teeth and half-shafts, and the corresponding accelerations.
     pub carried: Carried,
-    /// True if all bodies are in balance with these accelerations, and no planet starts to roll.
+    /// True if all bodies are in balance with the accelerations in `carried`, and no planet starts to roll.
     pub settled: bool,
 }
 
 /// Presses the meshes together until tooth torques balance the loads, and winds up the half-shafts.
 ///
-/// First, it searches for a balance without rolling planets: a minimum of the potential V + Σ T α near ψ = 0. Stiffness
-/// that varies along the path can hold small differences of the loads. Without such a minimum, the planets roll, and
-/// the loads follow from the accelerations of the ideal differential. Plain teeth then carry the loads at ψ = 0. Other
-/// teeth carry them at a minimum under these loads. Without that minimum, actual teeth are pressed together at ψ = 0.
+/// The first search is for a balance without rolling planets: a minimum of the potential V + Σ T α near ψ = 0.
+/// Stiffness that varies along the path can hold small differences of the loads. Without such a minimum, the planets
+/// roll, and the loads follow from the accelerations of the ideal differential. Plain teeth are then pressed together
+/// at ψ = 0. If meshes are coupled, a second search is for a minimum under the new loads. If it fails, actual teeth are
+/// pressed together at ψ = 0. Fails if the teeth cannot carry the loads.
 pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut State) -> Result<Preload, Problem> {
     let (teeth, ideal) = (equations.teeth, &model.ideal);
     let plan = &teeth.plan;

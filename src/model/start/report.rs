@@ -14,9 +14,11 @@ const LITTLE: f64 = 0.5;
 /// Loads below this value count as zero [N·m].
 const LEAST_LOAD: f64 = 1e-6;
 
-/// Accelerations at the start, and the torques of the teeth of one planet of each group on the side gears.
+/// Accelerations and tooth torques at the start.
 struct Found {
+    /// Accelerations by degree of freedom [rad/s²; seats m/s²].
     acceleration: [f64; MAX_DOF],
+    /// Torques of the teeth of one planet of each group on both side gears [N·m].
     torque: [[f64; 2]; MAX_GROUPS],
 }
 

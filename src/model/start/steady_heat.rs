@@ -9,7 +9,7 @@ use std::sync::Arc;
 use crate::declaration::units::TEMPERATURES;
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
-use crate::model::thermal::steady::{Cycle, Steady};
+use crate::model::thermal::steady::{CycleMeans, Steady};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
 use crate::problem::Problem;
 
@@ -24,7 +24,8 @@ const START: &str = "scene.start";
 
 impl Simulation {
     /// Sets all nodes to the steady temperatures of a cycle. If there are several steady states, it selects the one
-    /// that is reached from cold. Not inlined, because its simulations need stack that other starts may not have.
+    /// that is reached from cold. Fails if no steady temperatures are found, or if a cycle cannot be run. Not inlined,
+    /// because its simulations need stack that other starts may not have.
     #[inline(never)]
     pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
         let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
@@ -68,8 +69,9 @@ impl Simulation {
     }
 
     /// Mean heat flows of a cycle with all nodes at the temperatures `at` [K]. Adds its attempted steps to `attempts`.
+    /// Fails if the cycle cannot be run, or if all cycles together need too many steps.
     #[inline(never)]
-    fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<Cycle, Problem> {
+    fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<CycleMeans, Problem> {
         let mut run = Box::new(self.clone());
         run.state.thermal = Thermal::at(*at);
         let (begin, length) = (self.time(), self.model.parameters.specs.warm_up.cycle);
@@ -88,7 +90,7 @@ impl Simulation {
             ));
         }
         let entered = [from, to].map(|ledger| network.entering(&ledger.heat));
-        Ok(Cycle {
+        Ok(CycleMeans {
             power: std::array::from_fn(|i| (entered[1][i] - entered[0][i]) / length),
             speed: (ended_at - begun_at).abs() / length,
         })

@@ -121,8 +121,9 @@ impl<const H: usize> Network<H> {
         Rates { temperatures, given_off }
     }
 
-    /// Advances the temperatures by `h` [s]. `heat` [J] is the ledger at the end and `speed` the magnitude of the
-    /// carrier speed [rad/s]. The last argument also contains the outside temperatures halfway and at the end.
+    /// Advances the temperatures by a solver step of `h` [s]. `heat` contains the heats of the ledger at its end [J],
+    /// and `speed` is the magnitude of the carrier speed [rad/s]. The last argument also contains the outside
+    /// temperatures halfway through the step and at its end.
     pub fn advance(&self, thermal: &mut Thermal, heat: &[f64; H], h: f64, (speed, [halfway, end]): (f64, [Around; 2])) {
         let entering = self.entering(heat);
         let power: [f64; NODES] = std::array::from_fn(|i| (entering[i] - thermal.entered[i]) / h);

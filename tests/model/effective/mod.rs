@@ -1,7 +1,7 @@
 //! A value declared to have no effect in a scene changes no bit of any output. A value declared to have an effect
 //! changes some output in some scene. The conditions are those of `variables::effective`.
 
-mod ways;
+mod alternatives;
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -9,16 +9,16 @@ use std::sync::LazyLock;
 use crate::common::random::Draws;
 use crate::mirror::random;
 use crate::mirror::scene::{Scene, Step};
+use alternatives::{Requirement, alternatives};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::effective::{Situation, has_effect};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
 use fastrand::Rng;
-use ways::{Test, ways};
 
-/// Cache of gears from earlier starts. Most values do not affect the gears; `gear_cache` compares those that do with
-/// fresh gears.
+/// Cache of gears from earlier starts, because most values do not affect the gears. The tests in `gear_cache` show that
+/// cached gears equal newly built ones.
 static GEARS: LazyLock<GearCache> = LazyLock::new(GearCache::default);
 
 /// Parameters, inputs and steps of a scene.
@@ -61,7 +61,8 @@ impl Run {
         Ok(self.bits_while(|bits| from.starts_with(bits))? != from)
     }
 
-    /// Bits of all outputs, up to the first point at which `go_on` returns false for all bits so far.
+    /// Bits of all outputs at the start and after each step. The run ends early if a step fails, or if `go_on` returns
+    /// false for all bits so far. Fails if the simulation cannot start.
     fn bits_while(&self, go_on: impl Fn(&[u64]) -> bool) -> Result<Vec<u64>, Vec<Problem>> {
         let mut simulation = self.started()?;
         let mut bits = Vec::new();
@@ -124,7 +125,8 @@ impl Run {
     }
 }
 
-/// Returns another value of `row` within its range.
+/// Draws a value of `row` within its range. It usually differs from `now`, but rounding and the range may give `now`
+/// again.
 fn other(row: &Variable, now: f64, d: &mut Rng) -> f64 {
     match row.access {
         Access::Boolean(_) => 1.0 - now,
@@ -148,28 +150,28 @@ fn settable() -> impl Iterator<Item = (usize, &'static Variable)> {
     rows.filter(|(_, row)| !matches!(row.access, Access::Output(_)))
 }
 
-/// Changes `run` so that `test` is met.
-fn satisfy(run: &mut Run, test: &Test, d: &mut Rng) {
-    let (row, start) = (test.row, Situation::START);
-    let value = match test.sign {
-        '=' => test.values[d.whole(0, test.values.len() as i32 - 1) as usize],
+/// Changes `run` so that `requirement` is met.
+fn satisfy(run: &mut Run, requirement: &Requirement, d: &mut Rng) {
+    let (row, start) = (requirement.row, Situation::START);
+    let value = match requirement.sign {
+        '=' => requirement.values[d.whole(0, requirement.values.len() as i32 - 1) as usize],
         '!' => {
             let Access::Enumeration(kind, ..) = row.access else {
-                if run.get(row) == Some(test.values[0]) {
+                if run.get(row) == Some(requirement.values[0]) {
                     let most = row.range.map_or(1.0, |range| range.max.min(10.0));
-                    run.set(row, test.values[0] + 0.02 * (most - test.values[0]), start);
+                    run.set(row, requirement.values[0] + 0.02 * (most - requirement.values[0]), start);
                 }
                 return;
             };
             let all: Vec<f64> = kind.choices.iter().map(|c| f64::from(c.value)).collect();
-            let left: Vec<f64> = all.into_iter().filter(|v| !test.values.contains(v)).collect();
+            let left: Vec<f64> = all.into_iter().filter(|v| !requirement.values.contains(v)).collect();
             if run.get(row).is_some_and(|now| left.contains(&now)) {
                 return;
             }
             left[d.whole(0, left.len() as i32 - 1) as usize]
         }
         _ => {
-            let least = test.values[0];
+            let least = requirement.values[0];
             if run.get(row).is_some_and(|now| now > least) {
                 return;
             }
@@ -189,12 +191,12 @@ fn a_value_without_effect_in_a_scene_changes_no_bit() {
         let d = &mut Rng::with_seed(index ^ 0x5eed);
         // conditions that random scenes seldom meet
         for (_, row) in settable() {
-            for test in ways(row).concat() {
+            for requirement in alternatives(row).concat() {
                 if !d.share(0.03) {
                     continue;
                 }
                 let before = run.clone();
-                satisfy(&mut run, &test, d);
+                satisfy(&mut run, &requirement, d);
                 if !run.starts() {
                     run = before;
                 }
@@ -222,7 +224,8 @@ fn a_value_without_effect_in_a_scene_changes_no_bit() {
                     let before = changed.len();
                     changed.retain(|(row, ..)| problems.iter().all(|problem| problem.variable != row.name));
                     if changed.len() == before {
-                        // the named value is unchanged, but another one contradicts it
+                        // the problem names an unchanged value that a changed one contradicts; keep only changes that
+                        // a start accepts individually
                         changed.retain(|one| with(&[*one]).starts());
                     }
                     assert!(changed.len() < before, "scene {index}: {problems:?}");
@@ -295,30 +298,45 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     }
 }
 
-/// Scene on a level that meets some tests, with the bits of its outputs, and the state of the random generator after
-/// it.
+/// Scene on a level of gear contact that meets some requirements.
 struct Case {
     run: Run,
+    /// Bits of the scene's outputs.
     expected: Vec<u64>,
+    /// State of the random generator after the scene was drawn.
     draw: Rng,
 }
 
-/// Tooth fault of a case for rows of this effect: true for a tooth that breaks at its onset, false for one that only
-/// the trigger breaks.
+/// Tooth fault of a case, for rows of `tooth_fault`: `Some(true)` if the tooth breaks at its onset, `Some(false)` if
+/// only the trigger breaks it. Cases for other rows have `None`.
 type Fault = Option<bool>;
 
-/// Cases by attempt, level, fault and tests. They are cached, because many rows need the same cases.
+/// Cases by attempt, level, fault and requirements. They are cached, because many rows need the same cases.
 #[derive(Default)]
 struct Cases(HashMap<String, Option<Case>>);
 
 impl Cases {
-    fn case(&mut self, attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<&Case> {
-        let named: Vec<_> = tests.iter().map(|test| (test.row.name, test.sign, &test.values)).collect();
+    fn case(
+        &mut self,
+        attempt: u64,
+        level: (GearContact, ContactLaw),
+        fault: Fault,
+        requirements: &[Requirement],
+    ) -> Option<&Case> {
+        let named: Vec<_> = requirements
+            .iter()
+            .map(|requirement| (requirement.row.name, requirement.sign, &requirement.values))
+            .collect();
         let key = format!("{attempt} {level:?} {fault:?} {named:?}");
-        self.0.entry(key).or_insert_with(|| Self::new_case(attempt, level, fault, tests)).as_ref()
+        self.0.entry(key).or_insert_with(|| Self::new_case(attempt, level, fault, requirements)).as_ref()
     }
 
-    fn new_case(attempt: u64, level: (GearContact, ContactLaw), fault: Fault, tests: &[Test]) -> Option<Case> {
+    fn new_case(
+        attempt: u64,
+        level: (GearContact, ContactLaw),
+        fault: Fault,
+        requirements: &[Requirement],
+    ) -> Option<Case> {
         let draw = if attempt.is_multiple_of(ROLLING) { random::rolling } else { random::scene };
         let mut run = Run::drawn(draw, 1000 + attempt)?;
         let mut draw = Rng::with_seed(attempt ^ 0xfee1);
@@ -329,8 +347,8 @@ impl Cases {
             run.steps.truncate(6);
         }
         on_level(&mut run, level);
-        for test in tests {
-            satisfy(&mut run, test, &mut draw);
+        for requirement in requirements {
+            satisfy(&mut run, requirement, &mut draw);
         }
         if (run.parameters.scene.gear_contact, run.parameters.contact.law) != level {
             return None;
@@ -339,16 +357,22 @@ impl Cases {
         Some(Case { run, expected, draw })
     }
 
-    /// True if row `index` has an effect in some scene of a level that meets `tests`. Returns `None` without such a
-    /// scene.
-    fn has_witness(&mut self, index: usize, level: (GearContact, ContactLaw), tests: &[Test]) -> Option<bool> {
+    /// Returns true if another value of row `index` changes an output in some scene on `level` that meets
+    /// `requirements`. Returns `None` if no such scene declares an effect of the row and accepts another value.
+    fn has_witness(
+        &mut self,
+        index: usize,
+        level: (GearContact, ContactLaw),
+        requirements: &[Requirement],
+    ) -> Option<bool> {
         let row = &table().rows[index];
         let of_level = [("scene.gear_contact", level.0 as i32), ("contact.law", level.1 as i32)];
-        let contradicts = |test: &Test| {
-            let value = of_level.iter().find(|(name, _)| *name == test.row.name).map(|&(_, value)| f64::from(value));
-            value.is_some_and(|value| test.values.contains(&value) != (test.sign == '='))
+        let contradicts = |requirement: &Requirement| {
+            let value =
+                of_level.iter().find(|(name, _)| *name == requirement.row.name).map(|&(_, value)| f64::from(value));
+            value.is_some_and(|value| requirement.values.contains(&value) != (requirement.sign == '='))
         };
-        if tests.iter().any(contradicts) {
+        if requirements.iter().any(contradicts) {
             return None;
         }
         let fault = (row.switch == Some("effects.tooth_fault")).then_some(!matches!(row.access, Access::Input(_)));
@@ -357,7 +381,7 @@ impl Cases {
             if attempt == TRIES / 2 && !exists {
                 return None;
             }
-            let Some(Case { run, expected, draw }) = self.case(attempt, level, fault, tests) else { continue };
+            let Some(Case { run, expected, draw }) = self.case(attempt, level, fault, requirements) else { continue };
             if !run.has_effect(index, Situation::START) {
                 continue;
             }
@@ -381,23 +405,24 @@ fn a_value_with_effect_changes_some_output_on_every_level_of_teeth_and_in_every_
     let (mut wrong, mut cases) = (Vec::new(), Cases::default());
     let chosen = std::env::var("EFFECTIVE_ROWS").unwrap_or_default();
     for (i, row) in settable().filter(|(_, row)| row.name.contains(&chosen)) {
-        // a value that always has an effect needs one witness; if all other values are refused, none is needed
+        // a value that always has an effect must change an output on one level only, or on none if every scene refuses
+        // other values
         let always = row.switch.is_none() && row.when.is_none();
         let mut found = Vec::new();
         for level in LEVELS {
             if always && found.contains(&Some(true)) {
                 break;
             }
-            for (k, tests) in ways(row).iter().enumerate() {
-                found.push(cases.has_witness(i, level, tests));
+            for (k, requirements) in alternatives(row).iter().enumerate() {
+                found.push(cases.has_witness(i, level, requirements));
                 if !always && found.ends_with(&[Some(false)]) {
-                    wrong.push(format!("{} by way {k} on {level:?}", row.name));
+                    wrong.push(format!("{} has no effect in alternative {k} on {level:?}", row.name));
                 }
             }
         }
         let refused = always && found.iter().all(Option::is_none);
         if !refused && !found.contains(&Some(true)) {
-            wrong.push(format!("{} in no scene", row.name));
+            wrong.push(format!("{} has no effect in any scene", row.name));
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

@@ -35,7 +35,7 @@ fn a_bias_by_friction_is_above_one_in_every_sense() {
             let course = held_apart(torque, carrier, apart).run().expect("a scene that starts");
             assert_eq!(course.failure, None);
             let ratio = readings(&course, "torque_bias_ratio");
-            // a tooth cycle takes 0.157 s; from then on, its mean is read
+            // after the first mesh cycle, which takes 0.157 s, the ratio is the mean over a cycle
             let settled = &ratio[60..];
             assert!(settled.iter().all(|ratio| *ratio >= 1.0), "{torque} {carrier} {apart}: {settled:?}");
             let last = settled[settled.len() - 1];

@@ -34,7 +34,7 @@ pub struct Findings {
     /// Number of compared values that are not 0, by line of the table.
     pub telling: Vec<usize>,
     /// Number of scenes whose image takes other steps than the scene and its twins.
-    pub alone: usize,
+    pub with_other_steps: usize,
     /// Descriptions of outputs that do not map.
     pub wrong: Vec<String>,
     /// Largest accepted deviations: before switches of dry friction, after switches, and after different steps.
@@ -58,7 +58,7 @@ impl Findings {
             (0..2).for_each(|k| self.compared[i][k] += other.compared[i][k]);
         }
         self.scenes += other.scenes;
-        self.alone += other.alone;
+        self.with_other_steps += other.with_other_steps;
         self.wrong.extend(other.wrong);
         (0..3).for_each(|k| self.largest[k] = self.largest[k].max(other.largest[k]));
     }
@@ -107,7 +107,8 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
     let counts = [output("solver.steps"), output("solver.rejected")];
     let differs = |other: &Course, k: usize| counts.iter().any(|&i| other.values[k][i] != base.values[k][i]);
     let apart = (0..reached).find(|&k| differs(image, k)).unwrap_or(reached);
-    found.alone = usize::from(apart < reached && !twins.iter().any(|twin| (0..=apart).any(|k| differs(twin, k))));
+    found.with_other_steps =
+        usize::from(apart < reached && !twins.iter().any(|twin| (0..=apart).any(|k| differs(twin, k))));
     let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
     let close = |k: usize| if k < switched { CLOSE } else { CLOSE_AT_SWITCHES };
     // number of values for which the twins stay close in an output

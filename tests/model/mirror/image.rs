@@ -168,7 +168,7 @@ impl Scene {
         outputs()
             .iter()
             .map(|row| {
-                // neither missing planets nor ideal gears have a lash
+                // missing planets and ideal gears have no backlash
                 let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
                 let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
                 let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
@@ -182,7 +182,7 @@ impl Scene {
                 let mapped =
                     Mapped { output: output(&image), factor: self.sign(view, row.name), added, magnitude: false };
                 if view == View::Renumbered && row.name == "mesh.frequency" {
-                    // the frequency is that of planet 1, which is planet 2 in the image
+                    // the frequency follows from the spin of planet 1, which is planet 2 in the image
                     let factor = TAU / f64::from(self.parameters.geometry.planet_teeth);
                     return Mapped { output: output("planet[2].spin_speed"), factor, magnitude: true, ..mapped };
                 }

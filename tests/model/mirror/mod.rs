@@ -20,8 +20,8 @@ use teeth::View;
 
 /// Number of random scenes of a survey.
 const SCENES: usize = 50;
-/// Number of these scenes that are compared in all views.
-const OTHERWISE: usize = 10;
+/// Number of scenes of a survey that are compared in all views; the others are compared only in the first view.
+const IN_ALL_VIEWS: usize = 10;
 /// Number of random scenes whose planets change places.
 const RENUMBERED: usize = 20;
 /// Number of scenes whose planets roll over some teeth.
@@ -32,7 +32,7 @@ const SHARE: f64 = 0.7;
 const SHARE_OF_ONE: f64 = 0.2;
 
 /// Expected fraction of images that take other steps than the scene, although its twins do not.
-const ALONE: f64 = 0.05;
+const WITH_OTHER_STEPS: f64 = 0.05;
 /// Standard deviations by which the number of such images may exceed its expected value.
 const DEVIATIONS: f64 = 2.0;
 
@@ -50,15 +50,15 @@ fn compared(scene: &Scene, views: &[View]) -> Option<Vec<Findings>> {
     Some(found.collect())
 }
 
-/// Compares `count` scenes of `draw`, from number `first` on, with their images in the first view. Some of them are
-/// compared with their images in all `views`. Returns the findings of each view.
+/// Compares `count` scenes of `draw`, from number `first` on, with their images in the first view. The first
+/// [`IN_ALL_VIEWS`] of these scenes are compared with their images in all `views`. Returns the findings of each view.
 fn survey<const N: usize>(draw: fn(u64) -> Option<Scene>, first: u64, count: usize, views: [View; N]) -> [Findings; N] {
     let mut all = views.map(|_| Findings::new());
     for index in first.. {
         if all[0].scenes >= count {
             break;
         }
-        let views = if all[0].scenes < OTHERWISE { &views[..] } else { &views[..1] };
+        let views = if all[0].scenes < IN_ALL_VIEWS { &views[..] } else { &views[..1] };
         let Some(found) = draw(index).and_then(|scene| compared(&scene, views)) else { continue };
         for (all, mut found) in all.iter_mut().zip(found) {
             found.wrong = found.wrong.iter().map(|wrong| format!("scene {index}: {wrong}")).collect();
@@ -93,9 +93,13 @@ fn report(view: View, found: &Findings) {
     println!("{view:?}: {} scenes, {:.3} of all values, largest {:?}", found.scenes, found.share(), found.largest);
     assert!(found.wrong.is_empty(), "{} differ\n{}", found.wrong.len(), found.wrong.join("\n"));
     assert!(found.share() > SHARE, "{}", found.share());
-    let expected = ALONE * found.scenes as f64;
+    let expected = WITH_OTHER_STEPS * found.scenes as f64;
     let most = expected + DEVIATIONS * expected.sqrt();
-    assert!(found.alone as f64 <= most, "{} images take steps of their own", found.alone);
+    assert!(
+        found.with_other_steps as f64 <= most,
+        "{} images take other steps than their scenes",
+        found.with_other_steps
+    );
 }
 
 #[test]

@@ -18,9 +18,11 @@ const STEPS: usize = 14;
 /// Module for which loads and sizes are given [m]. They are scaled for other modules.
 const MODULE: f64 = 4.5e-3;
 
-/// Bits that give separate random generators for one scene.
+/// Bit of the seed for the separate generator of [`later`].
 const LATER: u64 = 1 << 40;
+/// Bit of the seed for the separate generator of [`rolling`].
 const ROLLING: u64 = 1 << 41;
+/// Bit of the seed for the separate generator of [`warm`].
 pub const WARM: u64 = 1 << 42;
 
 /// Scene number `index`, or `None` if it cannot be built.
@@ -179,7 +181,7 @@ fn later(d: &mut Rng, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
 }
 
-/// Small nodes, which warm up quickly, and friction that depends on their temperatures.
+/// Sets small nodes, which warm up quickly, and friction that depends on speed, temperature and p·v.
 pub fn warm(d: &mut Rng, p: &mut Parameters) {
     p.effects.warm_up = d.share(0.3);
     let s = &mut p.specs;

@@ -43,12 +43,12 @@ mod tests {
             assert_eq!(fraction(text).expect(text), wanted, "{text}");
         }
         for (text, wanted_text) in [
-            ("", "no number"),
-            ("%", "no number"),
-            ("one", "no number"),
-            ("nan", "no number"),
-            ("inf%", "no number"),
-            ("1%%", "no number"),
+            ("", "not a number"),
+            ("%", "not a number"),
+            ("one", "not a number"),
+            ("nan", "not a number"),
+            ("inf%", "not a number"),
+            ("1%%", "not a number"),
             ("0", "above 0"),
             ("-1%", "above 0"),
             ("1e-9", "or more"),

@@ -109,7 +109,7 @@ fn nothing(answer: &Answer) -> String {
     let fixed = answer.trials.iter().filter(is_fixed).min_by(|a, b| a.error().total_cmp(&b.error()));
     match fixed {
         Some(nearest) => format!(
-            "no tested fixed steps are accurate enough, and shorter steps cost too much. The most accurate are {}, \
+            "no setting: no fixed steps that were tested are accurate enough, and shorter steps cost too much. The most accurate are {}, \
              with an error of {}. Set solver.method = adaptive, or allow a larger error.",
             setting(&nearest.scene.parameters),
             percent(nearest.error())

@@ -15,7 +15,7 @@ use bevel_differential::geometry::{GearSpec, Pair};
 use super::design::Design;
 use crate::progress::Progress;
 use crate::text::ordered::Ordered;
-use crate::text::table::wrapped;
+use crate::text::table::{labelled, wrapped};
 
 const MM: f64 = 1e3;
 const INTERFERENCE: &str = "INTERFERENCE";
@@ -79,11 +79,13 @@ impl InterferenceCheck {
         let headings =
             ["Teeth in the middle of their gaps", "Backlash taken up on one side, as gears run", "Neighbours"];
         for (number, (heading, finding)) in (1..).zip(headings.iter().zip(self.findings())) {
-            out += &wrapped(&format!("{number}. {heading}: {finding}."));
+            let (result, details) = finding.split_once('\n').unwrap_or((&finding, ""));
+            out += &wrapped(&format!("{number}. {heading}: {result}."));
+            out += details;
         }
         out += &wrapped(&format!(
-            "Checked: {POSITIONS} positions over a tooth pitch of the planet, and more around the worst; outlines of {FACETS} \
-             facets per flank; accurate to {:.4} mm at the heel. {}",
+            "Checked: {POSITIONS} positions over a tooth pitch of the planet, and more near the worst one; outlines of \
+             {FACETS} facets per flank; accurate to {:.4} mm at the heel. {}",
             self.heel(self.stances[0].resolution),
             self.meshes()
         ));
@@ -100,7 +102,7 @@ impl InterferenceCheck {
         format!("verdict: {INTERFERENCE}, the gears do not turn freely: see {} above", struck.join(" and "))
     }
 
-    /// Findings of the text, in its order.
+    /// Findings of the text, in its order. Indented lines with details may follow the first line.
     fn findings(&self) -> [String; 3] {
         let [middle, driving] = &self.stances;
         [self.middle(middle), self.driving(driving), self.neighbours()]
@@ -112,14 +114,9 @@ impl InterferenceCheck {
             Verdict::Interfering => self.entered(found),
             Verdict::Touching => format!("no interference: {} touch within the accuracy of this check", parts(worst)),
             Verdict::Clear => format!(
-                "no interference; smallest gap between {}, {:.4} mm at the toe (R = {:.4} mm) and {:.4} mm at the heel \
-                 (R = {:.4} mm), {}",
+                "no interference; smallest gap between {}\n{}",
                 parts(worst),
-                worst.gap * self.pair.inner_cone * MM,
-                self.pair.inner_cone * MM,
-                self.heel(worst.gap),
-                self.pair.outer_cone * MM,
-                place(worst)
+                self.details("gap", worst.gap, worst)
             ),
         }
     }
@@ -136,19 +133,22 @@ impl InterferenceCheck {
     fn entered(&self, found: &Interference) -> String {
         let mut entering = found.approaches.iter().filter(|a| found.verdict(a.gap) == Verdict::Interfering);
         let Some(worst) = entering.next() else { return String::new() };
-        let mut text = format!(
-            "{INTERFERENCE}: {} by {:.4} mm at the heel (R = {:.4} mm) and {:.4} mm at the toe (R = {:.4} mm), {}",
-            sentence(worst),
-            -self.heel(worst.gap),
-            self.pair.outer_cone * MM,
-            -worst.gap * self.pair.inner_cone * MM,
-            self.pair.inner_cone * MM,
-            place(worst)
-        );
+        let mut text = format!("{INTERFERENCE}: {}\n{}", sentence(worst), self.details("depth", -worst.gap, worst));
         for other in entering {
-            text += &format!("; {} by up to {:.4} mm", sentence(other), -self.heel(other.gap));
+            let depth = -self.heel(other.gap);
+            text += &labelled("   ", &format!("Also, {} by up to {depth:.4} mm.", sentence(other)));
         }
         text
+    }
+
+    /// Indented lines below a result: the `length` per cone distance, called `what`, at toe and heel, and the position
+    /// of the approach.
+    fn details(&self, what: &str, length: f64, a: &Approach) -> String {
+        let ends = [("toe", self.pair.inner_cone), ("heel", self.pair.outer_cone)].map(|(end, cone)| {
+            let label = format!("{what} at {end}:");
+            format!("   {label:<15}{:.4} mm (R = {:.4} mm)\n", length * cone * MM, cone * MM)
+        });
+        ends.concat() + &position(a)
     }
 
     fn neighbours(&self) -> String {
@@ -263,11 +263,11 @@ fn sentence(a: &Approach) -> String {
     format!("the {}'s {} enters the {}'s {}", GEARS[own], part(a.parts[own]), GEARS[mate], part(a.parts[mate]))
 }
 
-/// Position of the approach.
-fn place(a: &Approach) -> String {
+/// Lines about the position of the approach.
+fn position(a: &Approach) -> String {
     format!(
-        "{:.2} deg from the planet's axis, {:.2} deg from the side gear's and {:.2} deg out of the plane of both axes, \
-         with the planet turned {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})",
+        "   position:      {:.2} deg from the planet's axis, {:.2} deg from the side gear's, {:.2} deg out of their plane\n   \
+         planet turned: {:.2} deg from a tooth in that plane (planet tooth {}, side gear tooth {})\n",
         a.polar[0].to_degrees(),
         a.polar[1].to_degrees(),
         a.azimuth.to_degrees(),

@@ -132,9 +132,9 @@ fn columns(found: &[PatternFindings], count: usize) -> Table {
 /// Table for the document.
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
-        "{}\nForce of the pair, centroid of its load from the middle of the face toward the heel, line loads and pressure \
-         at the sample nearest to its pitch point; peak: the greatest pressure at or above the pitch line over the \
-         engagement.\n",
+        "{}\nForce, centroid, line loads and pressure are for the instant at which the pair is nearest to its pitch point. \
+         The centroid of the load counts from the middle of the face toward the heel. Peak is the largest pressure at or \
+         above the pitch line over the engagement.\n",
         columns(found, IN_DOCUMENT).markdown()
     )
 }

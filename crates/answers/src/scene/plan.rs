@@ -63,8 +63,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         }
         line(name.rsplit('.').next().unwrap_or(name).replace('_', " ").as_str(), &choice(scene, name));
     }
-    let groups: Vec<String> = plan.groups().iter().map(|group| format!("1 x {}", group.members)).collect();
-    line("planets", &format!("{} planets simulated as {}", plan.planets, groups.join(" + ")));
+    line("planets", &format!("{} planets simulated in {}", plan.planets, plan.describe_groups()));
     for (i, drive) in drives(scene).into_iter().enumerate() {
         line(if i == 0 { "drives" } else { "" }, &drive);
     }

@@ -288,7 +288,7 @@ fn an_accuracy_that_no_affordable_fixed_step_reaches_is_reported() {
     let found = ask(&in_fixed_steps(&short));
     assert!(found.chosen.is_none() && ask(&short).chosen.is_some());
     let said = report::text(&found).split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(said.contains("no fixed steps") && said.contains("solver.method = adaptive"), "{said}");
+    assert!(said.contains("no fixed steps that were tested are accurate enough") && said.contains("solver.method = adaptive"), "{said}");
 }
 
 #[test]

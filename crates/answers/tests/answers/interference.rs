@@ -22,7 +22,7 @@ fn the_studys_gears_turn_freely_and_thicker_ones_are_reported_with_position_and_
     // 0.1 mm of backlash minus 0.2 mm: half of 0.1 mm cos α at the heel
     let thick = InterferenceCheck::new(&design, 2e-4)?;
     let depth = 0.05 * 20f64.to_radians().cos();
-    assert!(thick.any() && words(&thick).contains(&format!("by {depth:.4} mm at the heel")), "{}", thick.text());
+    assert!(thick.any() && words(&thick).contains(&format!("depth at heel: {depth:.4} mm")), "{}", thick.text());
     let middle = &reported(&thick)?["interference"]["middle"];
     let worst = &middle["approaches"][0];
     assert_eq!((&worst["planet"], &worst["side_gear"]), (&Value::from("flank"), &Value::from("flank")));
@@ -35,7 +35,10 @@ fn the_studys_gears_turn_freely_and_thicker_ones_are_reported_with_position_and_
 fn a_tip_beyond_its_limit_is_reported_by_gear_and_part() -> Result<()> {
     let check = InterferenceCheck::new(&Design::new(&["geometry.addendum_system=standard"])?, 0.0)?;
     let text = words(&check);
-    assert!(text.contains("the side gear's tip enters the planet's flank below the base circle by 0.0"), "{text}");
+    assert!(
+        text.contains("the side gear's tip enters the planet's flank below the base circle. depth at toe: 0.0"),
+        "{text}"
+    );
     let mitre = ["geometry.planet_teeth=14", "geometry.side_teeth=14", "geometry.planet_count=4"];
     let check = InterferenceCheck::new(&Design::new(&mitre)?, 0.0)?;
     assert!(check.any() && words(&check).contains("tip cones of neighbouring planets overlap"), "{}", check.text());

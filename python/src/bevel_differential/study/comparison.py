@@ -118,36 +118,37 @@ def _notes(forms, straight):
     expected = forms.expected(ahead)
     consequence = {
         (True, True): "undercut the planet and jam in the side gear",
-        (True, False): "undercut the planet: the side gear's tips reach below its base circle",
+        (True, False): "undercut the planet, because the side gear's tips reach below its base circle",
         (False, True): "jam in the side gear",
         (False, False): "are free of interference",
     }[forms.standard_addenda_interfere]
     sphere, planar = pair.contact_ratio, forms.planar_contact_ratio
     return [
-        f"The study rounds its inputs: unrounded they are {theory.carrier_speed(ahead):.2f} and {theory.carrier_speed(turn):.2f} deg/s (v / "
-        f"tyre radius) and {theory.load_torque():.2f} N.m (mass · g · front share · adhesion · tyre radius, half of it on each side). The "
-        f"program runs with the study's {degrees(start['carrier.speed_command']):.0f} and {turn.carrier_speed:.0f} deg/s and "
-        f"{start['left.load_torque']:.0f} N.m, so that results compare.",
-        f"K = 4/3 √R E* is {_scientific(hertz, '.4e')} N/mm^1.5. The study prints {_scientific(stated.STIFFNESS_PRINTED, '.2e')}, a factor "
-        f"ten off, and then uses {_scientific(stated.STIFFNESS_USED, '.2e')}, {(stated.STIFFNESS_USED / hertz - 1.0) * 100.0:+.1f} %. The "
-        f"program's default is the value used, {_scientific(_per_mm(start['contact.stiffness']), '.2e')}; contact.stiffness_from_hertz "
-        "takes the formula's.",
-        f"The study says ±{stated.RIPPLE:g} % for all speeds. Settled, straight driving has no ripple, because no tooth rolls. In the turn "
-        "the exact tooth form gives no more than this with the study's contact law and constants.",
+        f"The study rounds its inputs. Unrounded, the speeds are {theory.carrier_speed(ahead):.2f} and {theory.carrier_speed(turn):.2f} "
+        f"deg/s (v / tyre radius). The load is {theory.load_torque():.2f} N.m (mass · g · front share · adhesion · tyre radius, half of "
+        f"it on each side). For comparison, the program runs with the study's {degrees(start['carrier.speed_command']):.0f} and "
+        f"{turn.carrier_speed:.0f} deg/s and {start['left.load_torque']:.0f} N.m.",
+        f"K = 4/3 √R E* is {_scientific(hertz, '.4e')} N/mm^1.5. The study prints {_scientific(stated.STIFFNESS_PRINTED, '.2e')}, which is "
+        f"wrong by a factor of ten. It then uses {_scientific(stated.STIFFNESS_USED, '.2e')}, which deviates by "
+        f"{(stated.STIFFNESS_USED / hertz - 1.0) * 100.0:+.1f} %. The program's default is "
+        f"{_scientific(_per_mm(start['contact.stiffness']), '.2e')}, too. With contact.stiffness_from_hertz, the program uses the formula.",
+        f"The study states ±{stated.RIPPLE:g} % for all speeds. Straight ahead, the ripple is 0 after the start, because no tooth rolls. "
+        "In the turn, exact teeth give only the ripple of this table, with the study's contact law and constants.",
         f"T/r_p with r_p = {forms.side_radius * 1e3:.0f} mm is the tangential force of all planets on one side gear, referred to its outer "
-        f"pitch circle. Teeth carry it around the mean cone distance: with {pair.planets} planets each mesh has F_t = "
+        f"pitch circle. The teeth transmit it around the mean cone distance. With {pair.planets} planets, each mesh therefore has F_t = "
         f"{load * cos(pair.pressure_angle):.0f} N and F_n = {load:.0f} N.",
-        "Started in mid-play, the load throws the side gears back until the teeth strike: the force peaks after "
-        f"{straight['peak_time'] * 1e6:.0f} µs at {straight['peak_tangential_force'] / expected.tangential_force:.2f} times the static one, "
-        f"and speeds are within {SETTLED_BAND * 100.0:.0f} % of theory after {straight['settled_after'] * 1e3:.2f} ms. The study's output "
-        f"every {stated.INTERVAL * 1e3:.0f} ms cannot see this.",
-        "Straight ahead planets and side gears do not roll on each other: the mesh frequency z_p |spin| / 360 is "
-        f"{expected.mesh_frequency:.0f} Hz, in the turn {forms.expected(turn).mesh_frequency:.3f} Hz. The study's {stated.MESH_FREQUENCY:g} "
-        f"Hz is ten times the carrier's rotation ({pair.gears[0].teeth * ahead.carrier_speed / 360.0:.2f} Hz).",
-        "Stored energy less work of the inputs plus heat, over the energy that went through in the same time; zero for an exact solution.",
-        f"Geometry: standard addenda (1.0 modules) {consequence}; the limit is {forms.addendum_limit:.3f} modules at "
-        f"{degrees(pair.pressure_angle):.0f} deg. Long and short addenda, the default, cure it. The face width of "
-        f"{pair.face_width * 1e3:.0f} mm is {pair.face_width / pair.outer_cone:.3f} R_e, above R_e/3, the usual limit of cut gears. The contact ratio is "
-        f"{sphere:.4f} on the sphere; Tredgold's planar approximation, which the study uses, gives {planar:.4f} "
-        f"({100.0 * (planar / sphere - 1.0):+.2f} %).",
+        "The run starts in the middle of the backlash. The load throws the side gears back until the teeth strike. The force peaks after "
+        f"{straight['peak_time'] * 1e6:.0f} µs at {straight['peak_tangential_force'] / expected.tangential_force:.2f} times the static "
+        f"force. Speeds are within {SETTLED_BAND * 100.0:.0f} % of theory after {straight['settled_after'] * 1e3:.2f} ms. The study's "
+        f"output every {stated.INTERVAL * 1e3:.0f} ms cannot show this.",
+        "Straight ahead, planets and side gears do not roll on each other, so the mesh frequency z_p |spin| / 360 is "
+        f"{expected.mesh_frequency:.0f} Hz. In the turn, it is {forms.expected(turn).mesh_frequency:.3f} Hz. The study's "
+        f"{stated.MESH_FREQUENCY:g} Hz is ten times the carrier's rotation ({pair.gears[0].teeth * ahead.carrier_speed / 360.0:.2f} Hz).",
+        "The residual is the stored energy minus the work of the inputs plus the heat. It is divided by the energy that was transmitted in "
+        "the same time. An exact solution has 0.",
+        f"This note on the geometry belongs to no row. Standard addenda (1.0 modules) {consequence}. The limit is "
+        f"{forms.addendum_limit:.3f} modules at {degrees(pair.pressure_angle):.0f} deg. The default, long and short addenda, avoids this. "
+        f"The face width of {pair.face_width * 1e3:.0f} mm is {pair.face_width / pair.outer_cone:.3f} R_e, above R_e/3, the usual limit of "
+        f"cut gears. The contact ratio is {sphere:.4f} on the sphere. Tredgold's planar approximation, which the study uses, gives "
+        f"{planar:.4f} ({100.0 * (planar / sphere - 1.0):+.2f} %).",
     ]

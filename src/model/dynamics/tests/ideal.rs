@@ -1,5 +1,5 @@
-//! Tests of the equations of ideal gears with effects. Scenes with only half-shafts have separate equations, and other
-//! methods use a larger size.
+//! Tests of the equations of ideal gears with effects. Scenes in which only half-shafts act use separate equations, and
+//! some integration methods use larger matrices. Both must give the same bits.
 
 use super::{FrictionEquations, IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
@@ -52,16 +52,16 @@ fn equations_of_only_half_shafts_have_the_bits_of_the_equations_with_any_effects
     at_random_points(|ideal, state, inputs, at| {
         let any = IdealWithEffects { linear: None, ..ideal.clone() };
         assert!(ideal.linear.is_some());
-        let [alone, any] = [ideal, &any].map(|ideal| IdealEquations::new(ideal, inputs, state));
+        let [only_shafts, any] = [ideal, &any].map(|ideal| IdealEquations::new(ideal, inputs, state));
         for time in [0.0, 0.02] {
-            assert_eq!(alone.evaluate_at(at, time), any.evaluate_at(at, time));
-            assert_eq!(alone.accelerate_at(at, time), any.evaluate_at(at, time).0);
-            let [one, other] = [&alone, &any].map(|equations| equations.linearise_at(at, time));
+            assert_eq!(only_shafts.evaluate_at(at, time), any.evaluate_at(at, time));
+            assert_eq!(only_shafts.accelerate_at(at, time), any.evaluate_at(at, time).0);
+            let [one, other] = [&only_shafts, &any].map(|equations| equations.linearise_at(at, time));
             assert_eq!((one.by_position, one.by_velocity), (other.by_position, other.by_velocity));
             assert_eq!((one.acceleration, one.ledger_rates), (other.acceleration, other.ledger_rates));
-            assert_eq!(alone.drift(at, time), any.drift(at, time));
+            assert_eq!(only_shafts.drift(at, time), any.drift(at, time));
         }
-        assert_eq!(alone.energy(at), any.energy(at));
+        assert_eq!(only_shafts.energy(at), any.energy(at));
     });
 }
 

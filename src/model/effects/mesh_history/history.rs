@@ -29,11 +29,11 @@ pub struct MeshHistory {
 }
 
 impl MeshHistory {
-    /// Adds a step up to its `accepted_fraction`. `rolling` is its rolling in cycles, and `quantities` are in their
-    /// fixed order.
+    /// Adds a step up to its `accepted_fraction`. `rolling` is the position along the step in mesh cycles, and
+    /// `quantities` have the order of [`MOST_QUANTITIES`].
     ///
-    /// A step may contain any number of whole cycles, of which only the last one gives values. They are counted without
-    /// a loop.
+    /// A step may contain any number of whole cycles. They are counted without a loop, and only the last one gives
+    /// values.
     pub fn add(&mut self, rolling: &Curve, quantities: &[Curve], accepted_fraction: f64) {
         let (mut from, mut begin) = (0.0, rolling.at(0.0) - self.rolled);
         let rolled = rolling.at(accepted_fraction) - begin;

@@ -75,17 +75,21 @@ const PLANET_ROOT: usize = 0;
 const SIDE_ROOT: usize = 1;
 const PITTING: usize = 2;
 
-/// Sample, and the damage per cycle under its loads, by group, side and flank. It is large, so it is written in place.
+/// Sample of a step, and the damage under its loads. It is large, so it is written in place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rated {
+    /// Fraction of the step at which the sample was taken.
     part: f64,
     sample: Sample,
+    /// Damage per cycle, by group, side and flank.
     damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
 }
 
-/// Damage per cycle and bending force of the worst tooth, with which differences are compared.
+/// Values of the worst tooth, with which differences are compared.
 struct Scale {
+    /// Damage per cycle.
     damage: PerCycle,
+    /// Force that bends the tooth [N].
     bending: f64,
 }
 
@@ -223,15 +227,15 @@ impl GearStrength {
         fatigue.in_mesh.add(rating, planets, to - from, forces);
     }
 
-    /// Records the largest ratios of stress to strength, and the first stresses above the strength. A planet has its
-    /// idler strength while it rolls.
+    /// Records the largest ratios of stress to strength, and the first stresses above the strength. While a planet
+    /// rolls, its bending strength is reduced by the idler factor.
     fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
         let rating = &self.rating;
         let span = parts[2].part - parts[0].part;
         for_each_flank(step.members.len(), |group, side, flank| {
             let load =
                 |of: fn(&FlankLoad) -> f64| crest(parts.map(|at| of(&at.sample.mesh[group][side].flanks()[flank])));
-            let (bending, pressing) = (load(|flank| flank.bending), load(|flank| flank.pressing));
+            let (bending, normal) = (load(|flank| flank.bending), load(|flank| flank.normal_face_loaded));
             if bending.0 <= 0.0 {
                 return;
             }
@@ -242,11 +246,11 @@ impl GearStrength {
                 Overload { time, stress, strength, group, side }
             };
             let root = |i: usize, strength: f64| at(bending.1, rating.root[i].stress(bending.0), strength);
-            let pressure = rating.contact.rated_pressure(pressing.0).unwrap_or(0.0);
+            let pressure = rating.contact.rated_pressure(normal.0).unwrap_or(0.0);
             let loads = [
                 (Stressed::PlanetRoot, root(0, rating.bending[usize::from(!rolls)].strength)),
                 (Stressed::SideRoot, root(1, rating.bending[1].strength)),
-                (Stressed::Flanks, at(pressing.1, pressure, rating.pitting.strength)),
+                (Stressed::Flanks, at(normal.1, pressure, rating.pitting.strength)),
             ];
             for (what, load) in loads {
                 fatigue.overloads.watch(what, load);

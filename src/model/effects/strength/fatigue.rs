@@ -23,7 +23,7 @@ pub struct Fatigue {
     pub utilisation: Utilisation,
     /// Time from which damage and stresses count [s].
     pub from: f64,
-    /// True if a start that was not in equilibrium counts.
+    /// True if the run did not start in equilibrium, and damage and stresses count from this start.
     pub counts_start: bool,
 }
 

@@ -28,8 +28,10 @@ pub struct GearStrength {
     pub(super) rating: Rating,
     /// Application factor K_A: rated load over simulated load.
     application: f64,
+    /// Mean cone distance [m].
     mean_cone: f64,
     flash: Flash,
+    /// Contact temperature at which flanks scuff [K].
     scuffing: f64,
 }
 
@@ -57,7 +59,7 @@ impl GearStrength {
         let flank = mesh.flank(load.flank);
         let force = moment / load.cone;
         flank.normal += force;
-        flank.pressing += force * load.face_factor;
+        flank.normal_face_loaded += force * load.face_factor;
         // the root formula needs the force at the mean cone distance
         flank.bending += moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
     }
@@ -125,6 +127,6 @@ impl GearStrength {
 
     /// Pressure by which pitting of a flank is rated [Pa].
     pub(super) fn rated_pressure(&self, flank: &FlankLoad) -> f64 {
-        self.rating.contact.rated_pressure(flank.pressing).unwrap_or(0.0)
+        self.rating.contact.rated_pressure(flank.normal_face_loaded).unwrap_or(0.0)
     }
 }

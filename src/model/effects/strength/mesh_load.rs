@@ -1,17 +1,17 @@
-//! Load of a mesh for rating its strength, flank by flank.
+//! Load of a mesh, from which the strength of its teeth is rated, for each flank.
 
 use crate::contact::Flank;
 
 /// Load of one flank of a mesh: sums over its pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FlankLoad {
-    /// Normal force at the cone distance of the law's resultant [N].
+    /// Normal force [N], as if it acted at the cone distance at which the law's resultant acts under an even load.
     pub normal: f64,
-    /// Normal force at the cone distance of the law's resultant, with each pair's force multiplied by its face load
-    /// factor K_Hβ [N]. Contact pressure follows from it.
-    pub pressing: f64,
-    /// Normal force at the mean cone distance, with each pair's force multiplied by K_Fβ [N]. Root bending follows from
-    /// it.
+    /// Normal force as in `normal`, but with each pair's force multiplied by its face load factor K_Hβ [N]. The rated
+    /// contact pressure follows from it.
+    pub normal_face_loaded: f64,
+    /// Normal force [N], as if it acted at the mean cone distance, with each pair's force multiplied by K_Fβ. The root
+    /// stress follows from it.
     pub bending: f64,
     /// Largest pressure of a pair [Pa].
     pub pressure: f64,

@@ -62,7 +62,7 @@ impl Overloads {
         }
     }
 
-    /// First overload of the kind `what`.
+    /// First overload of the kind `what`, or `None` if there has been none.
     pub fn of(&self, what: Stressed) -> Option<&Overload> {
         self.first[what as usize].as_ref()
     }

@@ -10,7 +10,7 @@ pub const MOST: f64 = 1e3;
 
 /// Largest ratio of stress to strength so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Largest {
+pub struct LargestRatio {
     /// Stress over strength; 0 before the first stress.
     pub share: f64,
     /// Time at which it occurred [s].
@@ -21,17 +21,17 @@ pub struct Largest {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Utilisation {
     /// Largest ratio of all roots.
-    pub root: Largest,
+    pub root: LargestRatio,
     /// Largest ratio of all flanks.
-    pub flank: Largest,
+    pub flank: LargestRatio,
 }
 
 finite! {
-    Largest { share, time }
+    LargestRatio { share, time }
     Utilisation { root, flank }
 }
 
-impl Largest {
+impl LargestRatio {
     /// Safety factor: strength over stress.
     pub fn safety(&self) -> f64 {
         1.0 / self.share.max(1.0 / MOST)
@@ -39,12 +39,12 @@ impl Largest {
 }
 
 impl Utilisation {
-    /// Takes a stress into account.
+    /// Records the ratio of stress to strength in `load` if it is the largest so far.
     pub fn watch(&mut self, what: Stressed, load: &Overload) {
         let largest = if what == Stressed::Flanks { &mut self.flank } else { &mut self.root };
         let share = load.stress / load.strength;
         if share > largest.share {
-            *largest = Largest { share, time: load.time };
+            *largest = LargestRatio { share, time: load.time };
         }
     }
 

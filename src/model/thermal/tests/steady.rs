@@ -3,12 +3,13 @@
 use std::convert::Infallible;
 
 use super::network::{Around, Conductance, Network};
-use super::steady::{Cycle, Steady};
+use super::steady::{CycleMeans, Steady};
 use super::{CASE, CLUTCH, GEARS, NODES, OIL, WASHERS};
 
 const AMBIENT: f64 = 290.0;
-/// Conductances of gears, clutch packs, washers and case to the oil, and of the case to ambient [W/K].
+/// Conductances to the oil, by node; 0 for the oil itself [W/K].
 const TO_OIL: [f64; NODES] = [0.0, 20.0, 10.0, 5.0, 30.0];
+/// Conductance of the case to ambient at 4 rad/s [W/K].
 const TO_AMBIENT: f64 = 12.0;
 const COLD: f64 = 290.0;
 const HOT: f64 = 673.15;
@@ -31,7 +32,7 @@ fn steady(
     power: impl Fn(&[f64; NODES]) -> [f64; NODES],
 ) -> Steady {
     network
-        .steady::<Infallible>(begin, influential, |at| Ok(Cycle { power: power(at), speed: 4.0 }))
+        .steady::<Infallible>(begin, influential, |at| Ok(CycleMeans { power: power(at), speed: 4.0 }))
         .unwrap_or(Steady::NotFound)
 }
 
@@ -62,11 +63,11 @@ fn given_heats_lead_to_the_sums_of_flows_over_conductances() {
 /// Oil temperature within a range at which entering and leaving heat are equal, by bisection [K].
 fn balance(power: impl Fn(f64) -> f64, [mut from, mut to]: [f64; 2]) -> f64 {
     let resistance = 1.0 / TO_OIL[CASE] + 1.0 / TO_AMBIENT;
-    let rest = |oil: f64| power(oil) - (oil - AMBIENT) / resistance;
-    let sign = rest(from).signum();
+    let residual = |oil: f64| power(oil) - (oil - AMBIENT) / resistance;
+    let sign = residual(from).signum();
     for _ in 0..200 {
         let middle = 0.5 * (from + to);
-        *(if rest(middle).signum() == sign { &mut from } else { &mut to }) = middle;
+        *(if residual(middle).signum() == sign { &mut from } else { &mut to }) = middle;
     }
     from
 }

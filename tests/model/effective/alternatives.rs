@@ -1,27 +1,29 @@
-//! Conditions of rows as alternatives to meet them. The parser is independent of the program's parser.
+//! Conditions under which rows have an effect, as alternative lists of requirements. The parser is independent of the
+//! program's parser.
 
 use bevel_differential::variables::{Access, Variable, named};
 
-/// Test in a condition: `=` one of the values, `!` none of them, `>` more than the first.
+/// Requirement of a condition. The value of `row` must be one of `values` (sign `=`), none of them (`!`), or greater
+/// than the first one (`>`).
 #[derive(Clone)]
-pub struct Test {
+pub struct Requirement {
     pub row: &'static Variable,
     pub sign: char,
     pub values: Vec<f64>,
 }
 
-/// Alternatives in which `row` has an effect: each is a list of tests that must all be met. Tests of the situation are
-/// left out.
-pub fn ways(row: &Variable) -> Vec<Vec<Test>> {
+/// Alternatives in which `row` has an effect. Each is a list of requirements that must all be met. The conditions
+/// `co-simulation` and `initialisation` add no requirement.
+pub fn alternatives(row: &Variable) -> Vec<Vec<Requirement>> {
     let switch = row.switch.map_or(vec![vec![]], |name| read(&format!("{name} = true")));
     both(switch, row.when.map_or(vec![vec![]], read))
 }
 
-fn both(a: Vec<Vec<Test>>, b: Vec<Vec<Test>>) -> Vec<Vec<Test>> {
+fn both(a: Vec<Vec<Requirement>>, b: Vec<Vec<Requirement>>) -> Vec<Vec<Requirement>> {
     a.iter().flat_map(|one| b.iter().map(|other| [one.as_slice(), other].concat())).collect()
 }
 
-fn read(text: &str) -> Vec<Vec<Test>> {
+fn read(text: &str) -> Vec<Vec<Requirement>> {
     let mut words: Vec<String> =
         text.replace('(', "( ").replace(')', " )").split(' ').rev().map(String::from).collect();
     let found = any(&mut words);
@@ -30,7 +32,7 @@ fn read(text: &str) -> Vec<Vec<Test>> {
 }
 
 /// Parses alternatives joined by "or". Words are taken from the end.
-fn any(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+fn any(words: &mut Vec<String>) -> Vec<Vec<Requirement>> {
     let mut found = all(words);
     while words.pop_if(|word| word == "or").is_some() {
         found.extend(all(words));
@@ -38,7 +40,7 @@ fn any(words: &mut Vec<String>) -> Vec<Vec<Test>> {
     found
 }
 
-fn all(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+fn all(words: &mut Vec<String>) -> Vec<Vec<Requirement>> {
     let mut found = one(words);
     while words.pop_if(|word| word == "and").is_some() {
         found = both(found, one(words));
@@ -46,7 +48,7 @@ fn all(words: &mut Vec<String>) -> Vec<Vec<Test>> {
     found
 }
 
-fn one(words: &mut Vec<String>) -> Vec<Vec<Test>> {
+fn one(words: &mut Vec<String>) -> Vec<Vec<Requirement>> {
     let word = words.pop().unwrap();
     match word.as_str() {
         "(" => {
@@ -59,7 +61,7 @@ fn one(words: &mut Vec<String>) -> Vec<Vec<Test>> {
             let row = named(name).unwrap_or_else(|| panic!("no {name}"));
             let sign = words.pop().unwrap().chars().next().unwrap();
             let values = words.pop().unwrap();
-            vec![vec![Test { row, sign, values: values.split('|').map(|value| value_of(row, value)).collect() }]]
+            vec![vec![Requirement { row, sign, values: values.split('|').map(|value| value_of(row, value)).collect() }]]
         }
     }
 }
