@@ -29,14 +29,14 @@ const MIN_RESTITUTION: f64 = 0.05;
 /// Damping law of a tooth pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
-    /// Growing with penetration by the cubic step u²(3 − 2u).
+    /// Damping that grows with the penetration d by the cubic step u²(3 − 2u), u = d/d_max.
     Step {
         /// C at full penetration [N·s/m].
         coefficient: f64,
         /// 1/d_max [1/m].
         per_full_depth: f64,
     },
-    /// In proportion to the elastic force.
+    /// Damping in proportion to the elastic force: F = F_el (1 + λ ḋ).
     HuntCrossley {
         /// λ [s/m].
         lambda: f64,
@@ -90,7 +90,8 @@ fn excess(x: f64) -> f64 {
     (2..20).rev().fold(0.0, |sum, n| 1.0 / f64::from(n) - x * sum)
 }
 
-/// Balance of the restitution relation over D². It falls through zero once for D from 0 to 1/e, from (1 − e²)/2 to −∞.
+/// Difference of both sides of the restitution relation, divided by D². For D from 0 to 1/e, it falls from (1 − e²)/2
+/// to −∞ and has one zero.
 fn balance(damping: f64, e: f64) -> f64 {
     excess(damping) - e * e * excess(-e * damping)
 }

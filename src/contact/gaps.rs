@@ -88,14 +88,14 @@ impl FlankGaps {
         )
     }
 
-    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub fn opposite(&self, planet: usize) -> i64 {
         let z_p = i64::from(self.teeth_of[0].teeth.get());
         z_p / 2 - if z_p % 2 == 0 { self.turned[planet].odd } else { 0 }
     }
 
-    /// Numbers of the planet tooth and the side gear tooth, counted on beyond whole turns.
+    /// Numbers of the planet tooth and the side gear tooth. They are not reduced by whole turns of the gears.
     #[inline(always)]
     pub fn unrolled(&self, name: &PairName) -> [i64; 2] {
         let z_p = i64::from(self.teeth_of[0].teeth.get());

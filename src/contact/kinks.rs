@@ -65,7 +65,7 @@ impl Engagement {
     }
 
     /// Calls `visit` with the fractions of the motion at which a pair of either flank, loaded or not, passes an end of
-    /// the path. Needed for meshes without corner contact.
+    /// the path. In meshes without corner contact, the force jumps there.
     pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));

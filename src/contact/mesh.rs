@@ -4,7 +4,7 @@
 //! energy. Damping acts through the same ∂d/∂q and ∂d/∂x.
 
 use super::impact::Force;
-use super::spring::{Response, Resultant, is_placed, with_spring};
+use super::spring::{Response, Resultant, depends_on_position, with_spring};
 pub use super::state::{MeshForce, MeshJacobian, MeshState};
 use super::{AnySpring, Damping, Engagement, Flank, Spot, Spring, ToothPair};
 use crate::geometry::Pair;
@@ -16,7 +16,7 @@ pub struct Mesh {
     pub spring: AnySpring,
     /// Damping of a pair.
     pub damping: Damping,
-    /// Resultant of a pair.
+    /// Resultant of a pair's force over the whole face.
     pub whole: Resultant,
     /// True if the mesh has one spring instead of tooth pairs.
     pub is_single: bool,
@@ -25,7 +25,7 @@ pub struct Mesh {
 }
 
 /// Evaluates an expression with `spring` bound to the law in use, and `pairs` to the loaded pairs at a position (q, x).
-/// A mesh with one spring has one pair, at s = 0.
+/// A mesh with one spring has at most one loaded pair, at s = 0.
 macro_rules! with_pairs {
     ($of:expr, $position:expr, ($spring:ident, $pairs:ident) => $body:expr) => {
         with_spring!(
@@ -41,8 +41,8 @@ macro_rules! with_pairs {
 }
 
 impl Mesh {
-    /// Mesh of `pair` whose tooth pairs follow `spring` and `damping` at the resultant `whole`, for approaches up to
-    /// `reach` [rad].
+    /// Mesh of `pair`, for approaches up to `reach` [rad]. The law of a tooth pair is `spring` with `damping`, and its
+    /// force acts at the resultant `whole`.
     pub fn new(
         pair: &Pair,
         (spring, damping): (AnySpring, Damping),
@@ -71,8 +71,8 @@ impl Mesh {
         self.engagement.approach(q)
     }
 
-    /// Fraction of the motion of `h` [s] from `state` at which the first kink of the force occurs. A mesh with one
-    /// spring has a kink when flanks touch or separate.
+    /// Fraction of the motion of `h` [s] from `state` at which the force of error-free teeth has its first kink, or
+    /// `None`. A mesh with one spring has a kink when flanks touch or separate.
     #[inline(always)]
     pub fn kink(&self, state: &MeshState, h: f64) -> Option<f64> {
         let change = state.rate.map(|rate| h * rate);
@@ -82,8 +82,8 @@ impl Mesh {
         self.engagement.kink::<false>(state.position, change, |_, _, _| 0.0)
     }
 
-    /// Fraction of the motion of `h` [s] from `state` at which flanks with gaps or excess material have their first
-    /// kink. `opening` is that of [`Engagement::kink`].
+    /// Fraction of the motion of `h` [s] from `state` at which the force of teeth with gaps or excess material has its
+    /// first kink, or `None`. [`Engagement::kink`] describes `opening`.
     #[inline(always)]
     pub fn kink_of_open(&self, state: &MeshState, h: f64, opening: impl Fn(Flank, i64, f64) -> f64) -> Option<f64> {
         self.engagement.kink::<true>(state.position, state.rate.map(|rate| h * rate), opening)
@@ -104,30 +104,31 @@ impl Mesh {
 
     /// Rate ḋ [m/s] and response of a pair.
     #[inline(always)]
-    fn respond<const STORED: bool>(
+    fn respond<const WITH_ENERGY: bool>(
         &self,
         spring: &impl Spring,
         pair: &ToothPair,
         state: &MeshState,
     ) -> (f64, Response) {
         let (rate, place, law) = (self.rate(pair, state), spring.place(pair.s), (&self.whole, &self.damping));
-        (rate, spring.respond_whole::<STORED>(&place, law, self.whole.cone * pair.depth, rate))
+        (rate, spring.respond_whole::<WITH_ENERGY>(&place, law, self.whole.cone * pair.depth, rate))
     }
 
-    /// Calls `visit` with each loaded pair on the path of contact and its force.
+    /// Calls `visit` with each loaded pair and its force. A pair is on the path of contact, or at a tip corner past its
+    /// ends.
     pub fn loaded(&self, state: &MeshState, mut visit: impl FnMut(&ToothPair, &Force)) {
         with_pairs!(self, state.position, (spring, pairs) => for pair in pairs {
             visit(&pair, &self.respond::<false>(spring, &pair, state).1.force);
         });
     }
 
-    /// Adds the force of a pair.
+    /// Adds the force of a pair and the heat of its damping.
     #[inline(always)]
     fn add<S: Spring>(&self, _: &S, sum: &mut MeshForce, pair: &ToothPair, rate: f64, response: &Response) {
         let torque = self.whole.cone * response.force.total;
         sum.force[0] -= torque * pair.slope[0];
         sum.force[1] -= torque * pair.slope[1];
-        if S::PLACED {
+        if S::DEPENDS_ON_POSITION {
             sum.force[1] -= response.by_place * pair.s_slope;
         }
         sum.heat += (response.force.total - response.force.elastic) * rate;
@@ -141,8 +142,8 @@ impl Mesh {
         force
     }
 
-    /// Writes forces and heat to `to`, number by number. Reading a number right after it was stored as part of a wider
-    /// store would stall until that store is complete.
+    /// Writes forces and heat to `to`, number by number. A wide store followed by the load of a single number could
+    /// stall, because store-to-load forwarding may fail.
     #[inline(always)]
     pub fn write_force(&self, state: &MeshState, to: &mut MeshForce) {
         with_pairs!(self, state.position, (spring, pairs) => {
@@ -177,7 +178,7 @@ impl Mesh {
                     let hessian = [[qq, qq], [qq, xx]];
                     for b in 0..2 {
                         for a in 0..2 {
-                            // the same product for both orders: the Hessian is symmetric to the last digit
+                            // (a, b) and (b, a) use the same product, so the Hessian is exactly symmetric
                             let slopes = pair.slope[a] * pair.slope[b];
                             let elastic = stiffness * slopes + torque * hessian[a][b];
                             jacobian.by_position[a][b] -= elastic + damping * turn[b] * pair.slope[a];
@@ -185,7 +186,7 @@ impl Mesh {
                         }
                     }
                 }
-                if is_placed(spring) {
+                if depends_on_position(spring) {
                     // the position on the path moves only with x
                     let m = &mut jacobian.by_position;
                     m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];

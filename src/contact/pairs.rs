@@ -78,8 +78,11 @@ pub struct Engagement {
     half_backlash: f64,
     base_pitch: f64,
     per_base_pitch: f64,
+    /// Position s of a tooth pair whose planet tooth is centred on the plane of both axes [rad].
     centred: f64,
+    /// Lower end of the path [rad].
     low: f64,
+    /// Upper end of the path [rad].
     pub(super) high: f64,
     pub(super) corner_contact: bool,
     /// Ranges in which tooth pairs can touch: at working loads, and up to the largest approach.
@@ -98,7 +101,7 @@ struct Window {
 /// Approach [rad] up to which the narrow window is used: some tenths of a millimetre, more than at any working load.
 const WORKING_APPROACH: f64 = 5e-3;
 
-/// Margin against losing a barely touching pair to rounding [base pitches, rad].
+/// Margin that keeps rounding from losing a barely touching pair [base pitches].
 const ROUNDING: f64 = 1e-9;
 
 /// Smallest whole number not below `x`, for |x| below 2⁶³. Trial states may have absurd values.

@@ -67,7 +67,7 @@ pub trait Spring {
     /// True if the torque is proportional to the penetration at p > 0.
     const LINEAR: bool = false;
     /// True if the law depends on the position on the path.
-    const PLACED: bool = true;
+    const DEPENDS_ON_POSITION: bool = true;
 
     /// Values of the law that depend only on the position on the path. They are the same at every cone distance.
     type Place: Copy;
@@ -84,9 +84,9 @@ pub trait Spring {
     }
 
     /// Response of a pair with one resultant at penetration `d` > 0 [m] and rate `rate` [m/s]. The energy is included
-    /// if `STORED`.
+    /// if `WITH_ENERGY`.
     #[inline(always)]
-    fn respond_whole<const STORED: bool>(
+    fn respond_whole<const WITH_ENERGY: bool>(
         &self,
         place: &Self::Place,
         (whole, damping): (&Resultant, &Damping),
@@ -136,7 +136,7 @@ impl ImpactSpring {
 }
 
 impl Spring for ImpactSpring {
-    const PLACED: bool = false;
+    const DEPENDS_ON_POSITION: bool = false;
 
     type Place = Anywhere;
 
@@ -159,14 +159,14 @@ impl Spring for ImpactSpring {
 
     /// Uses the law directly, because it is a function of d already.
     #[inline(always)]
-    fn respond_whole<const STORED: bool>(
+    fn respond_whole<const WITH_ENERGY: bool>(
         &self,
         _: &Anywhere,
         (_, damping): (&Resultant, &Damping),
         d: f64,
         rate: f64,
     ) -> Response {
-        let energy = if STORED { self.law.energy(d) } else { 0.0 };
+        let energy = if WITH_ENERGY { self.law.energy(d) } else { 0.0 };
         Response { force: self.law.damped_by(damping, d, rate), energy, ..Response::default() }
     }
 }
@@ -217,8 +217,8 @@ macro_rules! with_teeth {
 pub(super) use with_teeth;
 
 /// True if a law depends on the position of a pair.
-pub(super) const fn is_placed<S: Spring>(_: &S) -> bool {
-    S::PLACED
+pub(super) const fn depends_on_position<S: Spring>(_: &S) -> bool {
+    S::DEPENDS_ON_POSITION
 }
 
 /// Part of any law that depends only on the position on the path.

@@ -6,9 +6,9 @@ use crate::numeric::{PI, Scalar};
 /// Limit of speeds [m/s], which keeps squares finite.
 const FASTEST: f64 = 1e6;
 
-/// Bounds of line load [N/m] and curvature radius [m]. They have no effect from 1.5 times the lower to half of the
-/// upper bound.
+/// Bounds of the line load [N/m]. They have no effect from 1.5 times the lower to half of the upper bound.
 const LINE_LOAD: [f64; 2] = [1e3, 1e9];
+/// Bounds of the relative radius of curvature [m], smoothed in the same way.
 const RADIUS: [f64; 2] = [1e-4, 1e2];
 
 /// Bounds of the modulus [Pa]: softer than rubber, harder than diamond.
@@ -36,7 +36,7 @@ impl<T: Scalar> Conditions<T> {
         (self.line_load / self.radius * (self.modulus / PI)).sqrt()
     }
 
-    /// Replaces signed or vanishing values by positive magnitudes, so that the arguments are valid for every law.
+    /// Returns positive, bounded magnitudes, which are valid arguments of every law. `slowest` is v_ε [m/s].
     pub(super) fn regularised(&self, slowest: f64) -> Self {
         Self {
             sliding: magnitude(limited(self.sliding), slowest),
@@ -48,7 +48,7 @@ impl<T: Scalar> Conditions<T> {
     }
 }
 
-/// √(v² + v_ε²).
+/// √(v² + v_ε²), where v_ε is `slowest`.
 #[inline]
 pub(super) fn magnitude<T: Scalar>(v: T, slowest: f64) -> T {
     (v * v + slowest * slowest).sqrt()

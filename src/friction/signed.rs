@@ -7,7 +7,7 @@ use super::{
 };
 use crate::numeric::Scalar;
 
-/// Width of the transition below [`LARGEST`]. Coefficients up to 0.2 are unchanged.
+/// Half-width of the transition around [`LARGEST`]. Coefficients up to 0.2 are unchanged.
 const NEAR_LARGEST: f64 = 0.1;
 
 /// Signed coefficient of friction h, odd in the sliding speed and within ±[`LARGEST`]. The friction force on surface 1

@@ -40,7 +40,7 @@ pub enum Spot {
     SideTip,
 }
 
-/// Contacts of a pair.
+/// Points and normals of all contacts of a pair of gears.
 #[derive(Clone, Debug)]
 pub struct LineOfAction {
     pair: Pair,
@@ -85,7 +85,7 @@ impl LineOfAction {
         let [own, toward] = self.axes(i);
         let across = toward * cos(corner.own_azimuth) + Vector3::y() * (sign * sin(corner.own_azimuth));
         let point = own * cos(corner.own_polar) + across * sin(corner.own_polar);
-        // normal of the mate's flank: its lever arm is that of the base circle
+        // normal of the mate's flank: its moment arm about the mate's axis is sinδ_b, the radius of the base circle
         let mate = 1 - i;
         let [axis, _] = self.axes(mate);
         let (polar, lever) = (corner.mate_polar, sin(self.pair.gears[mate].base));

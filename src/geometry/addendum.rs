@@ -1,9 +1,9 @@
 //! Addendum systems, which divide the working depth between the gears and define the clearance.
 //!
-//! Gleason's long-and-short addenda give the smaller gear the larger addendum, so that it is not undercut:
-//! h_a2 = (0.540 + 0.460/u_v) m with u_v = z₂ cosδ₁ / (z₁ cosδ₂), working depth 2 m, whole depth 2.188 m + 0.05 mm.
-//! ISO 23509:2016 divides it differently, with a mean addendum factor c_ham = 0.21 + 0.29/u_v of the depth 2 m. Both
-//! systems result in h_a2 = m at u_v = 1.
+//! Gleason's long-and-short addenda give the smaller gear the larger addendum, so that it is not undercut. With the
+//! outer module m, h_a2 = (0.540 + 0.460/u_v) m with u_v = z₂ cosδ₁ / (z₁ cosδ₂), the working depth is 2 m, and the
+//! whole depth is 2.188 m + 0.05 mm. ISO 23509:2016 divides the working depth differently: h_a2 = 2 m c_ham with the
+//! mean addendum factor c_ham = 0.21 + 0.29/u_v. Both systems result in h_a2 = m at u_v = 1.
 
 use super::{AddendumSystem, GearSpec};
 

@@ -79,9 +79,10 @@ pub struct CornerTravel {
     mate_sin_base: f64,
     mate_cos_base: f64,
     mate_inv_pitch: f64,
-    /// sin²φ of the tip, and cosφ₂ of the corner about the mate's axis as a + b cosχ.
+    /// sin²φ of the tip, then a and b of cosφ₂ = a + b cosχ, with the polar angle φ₂ of the corner about the mate's
+    /// axis.
     polar: [f64; 3],
-    /// Component of the corner across the mate's axis in the plane of both axes, as a − b cosχ.
+    /// a and b of a − b cosχ, the component of the corner across the mate's axis in the plane of both axes.
     across: [f64; 2],
 }
 

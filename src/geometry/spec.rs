@@ -3,9 +3,9 @@
 choices! {
     /// Rule that splits the working depth into addenda and fixes the clearance.
     pub enum AddendumSystem: "AddendumSystem" {
-        Standard = 1, "standard": "addendum 1.0 m, dedendum 1.25 m on both gears";
+        Standard = 1, "standard": "addendum 1.0 modules, dedendum 1.25 modules on both gears";
         Gleason = 2, "gleason": "Gleason long-and-short addenda";
-        Iso23509 = 3, "iso23509": "ISO 23509 mean addendum factor, clearance 0.25 m";
+        Iso23509 = 3, "iso23509": "ISO 23509 mean addendum factor, clearance 0.25 modules";
         Explicit = 4, "explicit": "geometry.planet_addendum, planet_dedendum, side_addendum and side_dedendum";
     }
 }
@@ -13,7 +13,7 @@ choices! {
 spec! {
     /// Specification of a gear pair: planet (index p) and side gear (index s) with coincident apexes.
     ///
-    /// The default is the study's gear pair.
+    /// The default is the study's gear pair, but with Gleason's addenda.
     pub struct GearSpec {
         /// Outer transverse module m [m].
         pub module: f64 = 4.5e-3,

@@ -1,4 +1,4 @@
-//! The linear systems of a step on the second-order block.
+//! Linear systems of a step, reduced to the velocities. The reduced system is called the *second-order block*.
 //!
 //! With y = (q, v), q̇ = B v, K = ∂v̇/∂q and D = ∂v̇/∂v, the q-rows of (I/s − J) U = r are eliminated by hand. The
 //! remaining matrix has only the order of the velocities:
@@ -10,16 +10,17 @@ use super::method::IN_REGISTERS;
 use super::{Linearisation, Matrix, Point, SecondOrder};
 use crate::numeric::lanes;
 
-/// I/s − J, inverted.
+/// The second-order block of I/s − J, inverted.
 pub struct Block<const N: usize> {
     inverse: Inverse<N>,
     /// s K by columns.
     stiffness: Matrix<N>,
+    /// s of I/s − J [s].
     s: f64,
 }
 
 impl<const N: usize> Block<N> {
-    /// Empty; [`Block::fill`] computes the inverse.
+    /// Block without content. [`Block::fill`] must be called before use.
     pub const EMPTY: Self = Self { inverse: Inverse::EMPTY, stiffness: [[0.0; N]; N], s: 0.0 };
 
     /// Inverts I/s − J in place, because moving the matrices costs more than inverting them. Returns `None` if the

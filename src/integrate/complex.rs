@@ -103,7 +103,7 @@ impl<const N: usize> ComplexBlock<N> {
         Some(Self { m, per_a })
     }
 
-    /// Solves for the right-hand side `re` + i `im` in place.
+    /// Solves for the right-hand side `re` + i `im` in place. `k` is K = ∂v̇/∂q.
     #[inline]
     pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: &E, k: &Matrix<N>, re: &mut Point<N>, im: &mut Point<N>) {
         let (n, m, per_a) = (system.degrees_of_freedom(), &self.m, self.per_a);

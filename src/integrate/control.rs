@@ -16,7 +16,8 @@ const AFTER_KINK_GROWTH: f64 = 4.0;
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
 /// Number of steps after a jump whose sizes are remembered.
 const STEPS_AFTER_JUMP: usize = 8;
-/// Fraction of the step size before the jump. Steps up to this size still count as short.
+/// Fraction of the step size before the jump up to which a step counts as short. Until a step is longer, the memory of
+/// jumps stays in use.
 const SHORT: f64 = 0.5;
 /// Target error of steps after jumps, as a fraction of the tolerance.
 const AFTER_JUMP_ERROR: f64 = 0.3;
@@ -97,7 +98,7 @@ impl AfterJump {
         self.root = fifth_root(jump / self.first);
     }
 
-    /// Remembered size of the next step [s], if there is one.
+    /// Remembered size of the next step [s]. `None` if the memory does not determine step sizes or no size is known.
     #[inline]
     fn size(&self) -> Option<f64> {
         let size = *self.sizes.get(self.step as usize).filter(|_| self.decides)?;
@@ -139,7 +140,8 @@ impl Control {
         self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 
-    /// Reacts to a jump of the inputs, which changes accelerations by `jump` [rad/s²], if that is known.
+    /// Reacts to a jump of the inputs. `jump` is the change of the accelerations [rad/s²], or `None` if it is unknown.
+    /// A jump of 0 has no effect.
     pub fn jump(&mut self, jump: Option<f64>) {
         match jump {
             Some(0.0) => return,
@@ -168,7 +170,9 @@ impl Control {
         self.after_jump.learn_of_rejection(next);
     }
 
-    /// Predicts the step after an accepted one of size `h` [s], whose `error` is a fraction of the tolerance.
+    /// Predicts the step after an accepted one of size `h` [s], whose `error` is a fraction of the tolerance. `cut` is
+    /// true if the step was shorter than its error required. `just_rejected` is true if the previous attempt was
+    /// rejected.
     #[inline(never)]
     pub(super) fn accept(&mut self, method: &impl Method, h: f64, cut: bool, error: f64, just_rejected: bool) {
         let by_error = method.root(error) / SAFETY;

@@ -115,7 +115,7 @@ pub struct Course<const N: usize, P> {
     pub point: Point<N>,
     /// Time of this point [s].
     pub time: f64,
-    /// Step that starts at this point.
+    /// Step that starts at this point, if it is computed but not completed.
     pub pending: Option<Pending<P>>,
     /// Dense output of the pending step. Without a pending step, memory for the next dense output.
     pub extension: Extension<N>,

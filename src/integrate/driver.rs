@@ -64,10 +64,11 @@ const WHOLE: f64 = 1.0 - 1e-5;
 /// Allowed imbalance of a step's ledger, as a multiple of the tolerance and relative to the energy exchanged in the
 /// step. Heat is a quadrature along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
-/// Imbalance, as a fraction of the allowed one, above which the middle of a step after a jump is refined.
+/// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a jump is evaluated with two
+/// more points.
 const UNREFINED: f64 = 0.05;
-/// Number of consecutive attempts whose ledger does not close before the step is accepted at the size of the first one.
-/// An imbalance that remains does not depend on the step size.
+/// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
+/// attempt is accepted, because the remaining imbalance does not depend on the step size.
 const UNBALANCED: u32 = 8;
 /// Tolerance, step-size control, counters and work budget of an integration.
 pub struct SolverContext<'a> {
@@ -102,8 +103,8 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
 /// after each completed step, with its dense output and the fraction of the step that was accepted. The observer may
 /// end the integration early.
 ///
-/// Steps, their sizes and their counts do not depend on the requested times. No step beyond `until` is completed, so it
-/// leaves no trace.
+/// Steps, their sizes and their counts do not depend on the requested times. A step that ends beyond `until` is only
+/// pending, so it changes neither the state nor the counts of completed steps.
 #[inline]
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
@@ -191,7 +192,8 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
                     return Err(Failure::NotClosed);
                 }
                 unbalanced = pending.attempt.unbalanced + 1;
-                // the error of the whole step allows a longer step after it
+                // after the last of these attempts, the whole step is accepted, and its error allows a longer step
+                // after it
                 (after_rejection, retries) = (unbalanced < UNBALANCED, true);
                 whole = if unbalanced == 1 { h } else { pending.attempt.whole };
                 statistics.rejected_ledger += 1;

@@ -85,7 +85,8 @@ fn sdirk<const N: usize, S: SecondOrder<N> + ?Sized>(
     stage(system, &base, &first, (s, time + h), counts)
 }
 
-/// Solves a stage at `time` from `base`, iterating from the velocities of `near`.
+/// Solves a stage at `time` from `base`, iterating from the velocities of `near`. Returns `None` if a matrix is
+/// singular or a value is not finite.
 fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
     base: &Point<N>,
@@ -97,7 +98,7 @@ fn stage<const N: usize, S: SecondOrder<N> + ?Sized>(
         let rate = system.rates(&v);
         Point { q: std::array::from_fn(|i| base.q[i] + s * rate[i]), v }
     };
-    // the first move, from `near`, may itself jump too far
+    // the first iterate is not limited by `safe_fraction`, although it may already be too deep in a contact
     let mut y = at(near.v);
     for _ in 0..ITERATIONS {
         let lin = system.linearise_at(&y, time);

@@ -107,7 +107,7 @@ impl Shape {
 }
 
 impl<const N: usize> Inverse<N> {
-    /// Empty; [`Inverse::fill`] computes the inverse.
+    /// Inverse without content. [`Inverse::fill`] must be called before use.
     pub const EMPTY: Self = Self { columns: [[0.0; N]; N] };
 
     /// Inverts `a` and overwrites it. Returns `None` if a pivot vanishes or is not finite.
@@ -207,7 +207,7 @@ fn add_each<const N: usize>(sum: &mut [f64; N], term: impl Fn(usize) -> f64) {
     }
 }
 
-/// Adds the `columns` of the other rows times `x`.
+/// Adds the `columns` of the other degrees of freedom (not the inner ones) times `x`.
 #[inline(always)]
 fn add<const N: usize>(columns: &Matrix<N>, shape: Shape, x: &[f64; N], sum: &mut [f64; N]) {
     for others in shape.others() {

@@ -192,7 +192,7 @@ pub trait SecondOrder<const N: usize> {
     /// tolerance.
     fn weights(&self, at: &Point<N>) -> Point<N>;
 
-    /// Kinetic and stored energy.
+    /// Kinetic and stored energy [J].
     #[inline]
     fn energy(&self, _at: &Point<N>) -> [f64; 2] {
         [0.0; 2]
@@ -214,8 +214,8 @@ pub trait SecondOrder<const N: usize> {
     }
 
     /// Energy that the ledger of a step between `ends` does not resolve if the motion has the relative `tolerance`. The
-    /// result may be too small if it is below the `residual` of the ledger. It is evaluated only if the ledger does not
-    /// close otherwise.
+    /// step is accepted if the `residual` of the ledger is smaller, so a result below `residual` need not be exact. The
+    /// floor is evaluated only if the ledger does not close otherwise.
     fn energy_floor(&self, _ends: [&Point<N>; 2], _tolerance: f64, _residual: f64) -> f64 {
         0.0
     }
@@ -227,8 +227,8 @@ pub trait SecondOrder<const N: usize> {
         1.0
     }
 
-    /// Fraction of a step of size `h` from `at` at which the first kink of the accelerations is expected, as far as
-    /// `at` shows it. The step is shortened to this fraction.
+    /// Fraction of a step of size `h` [s] at which the first kink of the accelerations is predicted from the state
+    /// `at`. The step is shortened to this fraction. Returns `None` if no kink is predicted.
     #[inline]
     fn kink(&self, _at: &Point<N>, _h: f64) -> Option<f64> {
         None

@@ -1,8 +1,8 @@
 //! Vector instructions, which do the same arithmetic with fewer instructions.
 //!
-//! Every x86-64 processor adds and multiplies two numbers at a time. If a number is written alone and then read as one
-//! of a pair, or conversely, the processor stalls. Data processed in pairs is therefore always read and written in
-//! pairs.
+//! Every x86-64 processor adds and multiplies two numbers at a time. If two numbers are written individually and then
+//! read as a pair, store-to-load forwarding fails and the processor stalls. Data processed in pairs is therefore always
+//! read and written in pairs.
 //!
 //! Wider instructions are used if the processor has them. A task is compiled twice: for the baseline instruction set
 //! and for AVX2. Neither version fuses or reorders operations, so both produce the same bits.

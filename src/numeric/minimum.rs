@@ -14,7 +14,7 @@ pub trait Landscape {
     fn value(&self, x: &DVector<f64>) -> f64;
     /// Gradient and Hessian at `x`.
     fn slopes(&self, x: &DVector<f64>) -> (DVector<f64>, DMatrix<f64>);
-    /// True if a minimum at `x` would be acceptable. The search ends at the first `x` for which it is false.
+    /// True if a minimum at `x` would be acceptable. The search fails at the first `x` for which it is false.
     fn is_near(&self, _x: &DVector<f64>) -> bool {
         true
     }
@@ -36,8 +36,9 @@ pub struct Search {
     pub valley: Option<DVector<f64>>,
 }
 
-/// Maximum number of iterations. A few are enough, except along a valley in which contacts open and close.
+/// Maximum number of iterations without a known valley. A few are enough.
 const MAX_ITERATIONS: usize = 200;
+/// Maximum number of iterations along a valley, in which contacts open and close.
 const MAX_ITERATIONS_ALONG: usize = 2000;
 /// Maximum number of trials of one step, with growing damping or shrinking length.
 const TRIALS: usize = 60;
@@ -50,7 +51,8 @@ const FLAT: f64 = 1e-9;
 const INVERSE_ITERATIONS: usize = 16;
 
 impl Search {
-    /// Minimum reached by descent from `start`, or `None`.
+    /// Returns the minimum reached by descent from `start`. Returns `None` if [`Landscape::is_near`] is false on the
+    /// way, if no step decreases the value although the gradient exceeds `rough`, or after too many iterations.
     pub fn minimum(&self, landscape: &dyn Landscape, start: DVector<f64>) -> Option<DVector<f64>> {
         let (mut x, mut damping) = (start, 0.0);
         let mut value = landscape.value(&x);
@@ -77,7 +79,8 @@ impl Search {
         None
     }
 
-    /// Takes a step from a saddle point along `way` that decreases the value. Returns the new point and its value.
+    /// Takes a step from a saddle point along `way` that decreases the value. Returns the new point and its value, or
+    /// `None` if no step decreases the value.
     fn leave(
         &self,
         landscape: &dyn Landscape,
@@ -93,7 +96,8 @@ impl Search {
             .find(|&(_, there)| there < value)
     }
 
-    /// Takes a damped Newton step that decreases the value. Returns the new point and its value.
+    /// Takes a damped Newton step that decreases the value. Returns the new point and its value, or `None` if no step
+    /// decreases the value.
     fn step(
         &self,
         landscape: &dyn Landscape,
@@ -127,8 +131,8 @@ impl Search {
     }
 }
 
-/// Continues Newton's method from `x`, near a minimum, as long as each step at least halves the gradient. If the
-/// curvature is that of a contact that barely touches, the gradient decreases only linearly.
+/// Continues Newton's method from `x`, near a minimum, as long as each step at least halves the gradient. At a contact
+/// that barely touches, the gradient decreases only linearly.
 fn polished(
     landscape: &dyn Landscape,
     mut x: DVector<f64>,
@@ -149,7 +153,8 @@ fn polished(
     x
 }
 
-/// Direction of negative curvature of this Hessian, on the side of `lean`, or `None`.
+/// Direction in which a function with this `hessian` curves down, on the side of `lean`. `None` if there is no such
+/// direction.
 fn downward(hessian: &DMatrix<f64>, lean: &DVector<f64>) -> Option<DVector<f64>> {
     let n = lean.len();
     // variables of different units are scaled by their own curvature, which keeps the signs of all curvatures

@@ -3,8 +3,8 @@
 /// Maximum number of evaluations; a dozen is enough.
 const MAX_EVALUATIONS: usize = 200;
 
-/// Root of `f`, which rises from below 0 at 0. The result is within `balance` of the value 0 and as close as rounding
-/// allows. Returns `None` if `f` is below 0 up to `most`. `f` returns value and slope.
+/// Root x of `f`, which rises from below 0 at x = 0. `f` returns value and slope. The value at the root is within
+/// ±`balance` and as close to 0 as rounding allows. Returns `None` if `f` is below 0 up to x = `most`.
 ///
 /// Newton's steps start at the far end, so for a function that curves up they never pass the root. A bisection replaces
 /// a step that leaves the bracket or follows a step that did not halve the value.

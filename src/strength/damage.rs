@@ -14,18 +14,18 @@ pub struct FlankDamage {
     pub pitting: Damage,
 }
 
-/// Damage that one mesh causes to a gear in a cycle.
+/// Damage that one passage through a mesh causes to each tooth of a gear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Loaded flank, 0 or 1: [`super::loaded_flank`].
+    /// Loaded flank, 0 or 1, numbered by [`super::loaded_flank`].
     pub flank: usize,
-    /// Damage to the root.
+    /// Damage of the root by bending.
     pub root: f64,
-    /// Damage to the flank.
+    /// Damage of the flank by pitting.
     pub pitting: f64,
 }
 
-/// Damage of the teeth of a gear, all assumed to be equal: `Copy`, no allocation.
+/// Damage of a gear's teeth, which are all assumed to be equally damaged. The type is `Copy` and allocates nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ToothDamage {
     /// Rolling that determines which passages count.
@@ -40,8 +40,9 @@ finite! {
 }
 
 impl ToothDamage {
-    /// Counts an interval in which the gear turned by `angle` [rad] relative to the carrier. `cycles` contains the mean
-    /// damage of one passage for each mesh of the gear. Each mesh passes every tooth once per revolution.
+    /// Counts an interval in which the gear turned by `angle` [rad] relative to the carrier. Its teeth are `pitch`
+    /// [rad] apart. `cycles` contains the mean damage of a passage for each mesh of the gear. Every tooth passes each
+    /// mesh once per revolution.
     pub fn add(&mut self, angle: f64, pitch: f64, cycles: impl IntoIterator<Item = Cycle>) {
         let turns = self.rolling.advance(angle, pitch);
         if turns > 0.0 {

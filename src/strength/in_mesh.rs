@@ -11,7 +11,7 @@ use super::passage::RootSums;
 use super::{MeshPlace, Passage, Rating, ToothSums, loaded_flank};
 use crate::numeric::finite;
 
-/// Teeth of planets and side gears: `Copy`, no allocation.
+/// Damage of the teeth of planets and side gears. The type is `Copy` and allocates nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TeethInMesh {
     /// Position of the gears, which determines the teeth in mesh.

@@ -18,8 +18,8 @@ pub struct SnCurve {
     pub reference_cycles: f64,
     /// Number of cycles N_static at the low-cycle end. At fewer cycles, the strength of the standard is constant.
     pub static_cycles: f64,
-    /// Slope for stresses below the knee. The slope k corresponds to Miner's rule in its elementary form, `None` to an
-    /// endurance limit.
+    /// Slope for stresses below the knee. `None` means an endurance limit. The slope k continued below the knee is
+    /// Miner's rule in its elementary form.
     pub endurance_slope: Option<f64>,
 }
 

@@ -10,7 +10,7 @@ use crate::numeric::finite;
 pub struct Damage {
     /// Damage sum D.
     pub sum: f64,
-    /// Number of counted cycles, only loaded ones.
+    /// Number of counted cycles. Cycles without damage do not count.
     pub cycles: f64,
 }
 

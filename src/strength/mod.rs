@@ -34,6 +34,6 @@ pub use passage::Passage;
 pub use place::MeshPlace;
 pub use rainflow::{LoadCycle, Rainflow};
 pub use rating::Rating;
-pub use root_stress::RootStress;
+pub use root_stress::RootStressFactors;
 pub use tooth_form::{Profile, ToothForm};
 pub use tooth_sums::ToothSums;

@@ -22,7 +22,7 @@ const GATE: f64 = 0.01;
 /// Damage of planet and side gear, each at the root of the drive flank and of the coast flank.
 pub type RootSums = [[f64; 2]; 2];
 
-/// A tooth in mesh: `Copy`, no allocation.
+/// Load history and damage of a tooth in mesh. The type is `Copy` and allocates nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Passage {
     /// Force that bends the tooth, positive on the drive flank [N].

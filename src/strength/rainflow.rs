@@ -1,9 +1,9 @@
 //! Rainflow counting of a load history while it is recorded, ASTM E1049-85 (2017), section 5.4.4.
 //!
-//! It serves teeth that stay in mesh while the gears do not roll. Peaks and valleys are stored on a stack of fixed
-//! size. Ranges on the stack decrease from the bottom to the top, so only a decaying oscillation fills it. If it is
-//! full, the smallest range is immediately counted as a full cycle. This is exact if the load exceeds the range again,
-//! and conservative otherwise. Nothing is lost, and larger ranges stay unchanged.
+//! It counts the load swings of a tooth while it is in mesh. Peaks and valleys are stored on a stack of fixed size.
+//! Ranges on the stack decrease from the bottom to the top, so only a decaying oscillation fills it. If it is full, the
+//! smallest range is immediately counted as a full cycle. This is exact if the load exceeds the range again, and
+//! conservative otherwise. Nothing is lost, and larger ranges stay unchanged.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,7 +29,7 @@ impl LoadCycle {
     }
 }
 
-/// History so far: `Copy`, no allocation.
+/// Load history so far, reduced to the turning points that are still needed. The type is `Copy` and allocates nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Rainflow {
     /// Peaks and valleys not yet discarded, starting with the first value.

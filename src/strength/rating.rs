@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{LineContact, RootStress, SnCurve, ToothStrength, face_load};
+use super::{LineContact, RootStressFactors, SnCurve, ToothStrength, face_load};
 use crate::geometry::Pair;
 
 /// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).
@@ -11,7 +11,7 @@ pub struct Rating {
     /// Contact of the flanks.
     pub contact: LineContact,
     /// Roots.
-    pub root: [RootStress; 2],
+    pub root: [RootStressFactors; 2],
     /// S–N curves of the roots; that of the planet is for idlers.
     pub bending: [SnCurve; 2],
     /// S–N curve of the flanks.
@@ -27,8 +27,8 @@ pub struct Rating {
 }
 
 impl Rating {
-    /// Rating of `pair` with elastic constants E [Pa] and ν, material, and a tool of tip radius `tool_radius` modules.
-    /// `None` if a tooth has no valid root section.
+    /// Returns the rating of `pair` with the elastic constants E [Pa] and ν, the material, and a tool of tip radius
+    /// `tool_radius` modules. Returns `None` if a tooth has no valid root section or no valid root stress.
     pub fn new(
         pair: &Pair,
         (young_modulus, poisson_ratio): (f64, f64),
@@ -37,7 +37,7 @@ impl Rating {
     ) -> Option<Self> {
         Some(Self {
             contact: LineContact::new(pair, young_modulus, poisson_ratio),
-            root: [RootStress::new(pair, 0, tool_radius)?, RootStress::new(pair, 1, tool_radius)?],
+            root: [RootStressFactors::new(pair, 0, tool_radius)?, RootStressFactors::new(pair, 1, tool_radius)?],
             bending: [material.idler_bending(), material.bending],
             pitting: material.pitting,
             sensitivity: material.mean_stress_sensitivity(),

@@ -12,9 +12,9 @@
 //! contact, where one pair transmits the whole load: Y_ε = 0.25 + 0.75/ε_vα, not below 0.625. Y_K = ¼ (1 + l/b)² b/l
 //! accounts for a middle line of contact shorter than the face, with l = 2 b √(ε_vα − 1)/ε_vα for straight teeth. Y_LS
 //! = 1 for contact ratios up to 2. The 2014 edition has Y_BS instead of Y_K. The tooth thickness includes the thinning
-//! for backlash. The standard would use the nominal thickness (0.8 % less stress here).
+//! for backlash. The standard would use the nominal thickness, which reduces the stress by 0.8 % for the default gears.
 //!
-//! Everything is linear in F_n: [`RootStress::per_force`] times the force is the stress.
+//! Everything is linear in F_n: [`RootStressFactors::per_force`] times the force is the stress.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,9 +25,9 @@ use crate::numeric::{cos, sqrt};
 /// Smallest contact ratio for Y_K, whose line of contact would shrink to a point at 1.
 const MIN_RATIO: f64 = 1.05;
 
-/// Root stress of one gear of a pair, with its factors.
+/// Root stress of one gear of a pair per force, with the factors of the standard.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct RootStress {
+pub struct RootStressFactors {
     /// Form under load at the tip: Y_Fa and Y_Sa.
     pub tip: ToothForm,
     /// Form under load at the outer point of single contact: Y_F and Y_S of ISO 6336-3, method B.
@@ -45,9 +45,10 @@ pub struct RootStress {
     pub per_single_force: f64,
 }
 
-impl RootStress {
-    /// Returns the root stress of gear `i` of `pair` (0 planet, 1 side gear), whose root is cut by a tool of tip radius
-    /// `tool_radius` modules. `None` if the tooth has no valid root section.
+impl RootStressFactors {
+    /// Returns the factors of gear `i` of `pair` (0 planet, 1 side gear), whose root is cut by a tool of tip radius
+    /// `tool_radius` modules. Returns `None` if the tooth has no valid root section, or if the stress per force is not
+    /// positive and finite.
     pub fn new(pair: &Pair, i: usize, tool_radius: f64) -> Option<Self> {
         let profile = Profile::of(pair, i, tool_radius);
         let mate = Profile::of(pair, 1 - i.min(1), tool_radius);

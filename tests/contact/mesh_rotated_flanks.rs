@@ -85,7 +85,7 @@ impl Seen {
 
     /// Rotation at which the program's tooth pair at `s` is first loaded, with its kind of contact, or `None` within
     /// REACH.
-    fn bears(&self, s: f64) -> Option<(f64, Spot)> {
+    fn first_load(&self, s: f64) -> Option<(f64, Spot)> {
         self.first(|seen, p, alpha| (seen.place(p, alpha) - s).abs() < 0.25 * seen.pair.base_pitch)
     }
 
@@ -203,8 +203,8 @@ impl Tally {
             if g > REACH.min(0.06 * seen.pair.base_pitch) {
                 continue;
             }
-            let bears = seen.bears(path_position(seen, touch));
-            let Some((alpha, spot)) = bears else { panic!("the program misses {touch:?}, gap {g:e}: {name}") };
+            let first_load = seen.first_load(path_position(seen, touch));
+            let Some((alpha, spot)) = first_load else { panic!("the program misses {touch:?}, gap {g:e}: {name}") };
             let off = (alpha - touch.alpha).abs();
             assert!(off <= 1e-11, "{name}: {spot:?} at gap {g:e}: {alpha} explicit {} off {off:e}", touch.alpha);
             self.worst[spot as usize] = self.worst[spot as usize].max(off);

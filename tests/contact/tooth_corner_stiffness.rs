@@ -96,12 +96,12 @@ impl Section {
         }
         let lever = (top - bottom) / (2.0 * foot);
         assert!(lever > 0.0);
-        let slide = 2.4 * (1.0 + nu);
+        let shear_factor = 2.4 * (1.0 + nu);
         let t2 = tau.tan().powi(2);
         let root = 18.0 / std::f64::consts::PI * lever * lever
             + 2.0 * (1.0 - nu) * lever
-            + 4.8 / std::f64::consts::PI * (1.0 + t2 / slide);
-        tau.cos().powi(2) / e * (12.0 * sums[0] + (slide + t2) * sums[1] + root)
+            + 4.8 / std::f64::consts::PI * (1.0 + t2 / shear_factor);
+        tau.cos().powi(2) / e * (12.0 * sums[0] + (shear_factor + t2) * sums[1] + root)
     }
 
     /// Distance from the flank to the tooth's middle along its normal.

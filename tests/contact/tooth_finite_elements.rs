@@ -30,7 +30,7 @@ fn mean_ratios(set: &Set) -> [f64; 2] {
     let mut sums = [0.0; 2];
     println!("{}", set.name);
     for &[s, planet, side, hertz, c] in &set.single {
-        let local = wide.exact(s, wide.reference).local * PER_MM_UM;
+        let local = wide.exact(s, wide.reference).hertz * PER_MM_UM;
         // Hertzian contact is in plane strain in both cases
         let ratios = [&wide, &thin].map(|k| 1.0 / (teeth(k, s).iter().sum::<f64>() + local) / c);
         let off = |q: f64, reference: f64| 100.0 * (q / reference - 1.0);
@@ -75,7 +75,7 @@ fn each_tooth_and_the_contact_agree_with_the_finite_elements_at_every_position()
                 assert!(reference > 0.88 * stiffest && reference < 1.12 * softest, "{} at {s}: gear {i}", set.name);
             }
             // the reference uses R tanψ for the radii, up to a tenth more than in the section: 0.1 in a logarithm of 4
-            let local = wide.exact(s, wide.reference).local * PER_MM_UM;
+            let local = wide.exact(s, wide.reference).hertz * PER_MM_UM;
             assert!((local / hertz - 1.0).abs() < 0.025, "{} at {s}: {local} {hertz}", set.name);
         }
     }

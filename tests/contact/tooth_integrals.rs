@@ -61,9 +61,9 @@ fn compliance(tooth: &ToothSection, roll: f64) -> f64 {
         false => tooth.spans().iter().fold([0.0; 2], |sums, span| add(sums, span, top)),
     };
     let (nu, tan_squared) = (STEEL.poisson / (1.0 - STEEL.poisson), tau.tan().powi(2));
-    let slide = 2.4 * (1.0 + nu);
-    let root = 18.0 / PI * lever * lever + 2.0 * (1.0 - nu) * lever + 4.8 / PI * (1.0 + tan_squared / slide);
-    let by_load = 12.0 * bending + (slide + tan_squared) * shear + root;
+    let shear_factor = 2.4 * (1.0 + nu);
+    let root = 18.0 / PI * lever * lever + 2.0 * (1.0 - nu) * lever + 4.8 / PI * (1.0 + tan_squared / shear_factor);
+    let by_load = 12.0 * bending + (shear_factor + tan_squared) * shear + root;
     tau.cos().powi(2) * by_load * (1.0 - STEEL.poisson.powi(2)) / STEEL.young
 }
 

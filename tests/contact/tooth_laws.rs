@@ -17,7 +17,7 @@ fn places(stiffness: &PairStiffness) -> impl Iterator<Item = f64> {
 /// Compliance Q [1/Pa] at position `s` under the limit load ω₀, from the compliance at the reference load.
 fn limit_compliance(stiffness: &PairStiffness, s: f64) -> f64 {
     assert!(stiffness.limit >= stiffness.reference);
-    stiffness.line().compliance(s) - STEEL.local() * (stiffness.limit / stiffness.reference).ln()
+    stiffness.line().compliance(s) - STEEL.hertz_factor() * (stiffness.limit / stiffness.reference).ln()
 }
 
 fn assert_derivatives(law: &impl Spring, p: f64, s: f64, span: f64) {
@@ -82,7 +82,7 @@ fn force_and_slopes_have_no_jumps_at_the_path_s_ends_nor_at_the_load_limit() {
 fn the_load_solves_the_compliance_equation_exactly() {
     let stiffness = golden();
     let weber = stiffness.line_weber();
-    let local = STEEL.local();
+    let local = STEEL.hertz_factor();
     let mut worst = 0f64;
     for s in places(&stiffness) {
         let q = limit_compliance(&stiffness, s);
@@ -109,7 +109,7 @@ fn both_laws_have_the_same_stiffness_at_the_reference_load() {
             assert!((linear.torque / stiffness.reference - 1.0).abs() < 1e-13);
             assert!((logarithmic.torque / stiffness.reference - 1.0).abs() < 1e-13);
             // the tangent is stiffer, because Hertz's compliance decreases with load: 1/(q − B) compared with 1/q
-            let tangent = 1.0 / (line.compliance(s) - STEEL.local());
+            let tangent = 1.0 / (line.compliance(s) - STEEL.hertz_factor());
             assert!((logarithmic.stiffness / tangent - 1.0).abs() < 1e-12);
         }
     }
@@ -150,15 +150,15 @@ fn the_table_equals_the_formulas_within_a_millionth_on_the_path_and_past_its_end
     let mut compare = |name: String, spec: &GearSpec, stiffness: &PairStiffness| {
         let base_pitch = Pair::new(spec).base_pitch;
         let ([low, high], corner) = (stiffness.range, stiffness.corner_range);
-        // past the ends, from the point at which the slope has changed
-        let turned = 4e-3 * base_pitch;
-        let parts = [[low, high], [low - corner[0], low - turned], [high + turned, high + corner[1]]];
+        // past the ends, only from the distance at which the blend from the path to the corner is complete
+        let blended = 4e-3 * base_pitch;
+        let parts = [[low, high], [low - corner[0], low - blended], [high + blended, high + corner[1]]];
         for j in 0..=6000 {
             let part = parts[j % 3];
             if part[0] >= part[1] {
                 continue;
             }
-            // points are densest near the logarithms
+            // points cluster at the ends of each range, near which the compliance contains logarithms
             let share = 0.5 - 0.5 * (j as f64 * std::f64::consts::PI / 6000.0).cos();
             let s = part[0] + (part[1] - part[0]) * share;
             let exact = stiffness.exact(s, stiffness.reference).stiffness();

@@ -150,7 +150,7 @@ fn a_rim_is_measured_along_the_toe_s_front_cone() {
 }
 
 #[test]
-fn a_right_angle_is_one_to_the_accuracy_it_can_be_typed_with() {
+fn a_right_angle_is_recognised_to_the_accuracy_with_which_it_can_be_typed() {
     use std::f64::consts::FRAC_PI_2;
     assert!([-0.99e-6, 0.99e-6].into_iter().all(|off| Pair::is_right_angle(FRAC_PI_2 + off)));
     assert!([-1.01e-6, 1.01e-6].into_iter().all(|off| !Pair::is_right_angle(FRAC_PI_2 + off)));

@@ -12,7 +12,8 @@ fn spec(system: AddendumSystem) -> GearSpec {
 
 /// The golden variants with the specifications that their labels describe.
 fn variants() -> [(&'static str, GearSpec); 4] {
-    // D: working depth 1.6 m, h_ae2 = (0.430 + 0.370/u²) m, whole depth 1.788 m + 0.051 mm, u = 16/10
+    // D, with the module m: working depth 1.6 m, h_ae2 = (0.430 + 0.370/u²) m, whole depth 1.788 m + 0.051 mm, u =
+    // 16/10
     let m = 4.5e-3;
     let side = 0.430 + 0.370 / (1.6 * 1.6);
     let (planet, whole) = (1.6 - side, 1.788 + 0.051e-3 / m);

@@ -1,4 +1,5 @@
-//! Identical bodies may be simulated once and counted several times. The default method then gives the same bits.
+//! Identical bodies may be simulated once and counted several times. The default method then gives the same bits as for
+//! separately simulated bodies.
 
 use bevel_differential::integrate::{
     AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,

@@ -106,9 +106,10 @@ struct Sweep {
     periods: u32,
 }
 
+/// Number of simulated periods at each frequency.
 const PERIODS: u32 = 400;
-/// Number of periods at each frequency over which the standard deviation is taken. The transient of the previous
-/// frequency has decayed by then. Twice as many periods give the same stated digits.
+/// Number of final periods over which the standard deviation is computed. The transient from the previous frequency has
+/// decayed before. Twice as many periods give the same stated digits.
 const TAKEN: u32 = 100;
 
 impl Sweep {

@@ -13,7 +13,7 @@ fn turn() -> (Parameters, Inputs) {
 }
 
 /// Copies the simulation without its cached loads.
-fn without_kept_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Simulation {
+fn without_cached_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Simulation {
     let watched = Watched { last_loads: None, ..*simulation.watched() };
     Simulation::resume_with(p, i, (*simulation.state(), watched), &Given::default()).unwrap()
 }
@@ -21,20 +21,20 @@ fn without_kept_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Si
 #[test]
 fn damage_has_the_same_bits_with_and_without_cached_loads() {
     let (mut p, i) = turn();
-    let mut kept = Simulation::start(&p, &i, 0.0).unwrap();
-    let mut fresh = kept.clone();
+    let mut cached = Simulation::start(&p, &i, 0.0).unwrap();
+    let mut fresh = cached.clone();
     for k in 1..=40 {
         if k == 20 {
             // from here on, the same motion has different forces
             p.contact.damping *= 3.0;
-            kept.tune(&p);
+            cached.tune(&p);
             fresh.tune(&p);
         }
-        fresh = without_kept_loads(&fresh, &p, &i);
-        for simulation in [&mut kept, &mut fresh] {
+        fresh = without_cached_loads(&fresh, &p, &i);
+        for simulation in [&mut cached, &mut fresh] {
             simulation.advance(f64::from(k) * 2.5e-4).unwrap();
         }
-        assert_eq!(kept.watched().fatigue, fresh.watched().fatigue, "{k}");
+        assert_eq!(cached.watched().fatigue, fresh.watched().fatigue, "{k}");
     }
-    assert!(kept.watched().last_loads.is_some());
+    assert!(cached.watched().last_loads.is_some());
 }

@@ -10,7 +10,7 @@ use bevel_differential::contact::pairs::Flank;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{Changes, GearContact, Inputs, Parameters, PlanetSpin, Simulation, readings};
 use bevel_differential::numeric::Jet;
-use bevel_differential::strength::RootStress;
+use bevel_differential::strength::RootStressFactors;
 use bevel_differential::strength::face_load::{exponent, exponent_of, root_factor};
 
 #[test]
@@ -116,7 +116,7 @@ fn aligned_unmodified_teeth_have_the_root_stress_of_their_mean_load() {
         let inputs = Inputs { planet_spin: 20.0, load_torque: [TORQUE; 2], ..Inputs::default() };
         let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene");
         let pair = *simulation.pair();
-        let per_force = [0, 1].map(|i| RootStress::new(&pair, i, 0.25).unwrap().per_force);
+        let per_force = [0, 1].map(|i| RootStressFactors::new(&pair, i, 0.25).unwrap().per_force);
         for k in 1..=20 {
             simulation.advance(f64::from(k) * 1e-3).expect("a step");
             let mut moment = [[0.0f64; 2]; 4];
@@ -133,7 +133,7 @@ fn aligned_unmodified_teeth_have_the_root_stress_of_their_mean_load() {
 fn laws_with_one_resultant_and_solids_on_their_apex_have_an_even_load_by_definition() {
     let crowned = ToothErrorSpec { crowning: 60e-6, ..ToothErrorSpec::default() };
     let pair = Pair::new(&GearSpec::default());
-    let per_force = RootStress::new(&pair, 0, 0.25).unwrap().per_force;
+    let per_force = RootStressFactors::new(&pair, 0, 0.25).unwrap().per_force;
     let mut simulation = standing(ContactLaw::Impact, &crowned);
     let largest = |simulation: &Simulation| {
         let mut moment = [[0.0f64; 2]; 4];

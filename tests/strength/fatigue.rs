@@ -53,7 +53,7 @@ fn pressure_at_the_pitch_point_matches_the_mean_section() {
 }
 
 #[test]
-fn pressure_grows_with_the_root_of_the_force_and_is_total() {
+fn pressure_grows_with_the_root_of_the_force_and_is_defined_for_any_number() {
     let contact = rating(SHARP).contact;
     for s in [-0.19, -0.05, 0.0, 0.1, 0.26] {
         let one = contact.pressure(1e3, s).unwrap();
@@ -81,7 +81,7 @@ fn method_b1_matches_the_golden_stress_with_a_tool_of_a_quarter_module_and_no_ba
     for planets in [2.0, 4.0] {
         let name = format!("Miner_N{planets}_side, unidirectional");
         let expected = golden()[name]["sigma_at_835"].as_f64().unwrap() * 1e6;
-        let root = RootStress::new(&pair, 0, 0.25).unwrap();
+        let root = RootStressFactors::new(&pair, 0, 0.25).unwrap();
         // the golden number omits Y_K (1.00106 here)
         close(root.stress(normal_force(&pair, TORQUE, planets)) / root.bevel, expected, 1e-9);
     }
@@ -96,7 +96,7 @@ fn root_stress_of_the_default_gears_is_near_the_golden_one() {
             let root = rating(tool).root[i];
             let (b1, single) = (root.stress(force) / 1e6, root.per_single_force * force / 1e6);
             println!(
-                "{name}, tool {tool:.4} m: B1 {b1:.2} MPa ({:+.2} % of 778.74), outer single contact {single:.2} MPa, \
+                "{name}, tool {tool:.4} modules: B1 {b1:.2} MPa ({:+.2} % of 778.74), outer single contact {single:.2} MPa, \
                  Y_Fa {:.4} Y_Sa {:.4} Y_eps {:.4} Y_K {:.5}, {:.2} Pa/N",
                 (b1 / 778.7377 - 1.0) * 100.0,
                 root.tip.form_factor,
@@ -113,10 +113,10 @@ fn root_stress_of_the_default_gears_is_near_the_golden_one() {
 }
 
 #[test]
-fn root_stress_is_linear_in_force_and_total() {
+fn root_stress_is_linear_in_the_force_and_defined_for_any_number() {
     let pair = default_pair();
     for i in 0..2 {
-        let plain = RootStress::new(&pair, i, 0.25).unwrap();
+        let plain = RootStressFactors::new(&pair, i, 0.25).unwrap();
         close(plain.stress(2.75e3), 2.75 * plain.stress(1e3), 1e-14);
         for force in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert_eq!(plain.stress(force), 0.0);

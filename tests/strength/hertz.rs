@@ -8,7 +8,7 @@ fn contact() -> LineContact {
 }
 
 #[test]
-fn the_short_form_of_the_curvature_equals_the_sum_of_both() {
+fn the_closed_form_of_the_relative_curvature_equals_the_sum_of_both_curvatures() {
     let c = contact();
     for s in [-0.15, 0.0, 0.2] {
         let [p, g] = [c.pitch_arc[0] + s, c.pitch_arc[1] - s].map(|psi| 30e-3 * psi.tan());

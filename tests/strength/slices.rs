@@ -11,7 +11,7 @@ use bevel_differential::contact::pairs::Flank;
 use bevel_differential::contact::spring::Spring;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::model::{GearContact, Inputs, Parameters, Simulation, ToothLoad};
-use bevel_differential::strength::{LineContact, RootStress};
+use bevel_differential::strength::{LineContact, RootStressFactors};
 
 /// Opening of the flanks by errors [m] in a mesh of planet 1 or the opposite planet 2, from section 5 of the theory.
 fn opening(pair: &Pair, e: &ToothErrorSpec, planet: usize, side: usize, r: f64, s: f64) -> f64 {
@@ -60,7 +60,7 @@ fn expected(pair: &Pair, spring: &AnySpring, e: &ToothErrorSpec, loads: &[ToothL
         let line_load = largest * pair.mean_cone;
         pressure = pressure.max(contact.pressure_at(line_load, pair.mean_cone, s).unwrap());
     }
-    let per_force = RootStress::new(pair, 0, 0.25).unwrap().per_force;
+    let per_force = RootStressFactors::new(pair, 0, 0.25).unwrap().per_force;
     [per_force * bending.into_iter().flatten().fold(0.0, f64::max), pressure]
 }
 
@@ -117,7 +117,7 @@ fn root_stress_and_pressure_match_64_separately_computed_slices() {
 fn solid_teeth_have_the_face_load_factor_of_their_overlap() {
     let none = ToothErrorSpec::default();
     let pair = Pair::new(&GearSpec::default());
-    let per_force = RootStress::new(&pair, 0, 0.25).unwrap().per_force;
+    let per_force = RootStressFactors::new(&pair, 0, 0.25).unwrap().per_force;
     for (errors, least) in [
         (ToothErrorSpec { crowning: 60e-6, ..none }, 1.2),
         (ToothErrorSpec { side_axial_offset: 1e-4, ..none }, 1.05),

@@ -48,7 +48,8 @@ impl GearBody {
         let area = TAU * sin(root.polar) * sin(root.polar);
         let last = (WAVES * TAU / root.half_azimuth) as usize;
         let inelastic = || Problem::new("material.poisson_ratio", "the gear bodies have no stiffness");
-        let compliance = |n: usize, across: usize| cone.compliance(n, support.turns(), across).ok_or_else(inelastic);
+        let compliance =
+            |n: usize, across: usize| cone.compliance(n, support.is_free_to_turn(), across).ok_or_else(inelastic);
         let [finite, endless] = [compliance(FINITE, ACROSS)?, compliance(FINITE, 1)?];
         let ends = [0, 1, 2].map(|k| finite[(k, k)] / endless[(k, k)] - 1.0);
         let correction = compliance(CURVED, 1)? - cone.half_space(CURVED);

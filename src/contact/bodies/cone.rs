@@ -5,11 +5,11 @@
 //! the strains are
 //!
 //! ε_R = U + D U,  ε_φ = ∂V/∂φ + U,  ε_ζ = U + c V − n w/s,
-//! γ_Rφ = ∂U/∂φ + D V,  γ_Rζ = n U/s + D w,  γ_φζ = n V/s + ∂w/∂φ − c w   (the last two times i);
+//! γ_Rφ = ∂U/∂φ + D V,  γ_Rζ = n U/s + D w,  γ_φζ = n V/s + ∂w/∂φ − c w   (the last two times i).
 //!
 //! Source: O. C. Zienkiewicz, R. L. Taylor, axisymmetric bodies under loads that are not axisymmetric. Elements have
-//! three nodes along φ. Across the face they have three nodes with free ends, or one node. With one node the motion is
-//! the same at all R, as in a face without ends. Work and energy are per ∫R²dR. Elements are eliminated one by one,
+//! three nodes along φ. Across the face they have three nodes with free ends, or one node. With one node, U, V and w
+//! are the same at all R, as in a face without ends. Work and energy are per ∫R²dR. Elements are eliminated one by one,
 //! from the held surface up to the root cone.
 
 use nalgebra::{DMatrix, Matrix3};
@@ -21,7 +21,7 @@ use crate::numeric::{asin, cos, sin, tan};
 const ELEMENTS: usize = 5;
 /// Factor by which the element lengths grow from the surface down.
 const GROWTH: f64 = 1.5;
-/// Depth, in decay lengths sin φ/n, at which harmonic n has decayed.
+/// Depth below the root cone at which harmonic n has decayed, in decay lengths sin φ/n.
 const DECAYED: f64 = 9.0;
 /// Gauss points and weights.
 const GAUSS: [(f64, f64); 3] =
@@ -30,9 +30,9 @@ const GAUSS: [(f64, f64); 3] =
 /// Surface on which a body is held.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Held {
-    /// On the cone of a polar angle [rad].
+    /// Cone with this polar angle [rad].
     Cone(f64),
-    /// On the cylinder of a radius [m].
+    /// Cylinder with this radius [m].
     Cylinder(f64),
 }
 
@@ -66,102 +66,111 @@ pub struct HollowCone {
 type Shape = [f64; 3];
 
 impl HollowCone {
-    /// Displacements (U, V, w) of the surface under unit loads (U, V, w) per ζ of harmonic `n` [1/Pa]. If the body
-    /// `turns`, it is not held along ζ, and its mean rotation is 0. The face has `across` nodes: 3, or 1 for a face
-    /// without ends. Returns `None` if the material is not elastic.
-    pub fn compliance(&self, n: usize, turns: bool, across: usize) -> Option<Matrix3<f64>> {
+    /// Compliance matrix of harmonic `n` [1/Pa]. Column j contains the displacements (U, V, w) of the surface under a
+    /// unit load along direction j (R, φ, ζ) per azimuth. If `is_free_to_turn`, the body is not held along ζ, and its
+    /// mean rotation is 0. The face has 3 nodes (`nodes_across`), or 1 for a face without ends. Returns `None` if the
+    /// stiffness matrix is not positive definite.
+    pub fn compliance(&self, n: usize, is_free_to_turn: bool, nodes_across: usize) -> Option<Matrix3<f64>> {
         let total = (1.0 - GROWTH.powi(ELEMENTS as i32)) / (1.0 - GROWTH);
         let (mut below, mut from) = (None, 0.0);
-        let free = n == 0 && turns;
+        let free = n == 0 && is_free_to_turn;
         for e in (0..ELEMENTS).rev() {
             let to = if e == 0 { 1.0 } else { from + GROWTH.powi(e as i32) / total };
-            below = Some(self.eliminated(n, [from, to], (across, turns && !free), below)?);
+            below = Some(self.eliminated(n, [from, to], (nodes_across, is_free_to_turn && !free), below)?);
             from = to;
         }
         let mut stiffness = below?;
         if free {
             // torsion is decoupled from the other displacements
-            for i in (2..3 * across).step_by(3) {
+            for i in (2..3 * nodes_across).step_by(3) {
                 stiffness.fill_row(i, 0.0);
                 stiffness.fill_column(i, 0.0);
                 stiffness[(i, i)] = 1.0;
             }
         }
-        let shares = self.shares(across);
+        let shares = self.shares(nodes_across);
         let loads =
-            DMatrix::from_fn(3 * across, 3, |i, j| if i % 3 == j && !(free && j == 2) { shares[i / 3] } else { 0.0 });
+            DMatrix::from_fn(
+                3 * nodes_across,
+                3,
+                |i, j| if i % 3 == j && !(free && j == 2) { shares[i / 3] } else { 0.0 },
+            );
         let moved = stiffness.cholesky()?.solve(&loads);
         Some((loads.transpose() * moved).fixed_view::<3, 3>(0, 0).into_owned())
     }
 
-    /// Compliance for waves that are short compared with the body and its face: that of a half-space under loads p cos
-    /// kx, k = n/sin φ.
+    /// Compliance matrix of harmonic `n` [1/Pa] for waves that are short compared with the body and its face. It is the
+    /// compliance of a half-space under loads p cos kx with k = n/sin φ.
     pub fn half_space(&self, n: usize) -> Matrix3<f64> {
         let Elasticity { young, poisson } = self.elasticity;
         let normal = 2.0 / (self.elasticity.plane_modulus() * n as f64);
-        let across = -normal * (1.0 - 2.0 * poisson) / (2.0 * (1.0 - poisson));
+        let coupling = -normal * (1.0 - 2.0 * poisson) / (2.0 * (1.0 - poisson));
         let along = 2.0 * (1.0 + poisson) / (young * n as f64);
-        Matrix3::new(along, 0.0, 0.0, 0.0, normal, across, 0.0, across, normal)
+        Matrix3::new(along, 0.0, 0.0, 0.0, normal, coupling, 0.0, coupling, normal)
     }
 
-    /// Shares of a load proportional to R² that act on the nodes across the face.
-    fn shares(&self, across: usize) -> [f64; 3] {
+    /// Fractions of a load proportional to R² that act on the `nodes_across` nodes across the face.
+    fn shares(&self, nodes_across: usize) -> [f64; 3] {
         let mut shares = [0.0; 3];
-        self.along_face(across, |_, weight, values, _| {
+        self.along_face(nodes_across, |_, weight, values, _| {
             shares.iter_mut().zip(values).for_each(|(share, value)| *share += weight * value);
         });
         shares
     }
 
-    /// Calls `visit` at the Gauss points across the face with R, the weight R²dR/∫R²dR, and the nodes' values and
-    /// slopes (times R).
-    fn along_face(&self, across: usize, mut visit: impl FnMut(f64, f64, [f64; 3], [f64; 3])) {
+    /// Calls `visit` at the Gauss points across the face with R [m], the weight R²dR/∫R²dR, and values and R times the
+    /// slopes of the nodes' shape functions.
+    fn along_face(&self, nodes_across: usize, mut visit: impl FnMut(f64, f64, [f64; 3], [f64; 3])) {
         let [inner, outer] = self.face;
         let (middle, half) = (0.5 * (inner + outer), 0.5 * (outer - inner));
         let moment = (outer.powi(3) - inner.powi(3)) / 3.0;
         for (x, weight) in GAUSS {
             let r = middle + half * x;
-            let (values, slopes) = if across == 1 { ([1.0, 0.0, 0.0], [0.0; 3]) } else { quadratic(x) };
+            let (values, slopes) = if nodes_across == 1 { ([1.0, 0.0, 0.0], [0.0; 3]) } else { quadratic(x) };
             visit(r, weight * half * r * r / moment, values, slopes.map(|slope| slope * r / half));
         }
     }
 
-    /// Stiffness at the upper end of an element that covers the fractions `range` of the depth. The stiffness `below`
-    /// acts on its lower end; without one, the lower end is held, but not along ζ if the body `turns`.
+    /// Stiffness matrix of the nodes at the upper end of an element, after elimination of its other nodes. `range`
+    /// contains the ends of the element as fractions of the thickness, from the held surface (0) to the root cone (1).
+    /// The stiffness `below` acts on its lower end. Without `below`, the lower end is held, but not along ζ if
+    /// `is_free_to_turn`. Returns `None` if the stiffness matrix is not positive definite.
     fn eliminated(
         &self,
         n: usize,
         range: [f64; 2],
-        (across, turns): (usize, bool),
+        (nodes_across, is_free_to_turn): (usize, bool),
         below: Option<DMatrix<f64>>,
     ) -> Option<DMatrix<f64>> {
-        let row = 3 * across;
-        let mut k = self.element(n, range, across);
+        let row = 3 * nodes_across;
+        let mut k = self.element(n, range, nodes_across);
         let held = below.is_none();
         if let Some(below) = below {
             let mut corner = k.view_mut((2 * row, 2 * row), (row, row));
             corner += below;
         }
-        let rest: Vec<usize> = (row..3 * row).filter(|i| !held || *i < 2 * row || turns && i % 3 == 2).collect();
+        let rest: Vec<usize> =
+            (row..3 * row).filter(|i| !held || *i < 2 * row || is_free_to_turn && i % 3 == 2).collect();
         let top = k.view((0, 0), (row, row)).into_owned();
         let side = k.columns(0, row).select_rows(&rest);
         let inner = k.select_rows(&rest).select_columns(&rest);
         Some(top - side.transpose() * inner.cholesky()?.solve(&side))
     }
 
-    /// Stiffness of an element. Rows of nodes are ordered from the upper end down.
-    fn element(&self, n: usize, range: [f64; 2], across: usize) -> DMatrix<f64> {
+    /// Stiffness matrix of the element of harmonic `n` that covers the fractions `range` of the thickness. Rows of
+    /// nodes are ordered from the upper end down.
+    fn element(&self, n: usize, range: [f64; 2], nodes_across: usize) -> DMatrix<f64> {
         let Elasticity { young, poisson } = self.elasticity;
         let shear = 0.5 * young / (1.0 + poisson);
         let lame = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-        let nodes = 3 * across;
+        let nodes = 3 * nodes_across;
         let mut k = DMatrix::zeros(3 * nodes, 3 * nodes);
         let (middle, half) = (0.5 * (range[0] + range[1]), 0.5 * (range[1] - range[0]));
-        let deepest = self.surface - DECAYED * sin(self.surface) / (n as f64).max(1e-9);
-        self.along_face(across, |r, weight_r, values_r, slopes_r| {
+        let decayed_angle = self.surface - DECAYED * sin(self.surface) / (n as f64).max(1e-9);
+        self.along_face(nodes_across, |r, weight_r, values_r, slopes_r| {
             let [mut bottom, mut bottom_slope] = self.held.at(r);
-            if bottom < deepest {
-                (bottom, bottom_slope) = (deepest, 0.0);
+            if bottom < decayed_angle {
+                (bottom, bottom_slope) = (decayed_angle, 0.0);
             }
             let depth = self.surface - bottom;
             for (x, weight) in GAUSS {
@@ -171,13 +180,13 @@ impl HollowCone {
                 let (values, slopes) = quadratic(x);
                 let mut strains = [[0.0; 6]; 27];
                 for row in 0..3 {
-                    for column in 0..across {
+                    for column in 0..nodes_across {
                         // rows from the upper end down
                         let slope = slopes[2 - row] / (half * depth) * values_r[column];
                         let value = values[2 - row] * values_r[column];
                         // along R at the same φ, not at the same fraction of the depth
                         let along = values[2 - row] * slopes_r[column] - (1.0 - part) * bottom_slope * slope;
-                        let node = 3 * (row * across + column);
+                        let node = 3 * (row * nodes_across + column);
                         strains[node..node + 3].copy_from_slice(&strains_of([value, slope, along], n as f64 / s, c));
                     }
                 }

@@ -159,7 +159,7 @@ impl MeshOnBodies {
         let line_load = self.outer_cone * load;
         PairCompliance {
             gear: [0, 1].map(|i| self.gear(i, rolls[i])),
-            local: self.teeth.local(rolls, line_load),
+            hertz: self.teeth.hertz_compliance(rolls, line_load),
             half_width: sqrt(self.teeth.half_width_squared(rolls, line_load)),
         }
     }

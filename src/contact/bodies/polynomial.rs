@@ -2,8 +2,8 @@
 
 use crate::numeric::{PI, cos};
 
-/// Degree of the polynomial. Its error in a coupling is 2e-6 of a pair's compliance from eight teeth on, and 1e-3 for
-/// five teeth.
+/// Degree of the polynomial. The error of a coupling between tooth pairs (`sharing`) is 2e-6 of a pair's compliance for
+/// gears with at least eight teeth, and 1e-3 for five teeth.
 const DEGREE: usize = 6;
 
 /// A polynomial in x = (u − middle)/half, constant beyond x = ±1.
@@ -48,18 +48,18 @@ impl Polynomial {
     }
 
     /// Value at x = (u − middle)/half, from −1 to 1.
-    pub fn at_share(&self, x: f64) -> f64 {
+    pub fn at_normalised(&self, x: f64) -> f64 {
         self.terms.iter().rev().fold(0.0, |sum, term| sum * x + term)
     }
 
-    /// Value, slope and, if `TWICE`, curvature at `u`.
+    /// Value, slope and, if `CURVATURE`, curvature at `u`.
     #[inline(always)]
-    pub fn at<const TWICE: bool>(&self, u: f64) -> [f64; 3] {
+    pub fn at<const CURVATURE: bool>(&self, u: f64) -> [f64; 3] {
         let free = (u - self.middle) * self.per_half;
         let x = free.clamp(-1.0, 1.0);
         let (mut value, mut slope, mut curvature) = (self.terms[DEGREE], 0.0, 0.0);
         for term in self.terms[..DEGREE].iter().rev() {
-            if TWICE {
+            if CURVATURE {
                 curvature = curvature * x + 2.0 * slope;
             }
             slope = slope * x + value;

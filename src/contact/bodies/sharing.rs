@@ -175,9 +175,9 @@ impl PairCouplings {
         couplings
     }
 
-    /// The coupling of `a` and `b`, with second derivatives if `TWICE`.
+    /// The coupling of `a` and `b`, with second derivatives if `CURVATURE`.
     #[inline(always)]
-    pub fn coupling<const TWICE: bool>(&self, a: &PairPlace, b: &PairPlace) -> Coupling {
+    pub fn coupling<const CURVATURE: bool>(&self, a: &PairPlace, b: &PairPlace) -> Coupling {
         let alike = a.flank == b.flank;
         let (polynomial, with) = if a.side != b.side {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };
@@ -204,7 +204,7 @@ impl PairCouplings {
         } else {
             [0.5, -0.5]
         };
-        let [value, slope, curvature] = polynomial.at::<TWICE>(own * a.s + other * b.s);
+        let [value, slope, curvature] = polynomial.at::<CURVATURE>(own * a.s + other * b.s);
         let hessian = [own * own * curvature, own * other * curvature, other * other * curvature];
         Coupling { value, gradient: [own * slope, other * slope], hessian }
     }
@@ -219,7 +219,7 @@ impl Polynomial {
     /// Smallest value at evenly spaced positions.
     fn least(&self) -> f64 {
         (-SEARCH_PLACES..=SEARCH_PLACES)
-            .map(|j| self.at_share(f64::from(j) / f64::from(SEARCH_PLACES)))
+            .map(|j| self.at_normalised(f64::from(j) / f64::from(SEARCH_PLACES)))
             .fold(f64::INFINITY, f64::min)
     }
 }

@@ -13,11 +13,12 @@ const THINNEST: f64 = 0.25;
 /// Support of a gear's body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Support {
-    /// On the cone two modules below its root.
+    /// The body is held on the cone two modules below its root.
     NearRoot,
-    /// In a bore of this diameter [m]. A solid body, with diameter 0, is held near its root.
+    /// The body is held in a bore of this diameter [m]. A solid body, with diameter 0, is held near its root.
     Bore(f64),
-    /// In a bore of this diameter [m] that transmits no torque: the body turns with the mean rotation of its root.
+    /// The body is held in a bore of this diameter [m] that transmits no torque. The body therefore turns with the mean
+    /// rotation of its root.
     FreeBore(f64),
 }
 
@@ -28,7 +29,8 @@ impl Support {
         2.0 * (pair.inner_cone * sin(pair.gears[i].root) - rim)
     }
 
-    /// Returns the surface on which gear `i` of `pair` is held. Errors name the variable `name`.
+    /// Returns the surface on which gear `i` of `pair` is held. Fails if the bore leaves no body below the teeth; the
+    /// error names the variable `name`.
     pub fn held(self, pair: &Pair, i: usize, name: &'static str) -> Result<Held, Problem> {
         let root = pair.gears[i].root;
         let diameter = match self {
@@ -50,7 +52,7 @@ impl Support {
     }
 
     /// True if the support leaves the body free to turn.
-    pub fn turns(self) -> bool {
+    pub fn is_free_to_turn(self) -> bool {
         matches!(self, Self::FreeBore(_))
     }
 }

@@ -9,9 +9,9 @@
 //!
 //! Any other law uses eight points if the load is far from zero, and otherwise twelve points clustered at the ends
 //! (`points`). The ends of a loaded part move with the load, and its points move with them. The derivative of a sum
-//! includes this motion (`carrying`).
+//! includes this motion (`loaded_span`).
 
-use super::carrying::{Moves, Span, carries as carries_at, carrying};
+use super::loaded_span::{Moves, Span, is_loaded_at, loaded_span};
 use super::points::{CROWDED, EIGHT, GAUSS, GAUSS_EIGHT, MAX_NODES, POINTS, nodes};
 use super::{Node, Opening, Slice};
 
@@ -117,16 +117,17 @@ impl Face {
     #[inline(always)]
     pub fn is_loaded(&self, arc: f64, opening: &Opening) -> bool {
         let (a, even) = (arc - opening.turn, opening.even.v);
-        let carries = |even: f64, ends: [f64; 2]| carrying(a, even, opening.bend, ends).is_some();
+        let has_load = |even: f64, ends: [f64; 2]| loaded_span(a, even, opening.bend, ends).is_some();
         match (self, opening.edge) {
             (Self::Whole(node), Some((edge, depth))) if node.cone > edge => {
-                carries_at(a, even + depth, opening.bend, node.cone)
+                is_loaded_at(a, even + depth, opening.bend, node.cone)
             }
-            (Self::Whole(node), _) => carries_at(a, even, opening.bend, node.cone),
-            (Self::Linear(ends, _) | Self::General(ends, _), None) => carries(even, *ends),
+            (Self::Whole(node), _) => is_loaded_at(a, even, opening.bend, node.cone),
+            (Self::Linear(ends, _) | Self::General(ends, _), None) => has_load(even, *ends),
             (Self::Linear([inner, outer], _) | Self::General([inner, outer], _), Some((edge, depth))) => {
                 let edge = edge.clamp(*inner, *outer);
-                *inner < edge && carries(even, [*inner, edge]) || edge < *outer && carries(even + depth, [edge, *outer])
+                *inner < edge && has_load(even, [*inner, edge])
+                    || edge < *outer && has_load(even + depth, [edge, *outer])
             }
         }
     }
@@ -143,7 +144,8 @@ impl Face {
                     Some((edge, depth)) if node.cone > edge => even + depth,
                     _ => even,
                 };
-                let all: &[Node] = if carries_at(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
+                let all: &[Node] =
+                    if is_loaded_at(a, even, bend, node.cone) { std::slice::from_ref(node) } else { &[] };
                 [Part { nodes: all, even, moves: None }, Part::NONE]
             }
             Self::Linear(ends, all) => parts(*ends, opening, a, &mut storage.exact, |even, span, room| match span {
@@ -155,7 +157,7 @@ impl Face {
             Self::General(ends, all) => parts(*ends, opening, a, &mut storage.crowded, |even, span, room| {
                 let Some(span) = span else { return Part::NONE };
                 let past = CLEAR * (ends[1] - ends[0]);
-                let is_clear = |r: f64| carries_at(a, even, bend, r);
+                let is_clear = |r: f64| is_loaded_at(a, even, bend, r);
                 if span.ends == *ends && is_clear(ends[0] - past) && is_clear(ends[1] + past) {
                     return Part { nodes: all, even, moves: None };
                 }
@@ -178,12 +180,12 @@ fn parts<'a, R>(
 ) -> [Part<'a>; 2] {
     let [even, bend] = [opening.even.v, opening.bend];
     let Some((edge, depth)) = opening.edge else {
-        return [part(even, carrying(a, even, bend, ends), first), Part::NONE];
+        return [part(even, loaded_span(a, even, bend, ends), first), Part::NONE];
     };
     let ([inner, outer], edge) = (ends, edge.clamp(ends[0], ends[1]));
-    let sound = if inner < edge { carrying(a, even, bend, [inner, edge]) } else { None };
+    let sound = if inner < edge { loaded_span(a, even, bend, [inner, edge]) } else { None };
     let beyond = even + depth;
-    let broken = if edge < outer { carrying(a, beyond, bend, [edge, outer]) } else { None };
+    let broken = if edge < outer { loaded_span(a, beyond, bend, [edge, outer]) } else { None };
     [part(even, sound, first), part(beyond, broken, second)]
 }
 

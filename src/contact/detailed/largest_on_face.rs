@@ -6,7 +6,7 @@
 //! part, at points between them, and around each point that exceeds its neighbours. Its result does not depend on how
 //! the loads were summed, so it is continuous in every error.
 
-use super::carrying::{Span, carrying};
+use super::loaded_span::{Span, loaded_span};
 use super::{Detailed, Face, SliceLoad};
 use crate::contact::{Sliding, Spring, ToothFriction};
 
@@ -52,7 +52,7 @@ impl Detailed {
             if from >= to {
                 continue;
             }
-            let Some(Span { ends, .. }) = carrying(approach, even, opening.bend, [from, to]) else { continue };
+            let Some(Span { ends, .. }) = loaded_span(approach, even, opening.bend, [from, to]) else { continue };
             largest = largest.max(largest_between(ends, |cone| {
                 let arc = approach - even / cone - opening.bend * cone;
                 value_at(cone, self.line_load_at(&place, &slice.approach, arc, cone))

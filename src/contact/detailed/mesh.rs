@@ -15,7 +15,7 @@ use crate::numeric::Dual;
 pub struct Detailed {
     /// Elastic law per unit of the face's weights.
     pub spring: AnySpring,
-    /// Damping of the whole face in one state; every slice has its share of it.
+    /// Damping per unit of the face's weights, in arcs and torques ([`Damping::in_arcs`]).
     pub(super) damping: Damping,
     /// The face.
     pub face: Face,

@@ -10,11 +10,11 @@
 //! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
 //! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 
-mod carrying;
 mod directions;
 mod face;
 mod face_load;
 mod largest_on_face;
+mod loaded_span;
 mod loads;
 mod mesh;
 mod on_bodies;

@@ -25,7 +25,7 @@ pub struct SharedTeeth<'a> {
     pub teeth: [MeshTeeth<'a>; 2],
     /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
-    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub opposite: i64,
 }
@@ -45,9 +45,10 @@ struct Near<P> {
 /// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
 type See<'a, P> = dyn FnMut(&Near<P>, f64, &Share) + 'a;
 
-/// Elastic load of a face at an own arc, divided by J, with its derivatives.
+/// Elastic load ω = M/J of a face at an own arc [N/m²], with its derivatives with respect to arc, opening E and
+/// position s, and the energy divided by J.
 #[derive(Clone, Copy, Default)]
-struct Carried {
+struct ElasticLoad {
     load: f64,
     by_arc: f64,
     by_opening: f64,
@@ -58,15 +59,15 @@ struct Carried {
 impl Detailed {
     /// Elastic load of a pair at its own arc `arc` [rad].
     #[inline(always)]
-    fn carried<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> Carried {
+    fn elastic_load<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> ElasticLoad {
         if !OPEN {
             // one point represents the load of a face whose flanks fit
             if arc <= 0.0 {
-                return Carried::default();
+                return ElasticLoad::default();
             }
             let elastic = spring.respond(&near.place, arc);
             let (load, by_arc, by_place) = (elastic.torque, elastic.stiffness, elastic.torque_by_place);
-            return Carried { load, by_arc, by_opening: 0.0, by_place, energy: elastic.energy };
+            return ElasticLoad { load, by_arc, by_opening: 0.0, by_place, energy: elastic.energy };
         }
         let (opening, mut sums) = (&near.opening, Sums::default());
         let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
@@ -75,13 +76,13 @@ impl Detailed {
         }
         let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
         let (load, energy) = (sums.torque / self.moment, sums.energy / self.moment);
-        Carried { load, by_arc, by_opening, by_place, energy }
+        ElasticLoad { load, by_arc, by_opening, by_place, energy }
     }
 
     /// Load and its slope with respect to the arc, for the iterations that solve for the own arcs.
     #[inline(never)]
     fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> [f64; 2] {
-        let Carried { load, by_arc, .. } = self.carried::<S, OPEN>(spring, near, arc);
+        let ElasticLoad { load, by_arc, .. } = self.elastic_load::<S, OPEN>(spring, near, arc);
         [load, by_arc]
     }
 
@@ -150,10 +151,10 @@ impl Detailed {
             if let Some(near) = near_of(k) {
                 let (at, pair) = (3 * near.pair_place.side, &near.pair);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
-                let carried = self.carried::<S, OPEN>(spring, near, own);
-                let by_place = carried.by_place + carried.by_opening * near.opening.even.d;
+                let elastic_load = self.elastic_load::<S, OPEN>(spring, near, own);
+                let by_place = elastic_load.by_place + elastic_load.by_opening * near.opening.even.d;
                 change.place = (at + 1, pair.s_slope, by_place * pair.s_slope);
-                change.opening = (at + 2, carried.by_opening * near.axial[0]);
+                change.opening = (at + 2, elastic_load.by_opening * near.axial[0]);
             }
             (by, change)
         };
@@ -167,7 +168,8 @@ impl Detailed {
         });
     }
 
-    /// Calls [`Self::share`] without slopes, in the variant for flanks that may open or for flanks that fit.
+    /// Calls [`Self::share`] without slopes. Selects the variant for flanks that may open or the variant for flanks
+    /// that fit.
     #[inline(never)]
     fn share_at<S: Spring>(
         &self,
@@ -209,8 +211,8 @@ impl Detailed {
         totals.map(|totals| totals.load())
     }
 
-    /// Loads of both meshes with their exact derivatives with respect to q, x, w and their rates of the own mesh, and
-    /// to q, x, w of the other mesh.
+    /// Loads of both meshes with their exact derivatives. Variables are q, x, w of the mesh, their rates, and q, x, w
+    /// of the planet's other mesh.
     pub fn linearise_shared(
         &self,
         shared: &SharedTeeth,
@@ -240,9 +242,9 @@ impl Detailed {
         let mut sum = 0.0;
         with_teeth!(&self.spring, spring => self.share_at(spring, shared, states, 0.0, &mut |near, arc, share| {
             let alone = if self.may_open(shared) {
-                self.carried::<_, true>(spring, near, share.own)
+                self.elastic_load::<_, true>(spring, near, share.own)
             } else {
-                self.carried::<_, false>(spring, near, share.own)
+                self.elastic_load::<_, false>(spring, near, share.own)
             };
             sum += self.moment * (alone.energy + 0.5 * share.load * (arc - share.own));
         }), ());

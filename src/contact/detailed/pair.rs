@@ -5,7 +5,7 @@ use super::sums::{Approach, By};
 use super::{DetailedState, LOCAL, Opening, SlidingGeometry};
 use crate::contact::ToothPair;
 
-/// Motion of a pair. `OPEN`: its flanks may not fit. `SHARED`: other pairs move it.
+/// Motion of a pair. If `OPEN`, its flanks may not fit. If `SHARED`, other pairs move it.
 #[derive(Clone, Copy, Debug)]
 pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     /// Approach of the flanks and its rates.
@@ -22,9 +22,11 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     pub opening: [f64; 2],
     /// ∂²E/∂x² and ∂²E/∂x∂w.
     pub opening_twice: [f64; 2],
-    /// ∂Ȧ/∂(q, x) and ∂Ė/∂(x, w).
+    /// ∂Ȧ/∂(q, x).
     rate_slope: [f64; 2],
+    /// ∂Ė/∂(x, w).
     opening_rate_slope: [f64; 2],
+    /// Rates of q and x [rad/s].
     rate: [f64; 2],
     /// Derivatives of the own arc with respect to q, x, w of the pair's mesh and of the planet's other mesh, if other
     /// pairs move the pair.

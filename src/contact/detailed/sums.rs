@@ -5,14 +5,14 @@
 //!
 //! Q_A = −ΣT, Q_E = ΣT/R, Q_s = −ΣU_s
 //!
-//! The same is true of their derivatives. T/R is the normal force of a slice.
+//! The derivatives of the forces are sums of the same kind. T/R is the normal force of a slice.
 //!
 //! If the points of a part move with its ends ([`Moves`]), sums over f(R) dR also change by f dR·(stretch of the part)
 //! and by f′(R) dR·(motion of the point). Loads vanish at moving ends, so both changes together equal the quadrature
 //! error. Including them makes the derivatives exact for the sums, to the last digit.
 
-use super::carrying::Moves;
 use super::face::Part;
+use super::loaded_span::Moves;
 use super::{Node, Opening, SlidingGeometry};
 use crate::contact::{Damping, Elastic, Sliding, Spring, ToothFriction};
 use crate::numeric::Dual;

@@ -16,11 +16,13 @@ pub struct Chip {
     tooth: usize,
     /// Cone distance beyond which material is missing [m].
     from: f64,
+    /// Missing depth along the line of action [m].
     depth: f64,
 }
 
 impl Chip {
-    /// Returns the tooth that `spec` breaks on the gears of `pair` with `planets` planets, or `None`.
+    /// Returns the tooth that `spec` breaks on the gears of `pair` with `planets` planets, or `None` if no tooth
+    /// breaks. Fails if `spec` is invalid for these gears.
     pub fn new(spec: &ToothFaultSpec, pair: &Pair, planets: usize) -> Result<Option<Self>, Problem> {
         spec.check(pair.gears.map(|g| g.teeth), planets)?;
         let on_planet = spec.gear == FaultyGear::Planet;

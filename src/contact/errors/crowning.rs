@@ -12,7 +12,9 @@ use crate::geometry::Pair;
 pub struct Crowning {
     /// Gap at the ends of the face C_β [m].
     amount: f64,
+    /// Mean cone distance R_m [m].
     middle: f64,
+    /// Reciprocal of half the face width [1/m].
     per_half_width: f64,
 }
 

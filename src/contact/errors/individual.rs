@@ -26,7 +26,7 @@ impl ToothErrors {
     }
 
     /// Replaces the teeth of all gears by `gears`, in the order of [`Self::teeth`]. Data of effects that are not
-    /// modelled are ignored.
+    /// modelled are ignored. Fails if the number of gears or teeth is wrong or a value is not finite.
     pub fn with_teeth(mut self, gears: &[GearTeeth]) -> Result<Self, Problem> {
         if gears.len() != 2 + self.planets {
             return Err(problem!(

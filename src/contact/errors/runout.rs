@@ -28,8 +28,11 @@ pub struct Runout {
     eccentricity: [f64; 2],
     /// Azimuths of ê from tooth 0 on planets and side gears, positive in the direction of the tooth count [rad].
     direction: [Box<[f64]>; 2],
+    /// Angular pitches of planets and side gears [rad].
     pitch: [f64; 2],
+    /// −γ_p of planets and +γ_s of side gears [rad].
     half_tooth: [f64; 2],
+    /// 1/sinδ_b of planets and side gears.
     per_lever: [f64; 2],
 }
 

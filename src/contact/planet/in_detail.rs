@@ -44,8 +44,8 @@ impl<'a> InDetail<'a> {
         }
     }
 
-    /// Fraction of a step of `h` [s] at which the force of the mesh of side `s` has its first kink. `moved` is the
-    /// opening of each pair by other pairs.
+    /// Fraction of a step of `h` [s] at which the force of the mesh of side `s` has its first kink, or `None`. `moved`
+    /// returns the arc by which other pairs open a pair [rad].
     #[inline(never)]
     fn kink_of(
         &self,

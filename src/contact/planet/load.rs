@@ -42,7 +42,7 @@ impl PressingSlopes {
 
 /// Load of a mesh.
 pub trait MeshLoad: Copy {
-    /// True if the kind of contact computes the loads under which gears rub.
+    /// True if the kind of contact computes the loads that press the gears on their seats.
     const PRESSES: bool;
     /// No load.
     fn none() -> Self;
@@ -50,7 +50,7 @@ pub trait MeshLoad: Copy {
     fn force(&self) -> [f64; COORDINATES];
     /// Heat of contact damping and of tooth friction [W].
     fn heat(&self) -> [f64; 2];
-    /// Loads under which gears rub.
+    /// Loads that press the gears on their seats.
     fn pressing(&self) -> Pressing {
         Pressing::default()
     }
@@ -70,7 +70,7 @@ pub trait LinearisedLoad: MeshLoad {
     fn by_other(&self) -> Block {
         [[0.0; COORDINATES]; COORDINATES]
     }
-    /// Derivatives of the loads under which gears rub.
+    /// Derivatives of the loads that press the gears on their seats.
     fn pressing_slopes(&self) -> PressingSlopes {
         PressingSlopes::NONE
     }

@@ -104,7 +104,8 @@ pub trait PlanetContact {
         self.energy(to) - self.energy(from)
     }
 
-    /// Fraction of a step of `h` [s] at which a force has its first kink, predicted from the state `at`, or `None`.
+    /// Fraction of a step of `h` [s] at which a force has its first kink, predicted from the state `at`. `None` if no
+    /// kink is predicted.
     fn kink(&self, at: &PlanetState, h: f64) -> Option<f64>;
 
     /// Calls `see` with each loaded tooth pair, or with each loaded slice of it.
@@ -176,14 +177,17 @@ pub struct Contact {
     pub in_detail: bool,
 }
 
-/// Work of a section of solid teeth, relative to a mesh of plain teeth: per facet of a flank, and the minimum.
+/// Work of a section of solid teeth per facet of a flank, relative to a mesh of plain teeth.
 const SOLID_PER_FACET: usize = 2;
+/// Minimum work of a section of solid teeth, relative to a mesh of plain teeth.
 const MIN_SOLID: usize = 40;
-/// Maximum work of a planet's meshes on elastic gear bodies, if a dozen pairs move each other.
+/// Maximum work of a planet's meshes on elastic gear bodies, relative to a mesh of plain teeth. A dozen pairs then move
+/// each other.
 const ON_BODIES: usize = 16;
 
 impl Contact {
-    /// Returns the present contact. `viscosity` is the viscosity of the oil [Pa·s], if friction depends on it.
+    /// Returns the present contact. `viscosity` is the viscosity of the oil [Pa·s], if friction depends on it. If
+    /// `is_part_of_steps`, forces of plain teeth are inlined into the caller.
     #[inline]
     pub fn now(&self, is_tooth_broken: bool, viscosity: Option<f64>, is_part_of_steps: bool) -> AnyContact<'_> {
         let contact = self;
@@ -200,7 +204,8 @@ impl Contact {
         }
     }
 
-    /// Returns the contact without any effects.
+    /// Returns the contact without any effects. If `is_part_of_steps`, forces of plain teeth are inlined into the
+    /// caller.
     #[inline]
     pub fn without_effects(&self, is_part_of_steps: bool) -> AnyContact<'_> {
         match &self.solid {

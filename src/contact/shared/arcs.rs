@@ -4,10 +4,12 @@ use super::Couplings;
 
 /// Maximum number of Newton steps; usually a few suffice.
 const STEPS: usize = 40;
-/// Residual of a solved equation, relative to the largest arc. Beyond `FEW` loads it grows with their number.
+/// Residual of a solved equation, relative to the largest arc. With more than [`FEW`] loads, it grows with their
+/// number.
 const SOLVED: f64 = 4e-15;
+/// Number of loads up to which the residual does not grow.
 const FEW: usize = 8;
-/// Consecutive Newton steps that may increase the residual.
+/// Maximum number of consecutive Newton steps that do not reduce the residual.
 const VAIN: i32 = 3;
 /// Number of Gauss-Seidel rounds after such steps.
 const ROUNDS: usize = 50;
@@ -28,7 +30,8 @@ pub struct OwnArcs<const K: usize> {
 }
 
 impl<const K: usize> OwnArcs<K> {
-    /// Solves for a law that is linear at positive arcs: if all pairs are loaded, one linear system gives the solution.
+    /// Solves for a law that is linear at positive arcs. If all pairs are loaded, one linear system gives the solution.
+    /// Otherwise, [`Self::new`] iterates.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
         let n = couplings.count;

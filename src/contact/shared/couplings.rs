@@ -133,9 +133,9 @@ impl<const K: usize> Couplings<K> {
     }
 }
 
-/// Calls `visit` with every two of the pairs at `places` and their coupling, with second derivatives if `TWICE`.
+/// Calls `visit` with every two of the pairs at `places` and their coupling, with second derivatives if `CURVATURE`.
 #[inline(always)]
-fn for_each_two<const TWICE: bool>(
+fn for_each_two<const CURVATURE: bool>(
     bodies: &PairCouplings,
     places: &[Option<&PairPlace>],
     mut visit: impl FnMut(usize, usize, &Coupling),
@@ -143,7 +143,7 @@ fn for_each_two<const TWICE: bool>(
     for (k, a) in places.iter().enumerate() {
         for (l, b) in places[..k].iter().enumerate() {
             if let (Some(a), Some(b)) = (a, b) {
-                visit(k, l, &bodies.coupling::<TWICE>(a, b));
+                visit(k, l, &bodies.coupling::<CURVATURE>(a, b));
             }
         }
     }

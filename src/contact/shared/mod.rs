@@ -7,10 +7,10 @@
 //!
 //! A pair with a_k ≤ 0 is not loaded. With U_k(a) the energy of a single pair, M = ∂U/∂a = Jω and J = ∫R² dR,
 //!
-//!   V = Σ U_k(a_k) + ½ J Σ t_kl ω_k ω_l,   ∂V/∂A_k = M_k,   ∂V/∂s_k = ∂U_k/∂s − J ω_k Σ_l ∂t_kl/∂s_k ω_l:
+//! V = Σ U_k(a_k) + ½ J Σ t_kl ω_k ω_l,   ∂V/∂A_k = M_k,   ∂V/∂s_k = ∂U_k/∂s − J ω_k Σ_l ∂t_kl/∂s_k ω_l.
 //!
-//! V is stationary in the loads, so the derivatives of a contribute nothing. Damping scales M or is added to it.
-//! Damping uses the rate Ȧ of the whole approach of the flanks.
+//! V is stationary in the loads, so the derivatives of the own arcs a contribute nothing. Damping scales M or is added
+//! to it. Damping uses the rate Ȧ of the whole approach of the flanks.
 
 mod arcs;
 mod couplings;

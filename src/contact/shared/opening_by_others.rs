@@ -6,6 +6,7 @@ use crate::contact::Flank;
 /// Arcs by which other pairs move a pair apart [rad].
 #[derive(Clone, Copy, Debug, Default)]
 pub struct OpeningByOthers {
+    /// Side gear, flank, number and arc [rad] of each pair.
     pairs: [Option<(usize, Flank, i64, f64)>; MAX_PAIRS],
     count: usize,
 }

@@ -16,7 +16,7 @@ pub struct SharedMeshes<'a> {
     pub mesh: &'a Mesh,
     /// Couplings through the bodies.
     pub bodies: &'a PairCouplings,
-    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub opposite: i64,
     /// Number of pairs by which the planet's position was wrapped, positive in the direction of x of each mesh.
@@ -129,7 +129,7 @@ impl SharedMeshes<'_> {
     }
 
     /// Calls [`Self::share`], but skips unloaded pairs.
-    fn carrying<S: Spring, const SLOPES: bool>(
+    fn for_each_loaded<S: Spring, const SLOPES: bool>(
         &self,
         spring: &S,
         states: &[MeshState; 2],
@@ -145,7 +145,7 @@ impl SharedMeshes<'_> {
     /// Forces and heat of both meshes.
     pub fn force<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> [MeshForce; 2] {
         let mut sum = [MeshForce::default(); 2];
-        self.carrying::<S, false>(spring, states, |near, _, share| {
+        self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
             let side = near.pair_place.side;
             self.add(spring, &mut sum[side], near, &states[side], share);
         });
@@ -175,7 +175,7 @@ impl SharedMeshes<'_> {
     /// Forces and heat of both meshes with their derivatives, and the elastic energy.
     pub fn linearise<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> SharedForce {
         let mut sum = SharedForce::default();
-        self.carrying::<S, true>(spring, states, |near, arc, share| {
+        self.for_each_loaded::<S, true>(spring, states, |near, arc, share| {
             self.add_linearised(spring, &mut sum, near, (states, arc), share);
         });
         sum
@@ -235,7 +235,7 @@ impl SharedMeshes<'_> {
     /// Elastic energy of both meshes [J].
     pub fn energy<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> f64 {
         let mut sum = 0.0;
-        self.carrying::<S, false>(spring, states, |near, arc, share| {
+        self.for_each_loaded::<S, false>(spring, states, |near, arc, share| {
             let alone = spring.respond(&near.place, share.own).energy;
             sum += self.mesh.whole.moment * (alone + 0.5 * share.load * (arc - share.own));
         });
@@ -261,7 +261,7 @@ impl SharedMeshes<'_> {
         side: usize,
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
-        self.carrying::<S, false>(spring, states, |near, _, share| {
+        self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
             if near.pair_place.side == side {
                 let pair = ToothPair { depth: share.own, ..near.pair };
                 let rate = self.mesh.rate(&pair, &states[side]);

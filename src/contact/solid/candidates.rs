@@ -41,9 +41,11 @@ const NONE: Near = [0, -1];
 #[derive(Clone)]
 pub struct Candidates {
     trees: [Bvh; 2],
+    /// Number of pieces of a flank of each gear.
     pieces: [usize; 2],
     /// Number of the last tooth; the first tooth has the negative number.
     last: i32,
+    /// Largest gap of aligned gears at which flanks can touch [rad].
     apart: f64,
     /// Placement of gears without displacement.
     aligned: Placement,
@@ -51,6 +53,7 @@ pub struct Candidates {
     half_backlash: f64,
     /// Cells in order of x from −½ to ½ base pitch.
     cells: Vec<Near>,
+    /// Reciprocal of the length of a cell [1/rad].
     per_cell: f64,
     /// Largest overlap for which the cells are valid [rad].
     deepest: f64,
@@ -114,8 +117,9 @@ impl Candidates {
         first..=last
     }
 
-    /// Finds the same pairs by traversing the trees. Flanks overlap or are moved by up to `deep` [rad]. A flank can
-    /// touch only the tooth ahead, because its own tooth is between it and the tooth behind.
+    /// First and last number of the pairs of flanks that may touch at (q, x) [rad], found by traversing the trees.
+    /// Flanks overlap or are moved by up to `deep` [rad]. A flank can touch only the tooth ahead, because its own tooth
+    /// is between it and the tooth behind.
     fn search(&self, q: f64, x: f64, deep: f64) -> Near {
         let turn: Matrix3<f64> = self.aligned.between([x / self.sin_base[0], (q + x) / self.sin_base[1]]);
         let (size, margin) = (turn.abs(), (self.apart + deep) * MM);

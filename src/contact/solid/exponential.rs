@@ -7,6 +7,7 @@ use crate::numeric::sqrt;
 const WHOLE: f64 = 1.5 * (1u64 << 52) as f64;
 /// ln 2 in two parts. The first part is short enough for whole multiples of it to be exact.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
+/// Number of bits of a double below its exponent.
 const EXPONENT: u32 = 52;
 /// Smallest exponent: e to this power is negligible, but still a normal number.
 const MIN_EXPONENT: f64 = -700.0;

@@ -1,4 +1,4 @@
-//! Faceted flanks of one pair. Stored are the drive flanks; the coast flanks are their mirror images.
+//! Faceted flanks of one pair. Only the drive flanks are stored; the coast flanks are their mirror images.
 //!
 //! Directions are in the frame of a tooth of the gear: first away from the gear's axis along the middle of the tooth,
 //! second in the direction in which the carrier turns forward, third along the axis from apex to heel. A facet spans

@@ -54,8 +54,9 @@ pub struct SolidSpec {
     pub displaced: Vec<[Displacement; 2]>,
 }
 
-/// Ratio of ε to the height of arc. The patch is almost as wide as a facet and passes from one facet to the next
-/// without a ripple: at the half-width c·facet, the first harmonic of the facets is damped by exp(−2π²c²).
+/// Ratio of ε to the height of the flanks' arcs over their facets, added for both gears. The patch is almost as wide as
+/// a facet, so it passes from one facet to the next without a ripple. If its half-width is c facets, the first harmonic
+/// of the facets is damped by exp(−2π²c²).
 const SOFTNESS: f64 = 1.25;
 
 /// Upper bound of a flank's length [rad].
@@ -83,9 +84,9 @@ pub struct SolidMesh {
     pub(super) slices: Vec<PlacedSlice>,
     /// Sections without a share of the load, at which the load is only evaluated.
     pub(super) edges: Vec<PlacedSlice>,
-    /// Distinct placements, and the placement of each planet with each side, for its drive flank and its mirrored coast
-    /// flank.
+    /// Distinct placements of drive flanks, and of coast flanks as their mirror images.
     placements: Vec<Placement>,
+    /// Indices of `placements` for each planet, side and flank (drive, coast).
     placed: Vec<[[usize; 2]; 2]>,
     side_rays: Vec<TurningRay>,
     half_backlash: f64,

@@ -42,19 +42,23 @@ pub struct Patch {
 
 /// ∫ exp(δ/ε) du along both walks, and its derivatives.
 struct SoftIntegral<const N: usize> {
-    /// ε [rad] and 1/ε.
+    /// ε [rad].
     width: f64,
+    /// 1/ε [1/rad].
     per: f64,
-    /// Overlap at which the exponents are zero, and the largest overlap before rescaling [rad].
+    /// Overlap at which the exponents are zero [rad].
     from: f64,
+    /// Overlap above which the integral is rescaled [rad].
     high: f64,
-    /// Integral of the completed walks, and integral of the present walk.
+    /// Integral of the completed walks.
     sum: Both<N>,
+    /// Integral of the present walk.
     walked: Both<N>,
-    /// Exponent and its exponential at the start of the walks, the same at the previous corner, and the position of the
-    /// previous corner.
+    /// Exponent and its exponential at the corner at which both walks start.
     begin: (Both<N>, f64),
+    /// Exponent and its exponential at the previous corner.
     before: (Both<N>, f64),
+    /// Position of the previous corner [rad].
     place: Both<N>,
 }
 
@@ -102,7 +106,7 @@ impl<const N: usize> SoftIntegral<N> {
         }
     }
 
-    /// The soft maximum of the overlap [rad].
+    /// Soft maximum of the overlap [rad]. `None` if the integral is not positive.
     #[inline(always)]
     fn greatest(mut self, soft: &Softness) -> Option<Both<N>> {
         self.finish();
@@ -193,7 +197,8 @@ impl FlankSection<'_> {
         in_lanes(DepthOf::<N> { section: self, soft })
     }
 
-    /// Contact patch of the section. `normal` returns the normal of a ray of a gear in the rows of a placement.
+    /// Contact patch of the section, or `None` if the flanks are apart. `normal` returns the normal of a ray of a gear
+    /// in the rows of a placement.
     pub fn patch(&self, soft: &Softness, normal: impl Fn(usize, usize) -> Vector3<f64>) -> Option<Patch> {
         let depth = self.depth::<0>(soft)?.v;
         let before = Corner::default();

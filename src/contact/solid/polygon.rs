@@ -10,7 +10,7 @@ use crate::numeric::sqrt;
 pub struct ProjectedRay<const N: usize> {
     /// Position along the flank [rad].
     pub u: Single<N>,
-    /// Height [rad] and n_h √(1 + u² + h²).
+    /// Height h [rad] and metric c = n_h √(1 + u² + h²), see [`super::overlap`].
     level: Twin<N>,
 }
 
@@ -42,10 +42,12 @@ impl<const N: usize> ProjectedRay<N> {
     }
 }
 
-/// A facet in the plane of projection. The height and metric of its points are linear in their positions.
+/// A facet in the plane of projection. Height and metric of its points are interpolated linearly in the position u.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct ProjectedFacet<const N: usize> {
+    /// Height and metric at u = 0.
     at_zero: Twin<N>,
+    /// Slopes of height and metric with respect to u.
     slope: Twin<N>,
 }
 

@@ -38,8 +38,9 @@ struct Walk<'a, const N: usize> {
     sense: f64,
     /// Facets of planet and side gear at the present position.
     facets: [ProjectedFacet<N>; 2],
-    /// Rays at which these facets end, and their indices.
+    /// Rays at which these facets end.
     ahead: [ProjectedRay<N>; 2],
+    /// Indices of these rays.
     index: [usize; 2],
 }
 

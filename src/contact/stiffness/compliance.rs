@@ -8,8 +8,8 @@
 //! q = cos²τ/E' { 12∫(y_c−y)²/s³ dy + (2.4(1+ν') + tan²τ)∫dy/s
 //! + 18/π (l/s_F)² + 2(1−ν') l/s_F + 4.8/π (1 + tan²τ/(2.4(1+ν'))) }, integrals from y₀ to y_c.
 //!
-//! The Hertz part is the approach between the flank and the teeth's middles at depths t₁, t₂. With the load per width w
-//! and half the contact width b,
+//! The Hertz part q_H is the approach of the middles of both teeth due to local deformation, divided by the load per
+//! width w. The middles are at the depths t₁, t₂ below the flanks. With half the contact width b,
 //! b² = 8w(1−ν²)/(πE) ρ₁ρ₂/(ρ₁+ρ₂), q_H = 2(1−ν²)/(πE) [ln(4t₁t₂/b²) − ν/(1−ν)].
 
 use super::{FlankLoad, ToothSection};
@@ -31,7 +31,7 @@ impl Elasticity {
     }
 
     /// Factor B = 2(1−ν²)/(πE) of the Hertz compliance [1/Pa].
-    pub fn local(&self) -> f64 {
+    pub fn hertz_factor(&self) -> f64 {
         2.0 / (PI * self.plane_modulus())
     }
 }
@@ -42,7 +42,7 @@ pub struct PairCompliance {
     /// Compliances of the teeth q₁, q₂ [1/Pa].
     pub gear: [f64; 2],
     /// Hertz compliance q_H [1/Pa].
-    pub local: f64,
+    pub hertz: f64,
     /// Half the contact width b [m].
     pub half_width: f64,
 }
@@ -50,7 +50,7 @@ pub struct PairCompliance {
 impl PairCompliance {
     /// q₁ + q₂ + q_H [1/Pa].
     pub fn total(&self) -> f64 {
-        self.gear[0] + self.gear[1] + self.local
+        self.gear[0] + self.gear[1] + self.hertz
     }
 
     /// Stiffness c per unit of width [Pa]; 1e9 Pa = 1 N/(mm·µm).
@@ -65,11 +65,13 @@ impl ToothSection {
         let load = self.load(roll);
         let nu = elasticity.poisson / (1.0 - elasticity.poisson);
         let (cos_squared, tan_squared) = self.squares(&load);
-        let slide = 2.4 * (1.0 + nu);
+        let shear_factor = 2.4 * (1.0 + nu);
         let [bending, shear] = self.beam(&load);
-        let share = load.lever / self.root_chord;
-        let root = 18.0 / PI * share * share + 2.0 * (1.0 - nu) * share + 4.8 / PI * (1.0 + tan_squared / slide);
-        cos_squared / elasticity.plane_modulus() * (12.0 * bending + (slide + tan_squared) * shear + root)
+        let lever_ratio = load.lever / self.root_chord;
+        let root = 18.0 / PI * lever_ratio * lever_ratio
+            + 2.0 * (1.0 - nu) * lever_ratio
+            + 4.8 / PI * (1.0 + tan_squared / shear_factor);
+        cos_squared / elasticity.plane_modulus() * (12.0 * bending + (shear_factor + tan_squared) * shear + root)
     }
 
     /// Compliance of the tooth [1/Pa] without its root, which is rigid. Bending and compression in plane strain are
@@ -86,9 +88,9 @@ impl ToothSection {
     /// ∫(y_c−y)²/s³ dy and ∫dy/s from the root section to the point at which `load` crosses the middle.
     fn beam(&self, load: &FlankLoad) -> [f64; 2] {
         if load.lever < 0.0 {
-            // a load that crosses the middle below the root section is extrapolated with a tooth of constant chord
-            let share = load.lever / self.root_chord;
-            return [share * share * share / 3.0, share];
+            // the load crosses the middle below the root section: integrals of a tooth of constant chord
+            let lever_ratio = load.lever / self.root_chord;
+            return [lever_ratio * lever_ratio * lever_ratio / 3.0, lever_ratio];
         }
         self.bending.at(load.height)
     }
@@ -110,14 +112,15 @@ pub struct SectionPair {
 }
 
 impl SectionPair {
-    /// Roll lengths of both gears at `place` [m] from the pitch point along the line of action, toward gear 1's tip.
-    pub fn rolls(&self, place: f64) -> [f64; 2] {
-        [self.sections[0].pitch_roll + place, self.sections[1].pitch_roll - place]
+    /// Roll lengths of both gears [m] at the distance `distance` [m] from the pitch point along the line of action,
+    /// positive toward gear 1's tip.
+    pub fn rolls(&self, distance: f64) -> [f64; 2] {
+        [self.sections[0].pitch_roll + distance, self.sections[1].pitch_roll - distance]
     }
 
-    /// Compliances at `place` [m] from the pitch point under the load `line_load` [N/m].
-    pub fn at(&self, place: f64, line_load: f64) -> PairCompliance {
-        self.at_rolls(self.rolls(place), line_load)
+    /// Compliances at the distance `distance` [m] from the pitch point under the load `line_load` [N/m].
+    pub fn at(&self, distance: f64, line_load: f64) -> PairCompliance {
+        self.at_rolls(self.rolls(distance), line_load)
     }
 
     /// Compliances at roll lengths `rolls` [m] under the load `line_load` [N/m].
@@ -125,21 +128,21 @@ impl SectionPair {
         let gear = [0, 1].map(|i| self.sections[i].compliance(rolls[i], &self.elasticity));
         PairCompliance {
             gear,
-            local: self.local(rolls, line_load),
+            hertz: self.hertz_compliance(rolls, line_load),
             half_width: sqrt(self.half_width_squared(rolls, line_load)),
         }
     }
 
     /// Hertz compliance q_H [1/Pa] at roll lengths `rolls` [m] under `line_load` [N/m].
-    pub fn local(&self, rolls: [f64; 2], line_load: f64) -> f64 {
+    pub fn hertz_compliance(&self, rolls: [f64; 2], line_load: f64) -> f64 {
         let depth = [0, 1].map(|i| self.sections[i].load(rolls[i]).depth);
         let b2 = self.half_width_squared(rolls, line_load);
         let nu = self.elasticity.poisson;
-        self.elasticity.local() * (libm::log(4.0 * depth[0] * depth[1] / b2) - nu / (1.0 - nu))
+        self.elasticity.hertz_factor() * (libm::log(4.0 * depth[0] * depth[1] / b2) - nu / (1.0 - nu))
     }
 
     /// b² [m²] at roll lengths `rolls` [m] under `line_load` [N/m].
     pub fn half_width_squared(&self, rolls: [f64; 2], line_load: f64) -> f64 {
-        4.0 * self.elasticity.local() * line_load * (rolls[0] * rolls[1] / (rolls[0] + rolls[1]))
+        4.0 * self.elasticity.hertz_factor() * line_load * (rolls[0] * rolls[1] / (rolls[0] + rolls[1]))
     }
 }

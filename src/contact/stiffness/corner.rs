@@ -20,8 +20,9 @@ pub struct TipCorner {
     outer_cone: f64,
     /// Roll length of the corner's own tooth at its tip [m].
     tip_roll: f64,
-    /// Roll length [m] and arc [rad] of the mate at the pitch point, and its roll length at its tip [m].
+    /// Roll length [m] and arc [rad] of the mate at the pitch point.
     mate_pitch: (f64, f64),
+    /// Roll length of the mate at its tip [m].
     mate_tip: f64,
 }
 

@@ -27,7 +27,7 @@ use crate::geometry::Pair;
 use crate::problem::Problem;
 use beams::DEDENDUM;
 use corner::TipCorner;
-use past_end::{CornerPart, PastEnd};
+use past_end::{CornerRange, PastEnd};
 use table::ComplianceTable;
 
 /// Distance within which the stiffness becomes constant if neither the path nor a corner on its mate's flank can be
@@ -58,8 +58,9 @@ pub struct PairStiffness {
     table: Arc<ComplianceTable>,
     /// Ends of the path [rad].
     pub path: [f64; 2],
-    /// R_e [m] and p_b [rad].
+    /// R_e [m].
     outer_cone: f64,
+    /// p_b [rad].
     base_pitch: f64,
     /// Corner at the lower end (of the side gear) and at the upper end (of the planet).
     corners: [TipCorner; 2],
@@ -67,7 +68,8 @@ pub struct PairStiffness {
 
 impl PairStiffness {
     /// Computes the stiffness of `pair` with roots of shape `root`, Young's modulus `young` [Pa] and Poisson's ratio
-    /// `poisson`. The linear law uses the Hertz part at `line_load` [N/m] at the mean cone distance.
+    /// `poisson`. The linear law uses the Hertz part at `line_load` [N/m] at the mean cone distance. Fails if a value
+    /// is invalid or the teeth are not beams.
     pub fn new(pair: &Pair, root: &RootSpec, young: f64, poisson: f64, line_load: f64) -> Result<Self, Problem> {
         let teeth = Self::teeth(pair, root, Elasticity { young, poisson })?;
         Self::of_gears(pair, &teeth, line_load, |i, roll| teeth.sections[i].compliance(roll, &teeth.elasticity))
@@ -113,20 +115,20 @@ impl PairStiffness {
             .fold(f64::INFINITY, f64::min);
         let on_path = |s: f64| {
             let rolls = teeth.rolls(outer_cone * s);
-            gear(0, rolls[0]) + gear(1, rolls[1]) + teeth.local(rolls, limit * outer_cone)
+            gear(0, rolls[0]) + gear(1, rolls[1]) + teeth.hertz_compliance(rolls, limit * outer_cone)
         };
         let table = ComplianceTable::new(range[0], range[1], on_path, |i, end| {
             if corner_range[i] == 0.0 {
-                return PastEnd::level(end, LEVEL * base_pitch);
+                return PastEnd::levelling_off(end, LEVEL * base_pitch);
             }
             let (corner, own) = (&corners[i], 1 - i);
             let arc = corner.mate_arc(0.0);
-            let part = CornerPart { turn: TURN * base_pitch, length: corner_range[i], mate_arc_squared: arc * arc };
+            let part = CornerRange { turn: TURN * base_pitch, length: corner_range[i], mate_arc_squared: arc * arc };
             // the corner's own tooth is always loaded at its tip
             let tip = gear(own, corner.rolls(0.0)[own]);
-            PastEnd::corner(&part, end, LEVEL * base_pitch, |delta| {
+            PastEnd::along_corner(&part, end, LEVEL * base_pitch, |delta| {
                 let rolls = corner.rolls(delta);
-                tip + gear(1 - own, rolls[1 - own]) + teeth.local(rolls, limit * outer_cone)
+                tip + gear(1 - own, rolls[1 - own]) + teeth.hertz_compliance(rolls, limit * outer_cone)
             })
         });
         let reference = line_load / pair.mean_cone;
@@ -160,7 +162,7 @@ impl PairStiffness {
 
     /// Returns the linear law.
     pub fn line(&self) -> Line {
-        let local = self.teeth.elasticity.local();
+        let local = self.teeth.elasticity.hertz_factor();
         // above the limit, use the compliance of `LineWeber`'s tangent
         let (ratio, shift) = (self.limit / self.reference, libm::log(self.limit / self.reference));
         Line { table: self.table.clone(), shift: local * if ratio >= 1.0 { shift } else { ratio - 1.0 } }
@@ -168,7 +170,7 @@ impl PairStiffness {
 
     /// Returns the law whose Hertz part depends on the load.
     pub fn line_weber(&self) -> LineWeber {
-        LineWeber::new(self.table.clone(), self.teeth.elasticity.local(), self.limit)
+        LineWeber::new(self.table.clone(), self.teeth.elasticity.hertz_factor(), self.limit)
     }
 
     /// Stiffness c of one tooth pair per unit of width [Pa] under the reference load at any position `s` [rad].

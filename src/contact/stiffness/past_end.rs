@@ -1,32 +1,36 @@
-//! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. It is the
-//! compliance of a tip corner as far as the corner can touch, and levels off to a constant beyond.
+//! Compliance of a tooth pair past an end of the path, as a function of the distance x from that end. Along the range
+//! in which a tip corner can touch, it is the compliance at the corner, except for a short blend at the end of the
+//! path. Beyond this range, or without a corner, it levels off to a constant.
 //!
-//! The corner moves up its mate's flank from a roll length ρ₀, and ρ² grows linearly with x. Near a base circle, the
-//! Hertz part curves within x ≈ ρ₀². The knots of the nearer half are therefore evenly spaced in the eighth root of x +
-//! ρ₀². In the farther half, the knots cluster quadratically at the end, because the mate's tooth is thin there.
+//! The corner moves up its mate's flank from an arc ρ₀ [rad] at x = 0, and ρ² grows about linearly with x. If ρ₀ is
+//! small because the corner is near the mate's base circle, most curvature of the Hertz part is within x ≈ ρ₀². The
+//! knots of the nearer half are therefore evenly spaced in the eighth root of x + ρ₀². In the farther half, the knots
+//! cluster quadratically at the far end, because the mate's tooth is thin there.
 //!
-//! At the end of the path the slope jumps: the load on the corner's own tooth stays at its tip, and the load on the
-//! mate turns back. Over a short distance, a smooth step with four continuous derivatives leads from the path's
-//! parabola to the corner.
+//! At the end of the path, the slope of the exact compliance jumps. Past the end, the load on the corner's own tooth
+//! stays at the tip, and the load on the mate's flank reverses its direction of travel. The table therefore blends the
+//! parabola of the path into the compliance of the corner over a short distance, with a smooth step whose first four
+//! derivatives are continuous.
 
 use super::spline::{Cell, cells, cubic};
 use crate::numeric::{Jet, sqrt};
 
 /// Number of cells of each half.
 const CELLS: usize = 512;
-/// Largest relative change of the value while it levels off: one such change from the slope and one from the curvature.
+/// Largest relative change of the value while it levels off. It limits the contributions of the slope and of the
+/// curvature separately.
 const LEVEL_CHANGE: f64 = 0.125;
 /// Step of the differences for the slopes at both ends, as a fraction of the cell at the end.
 const END_STEP: f64 = 0.25;
 
 /// Range past the end of the path on which a tip corner touches.
 #[derive(Clone, Copy, Debug)]
-pub struct CornerPart {
+pub struct CornerRange {
     /// Distance over which the slope changes from that of the path to that of the corner [rad].
     pub turn: f64,
     /// Length of the range [rad].
     pub length: f64,
-    /// Square of the mate's arc at the end of the path, (ρ₀/R_e)² [rad²].
+    /// Square of the mate's arc ρ₀ at the end of the path [rad²].
     pub mate_arc_squared: f64,
 }
 
@@ -40,15 +44,21 @@ pub struct PastEnd {
 
 #[derive(Clone, Debug)]
 struct CornerTable {
-    /// Value and outward derivatives at the end of the path. Their parabola has weight up to the distance `turn`.
+    /// Value and outward derivatives at the end of the path, which define a parabola.
     end: Jet,
+    /// Distance up to which this parabola is blended into the compliance of the corner [rad].
     turn: f64,
-    /// Distance at which the halves meet, and end of the table.
+    /// Distance at which the halves meet [rad].
     middle: f64,
+    /// Distance at which the table ends [rad].
     length: f64,
+    /// ρ₀² [rad²].
     mate_arc_squared: f64,
-    first: f64,
+    /// Eighth root of ρ₀².
+    first_eighth_root: f64,
+    /// Number of cells of the nearer half per unit of the eighth root.
     per_eighth_root: f64,
+    /// Number of cells of the farther half over the square root of its length.
     cells_per_sqrt: f64,
     cells: Box<[Cell; 2 * CELLS]>,
 }
@@ -74,7 +84,8 @@ impl Level {
         let (e, l) = (self.end, self.length);
         let u = (x / l).min(1.0);
         let v = 1.0 - u;
-        // the slope fades as f′ = (1−u)²(1+2u), the curvature as f′ = u(1−u)²; f′ and f″ of both are zero at u = 1
+        // with u = x/length, the slope at the end has the weight (1−u)²(1+2u) in the slope at u, and the curvature at
+        // the end has the weight u(1−u)²; both weights and their derivatives vanish at u = 1
         let slope = [u * (1.0 - u * u * (1.0 - 0.5 * u)), v * v * (1.0 + 2.0 * u), -6.0 * u * v];
         let bend = [u * u * (0.5 - u * (2.0 / 3.0 - 0.25 * u)), u * v * v, v * (1.0 - 3.0 * u)];
         Jet {
@@ -98,13 +109,14 @@ fn smooth_step(x: f64, length: f64) -> Jet {
 }
 
 impl CornerTable {
-    fn new(part: &CornerPart, end: Jet, f: impl Fn(f64) -> f64) -> Self {
-        let CornerPart { turn, length, mate_arc_squared } = *part;
+    fn new(part: &CornerRange, end: Jet, f: impl Fn(f64) -> f64) -> Self {
+        let CornerRange { turn, length, mate_arc_squared } = *part;
         let middle = 0.5 * length;
-        let (first, last) = (eighth_root(mate_arc_squared), eighth_root(middle + mate_arc_squared));
-        let per_cell = (last - first) / CELLS as f64;
+        let (first_eighth_root, last) = (eighth_root(mate_arc_squared), eighth_root(middle + mate_arc_squared));
+        let per_cell = (last - first_eighth_root) / CELLS as f64;
         let share = |j: usize| j as f64 / CELLS as f64;
-        let near = (1..CELLS).map(|j| square(square(square(first + per_cell * j as f64))) - mate_arc_squared);
+        let near =
+            (1..CELLS).map(|j| square(square(square(first_eighth_root + per_cell * j as f64))) - mate_arc_squared);
         let far = (1..CELLS).map(|j| length - (length - middle) * square(1.0 - share(j)));
         let knots: Vec<f64> = [0.0].into_iter().chain(near).chain([middle]).chain(far).chain([length]).collect();
         let values: Vec<f64> = knots.iter().map(|&x| f(x)).collect();
@@ -121,7 +133,7 @@ impl CornerTable {
             middle,
             length,
             mate_arc_squared,
-            first,
+            first_eighth_root,
             per_eighth_root: 1.0 / per_cell,
             cells_per_sqrt: CELLS as f64 / sqrt(length - middle),
             cells,
@@ -131,7 +143,7 @@ impl CornerTable {
     #[inline]
     fn at(&self, x: f64) -> Jet {
         let cell = if x < self.middle {
-            (self.per_eighth_root * (eighth_root(x + self.mate_arc_squared) - self.first)) as usize
+            (self.per_eighth_root * (eighth_root(x + self.mate_arc_squared) - self.first_eighth_root)) as usize
         } else {
             2 * CELLS - 1 - (self.cells_per_sqrt * sqrt(self.length - x)) as usize
         };
@@ -162,17 +174,18 @@ fn eighth_root(x: f64) -> f64 {
 }
 
 impl PastEnd {
-    /// Returns the continuation by a corner with the positive compliance `f` along `part`, and then to a constant
-    /// within the distance `level`. `end` contains the value and outward derivatives at the end of the path.
-    pub fn corner(part: &CornerPart, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
+    /// Returns a continuation with two ranges. Along the corner range `part`, it is the positive compliance `f` of a
+    /// tip corner. Beyond, it levels off to a constant within the distance `level` [rad]. `end` contains the value and
+    /// outward derivatives at the end of the path.
+    pub fn along_corner(part: &CornerRange, end: Jet, level: f64, f: impl Fn(f64) -> f64) -> Self {
         let table = CornerTable::new(part, end, f);
         let last = cubic(&table.cells[2 * CELLS - 1], part.length);
         Self { corner: Some(table), length: part.length, level: Level::new(last, level) }
     }
 
-    /// Returns the continuation without a corner, from the value and outward derivatives `end` to a constant within the
-    /// distance `level`.
-    pub fn level(end: Jet, level: f64) -> Self {
+    /// Returns a continuation without a corner. It levels off from the value and outward derivatives `end` to a
+    /// constant within the distance `level` [rad].
+    pub fn levelling_off(end: Jet, level: f64) -> Self {
         Self { corner: None, length: 0.0, level: Level::new(end, level) }
     }
 
@@ -190,7 +203,7 @@ impl PastEnd {
 mod tests {
     use super::*;
 
-    const PART: CornerPart = CornerPart { turn: 1e-3, length: 0.3, mate_arc_squared: 0.03 };
+    const PART: CornerRange = CornerRange { turn: 1e-3, length: 0.3, mate_arc_squared: 0.03 };
     /// Value and derivatives at the end of a path, for the function below.
     const END: Jet = Jet { v: 6.873, d: 1.0, dd: -3.0 };
 
@@ -217,8 +230,8 @@ mod tests {
     #[test]
     fn the_table_follows_a_corner_far_from_and_near_its_mate_s_base_circle() {
         for mate_arc_squared in [0.03, 2e-4, 8e-7] {
-            let (f, part) = (function(mate_arc_squared), CornerPart { mate_arc_squared, ..PART });
-            let past_end = PastEnd::corner(&part, END, 0.1, &f);
+            let (f, part) = (function(mate_arc_squared), CornerRange { mate_arc_squared, ..PART });
+            let past_end = PastEnd::along_corner(&part, END, 0.1, &f);
             let mut worst = 0f64;
             for j in 0..=20_000 {
                 let share = 0.5 - 0.5 * (f64::from(j) * std::f64::consts::PI / 20_000.0).cos();
@@ -232,7 +245,7 @@ mod tests {
 
     #[test]
     fn value_slope_and_curvature_have_no_jumps() {
-        let past_end = PastEnd::corner(&PART, END, 0.1, function(PART.mate_arc_squared));
+        let past_end = PastEnd::along_corner(&PART, END, 0.1, function(PART.mate_arc_squared));
         assert_eq!(past_end.at(0.0), END);
         for x in [PART.turn, 0.5 * (PART.turn + PART.length), PART.length] {
             let (a, b) = (past_end.at(x * (1.0 - 1e-14)), past_end.at(x));
@@ -253,7 +266,7 @@ mod tests {
 
     #[test]
     fn without_a_corner_the_function_levels_off_within_the_given_distance() {
-        let past_end = PastEnd::level(END, 0.1);
+        let past_end = PastEnd::levelling_off(END, 0.1);
         assert_eq!(past_end.at(0.0), END);
         let (before, level) = (past_end.at(0.0999), past_end.at(0.1));
         assert!(before.d != 0.0 && before.dd != 0.0);

@@ -17,9 +17,11 @@ const CELLS: usize = 256;
 pub struct ComplianceTable {
     low: f64,
     high: f64,
-    /// Length of an outer quarter, cells per √length in this quarter, and cells per length in the middle.
+    /// Length of an outer quarter [rad].
     quarter: f64,
+    /// Number of cells of an outer quarter over the square root of its length.
     cells_per_sqrt: f64,
+    /// Number of cells per length in the middle half [1/rad].
     per_length: f64,
     cells: Box<[Cell; 3 * CELLS]>,
     past_end: [PastEnd; 2],
@@ -99,7 +101,7 @@ mod tests {
     }
 
     fn table() -> ComplianceTable {
-        ComplianceTable::new(-0.5, 1.0, function, |_, end| PastEnd::level(end, 0.1))
+        ComplianceTable::new(-0.5, 1.0, function, |_, end| PastEnd::levelling_off(end, 0.1))
     }
 
     #[test]

@@ -7,11 +7,11 @@
 //! both flanks. In the second, all backlash is closed on one side, as in running gears; flanks then touch, and nothing
 //! else may touch.
 //!
-//! *Depth* is the distance of a ray of one gear inside the other gear from the nearest face of that gear, along its
-//! normal. Rays of either gear are tested against the other gear: the rays through the nodes of its outline, including
-//! the corners of the tip. The gap between flanks that do not touch is found in the same way. All faces are cones with
-//! one apex, so depth and gap are proportional to the cone distance. They are given per cone distance [rad]; depth is
-//! largest at the heel, gap smallest at the toe.
+//! A ray of one gear can be inside the other gear. Its *depth* is then the distance from the nearest face of the other
+//! gear, along the normal of this face. Each gear has one ray through each node of its outline, including the corners
+//! of the tip. The rays of either gear are tested against the other gear. The gap between flanks that do not touch is
+//! found in the same way. All faces are cones with one apex, so depth and gap are proportional to the cone distance.
+//! They are given per cone distance [rad]; depth is largest at the heel, gap smallest at the toe.
 //!
 //! Facets are chords of the exact faces. Results are accurate to the *resolution*: twice the largest distance of the
 //! facets from the faces, summed over both gears, because rays of one gear also meet the other between its nodes.
@@ -65,7 +65,8 @@ pub enum Stance {
 /// Result of the check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interference {
-    /// Smallest distance or deepest penetration of every two parts, the worst first; flanks come first among equals.
+    /// Smallest distance or deepest penetration of every two parts, the worst first. Two flanks come first unless
+    /// another distance is smaller by more than the resolution.
     pub approaches: Vec<Approach>,
     /// Accuracy of gaps and depths per cone distance [rad].
     pub resolution: f64,

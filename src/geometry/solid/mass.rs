@@ -10,11 +10,13 @@ use parry3d_f64::math::Vector;
 use super::GearSolid;
 use crate::geometry::{GearSpec, Pair};
 
-/// Length units per metre: millimetres or smaller. The tolerances of parry3d are absolute. The unit is smaller if
-/// moments of inertia in kilograms and this unit would be below about [`MIN_MOMENT`], as for gears within a centimetre.
+/// Length units per metre: millimetres for parry3d, whose tolerances are absolute. Gears smaller than about a
+/// centimetre need a smaller unit, see [`MIN_MOMENT`].
 const MM: f64 = 1e3;
+/// Smallest estimated moment of inertia, in kilograms times the square of the length unit. A smaller unit is chosen if
+/// the moment would be below it.
 const MIN_MOMENT: f64 = 0.5;
-/// Facets per flank. Masses and moments of inertia are then within 2e-5 of the limit of many facets.
+/// Facets per flank. With this number, masses and moments of inertia are within 2e-5 of the limit of many facets.
 const FACETS: usize = 96;
 
 /// Mass properties about the gear's axis and apex.

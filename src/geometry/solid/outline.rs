@@ -14,7 +14,7 @@ pub enum Part {
     Root,
     /// The fillet.
     Fillet,
-    /// The sharp corner of the root circle and the meridian below the base circle.
+    /// The meridian below the base circle. A node of this part is the sharp corner between root circle and meridian.
     Meridian,
     /// The spherical involute.
     Flank,
@@ -44,8 +44,8 @@ pub struct Outline {
 
 impl Outline {
     /// Returns the outline of a tooth of `gear` with `facets` ≥ 1 per flank and a fillet of the angular radius `fillet`
-    /// [rad], or the largest that fits. Fillets have half as many facets, but at least two. The tip land has half as
-    /// many.
+    /// [rad], or the largest that fits. Each fillet and the tip land have half as many facets; a fillet has at least
+    /// two.
     pub fn new(gear: &Gear, fillet: f64, facets: usize) -> Self {
         let foot = Foot::new(gear, fillet);
         let left = side(gear, &foot, facets.max(1));

@@ -110,7 +110,7 @@ fn many_coupled_pairs_match_the_bodies_lose_no_energy_and_have_equal_loads_in_bo
         let (gears, stiffness) = (&planet.gears, &planet.gears.stiffness[1]);
         // the Hertz part is smallest under the highest load, because of its slope
         let ratio = stiffness.limit / stiffness.reference;
-        let stiffer = STEEL.local() * (1.0 + if ratio >= 1.0 { ratio.ln() } else { ratio - 1.0 });
+        let stiffer = STEEL.hertz_factor() * (1.0 + if ratio >= 1.0 { ratio.ln() } else { ratio - 1.0 });
         let alone = |pair: &PairPlace| stiffness.line().compliance(pair.s) - stiffer;
         let whole = Planet::new(Contact { face: Face::Whole, ..planet.contact }, gears);
         // up to half a base pitch of approach

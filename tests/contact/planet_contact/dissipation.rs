@@ -17,7 +17,7 @@ fn power_of_the_forces_plus_heat_equals_the_loss_of_energy() {
     let mut hot = [0; 2];
     for_each_point(11, 40, those(|_| true), |planet, at| {
         let (forces, resting) = (planet.forces(at), planet.forces(&at.at_rest()));
-        assert!(forces.heat.as_flattened().iter().all(|heat| *heat >= 0.0), "it cools");
+        assert!(forces.heat.as_flattened().iter().all(|heat| *heat >= 0.0), "heat is negative");
         let [contact, friction] = [0, 1].map(|i| forces.heat[0][i] + forces.heat[1][i]);
         hot = [hot[0] + usize::from(contact > 0.0), hot[1] + usize::from(friction > 0.0)];
         // forces at rest are minus the gradient of the energy

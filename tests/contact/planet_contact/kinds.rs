@@ -24,10 +24,11 @@ pub const STEEL: Elasticity = Elasticity { young: 2.07e11, poisson: 0.25 };
 const LINE_LOAD: f64 = 4e5;
 /// Laws of elastic teeth, which are valid at every cone distance and on elastic bodies.
 pub const OF_TEETH: [Kind; 2] = [Kind::Line, Kind::LineWeber];
-/// Index of the tested planet, number of planets, and pairs by which its position was wrapped, positive in the
-/// direction of x of each mesh.
+/// Index of the tested planet.
 const PLANET: usize = 1;
+/// Number of planets.
 const PLANETS: usize = 2;
+/// Number of pairs by which the planet's position was wrapped, positive in the direction of x of each mesh.
 pub const WRAPPED: [i64; 2] = [3, -3];
 
 /// Position [q, x, w] and rates of the left and the right mesh, and number of pairs by which x was wrapped.
@@ -189,7 +190,7 @@ impl Gears {
         Arc::new(Self { pair, exponent, teeth, stiffness: [stiff, elastic], on_bodies, couplings, engagements })
     }
 
-    /// Number of the planet tooth that is at the line of the right mesh in the way tooth 0 is at the line of the left
+    /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub fn opposite(&self) -> i64 {
         self.teeth.opposite(PLANET)

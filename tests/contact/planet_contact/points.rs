@@ -86,8 +86,9 @@ type Point = (Name, Spot, Option<f64>, [bool; 4], [bool; 2]);
 #[derive(Default)]
 pub struct Pattern {
     pub points: Vec<Point>,
-    /// Deepest arc of each mesh, and distance from the nearest switch [rad].
+    /// Deepest arc of each mesh [rad].
     deepest: [f64; 2],
+    /// Distance of each mesh from the nearest switch [rad].
     nearest: [f64; 2],
 }
 

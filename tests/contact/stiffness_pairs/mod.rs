@@ -20,7 +20,7 @@ pub fn stiffness(spec: &GearSpec, fillet: f64) -> PairStiffness {
     PairStiffness::new(&Pair::new(spec), &root, STEEL.young, STEEL.poisson, LINE_LOAD).expect("a buildable pair")
 }
 
-/// The gears of golden_fe3d_B.csv: addenda of the default, clearance 0.25 m.
+/// The gears of golden_fe3d_B.csv: addenda of the default, clearance 0.25 modules.
 pub fn golden_spec() -> GearSpec {
     let side = 0.540 + 0.460 / 2.56;
     GearSpec {

@@ -1,4 +1,4 @@
-//! Tests that compare elementary functions with libm.
+//! Test that compares sine and cosine with libm.
 
 #[test]
 fn sine_and_cosine_by_both_algorithms_agree_with_libm() {

@@ -1,7 +1,7 @@
 //! The loaded part of a face: its ends in closed form, and how the ends move with the load.
 //!
-//! The arc p at cone distance R satisfies R p = a R − E − bend R², with the approach minus the turn a and bend ≥ 0. It
-//! is therefore positive on one interval.
+//! The arc p at cone distance R satisfies R p = a R − E − bend R². Here a is the approach minus the turn, and bend is
+//! not negative. The arc is therefore positive on at most one interval.
 
 use crate::numeric::sqrt;
 
@@ -19,7 +19,9 @@ pub struct Span {
 /// At an end that moves with the load, p(R; A, E) = 0. The end therefore moves by dR = −(dA − dE/R)/p′.
 #[derive(Clone, Copy, Debug)]
 pub struct Moves {
+    /// Lower end [m].
     from: f64,
+    /// Reciprocal of the part's length [1/m].
     per_length: f64,
     /// ∂R/∂A and ∂R/∂E of both ends.
     ends: [[f64; 2]; 2],
@@ -47,27 +49,27 @@ impl Moves {
     }
 }
 
-/// True if the face is loaded at the cone distance `r`.
+/// True if the face is loaded at the cone distance `r` [m]. `a` is the approach minus the turn [rad].
 #[inline(always)]
-pub fn carries(a: f64, even: f64, bend: f64, r: f64) -> bool {
+pub fn is_loaded_at(a: f64, even: f64, bend: f64, r: f64) -> bool {
     a * r - even - bend * r * r > 0.0
 }
 
-/// The part of [from, to] on which a R − E − bend R² is positive, bend ≥ 0.
+/// Part of [from, to] on which a R − E − bend R² is positive, bend ≥ 0. `None` if it is nowhere positive.
 #[inline(always)]
-pub fn carrying(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<Span> {
-    match (carries(a, even, bend, from), carries(a, even, bend, to)) {
+pub fn loaded_span(a: f64, even: f64, bend: f64, [from, to]: [f64; 2]) -> Option<Span> {
+    match (is_loaded_at(a, even, bend, from), is_loaded_at(a, even, bend, to)) {
         (true, true) => Some(Span { ends: [from, to], by_arc: [0.0; 2] }),
         (lower, upper) => part(a, even, bend, [from, to], [lower, upper]),
     }
 }
 
-/// Part of [from, to] that is loaded, if at least one end is not.
+/// Loaded part of [from, to] if at least one end is not loaded. `None` if no part is loaded.
 #[inline(never)]
-fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) -> Option<Span> {
+fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], ends_loaded: [bool; 2]) -> Option<Span> {
     let square = a * a - 4.0 * bend * even;
     // if neither end is loaded, the face can be loaded only around the top of the parabola
-    if carries == [false; 2] && !(square > 0.0 && a > 2.0 * bend * from && a < 2.0 * bend * to) {
+    if ends_loaded == [false; 2] && !(square > 0.0 && a > 2.0 * bend * from && a < 2.0 * bend * to) {
         return None;
     }
     // roots without cancellation; if there is only one root, the other is not used
@@ -81,6 +83,6 @@ fn part(a: f64, even: f64, bend: f64, [from, to]: [f64; 2], carries: [bool; 2]) 
         // R p has the slope ±√square at its roots
         [r, if root > 0.0 { way * r / root } else { 0.0 }]
     };
-    let [low, high] = [end(carries[0], from, -1.0, low), end(carries[1], to, 1.0, high)];
+    let [low, high] = [end(ends_loaded[0], from, -1.0, low), end(ends_loaded[1], to, 1.0, high)];
     (low[0] < high[0]).then_some(Span { ends: [low[0], high[0]], by_arc: [low[1], high[1]] })
 }
