@@ -7,7 +7,7 @@
 //! - [`pattern`]: contact patterns and pressures on the flanks
 //! - [`ask`]: one function for all of these, also for C and Python
 //! - [`text`]: tables, numbers and files of text; [`problem`]: errors; [`progress`]: reports to a caller, who may stop
-//! the work
+//!   the work
 
 #![warn(missing_docs)]
 #![deny(unsafe_code)]
