@@ -141,3 +141,8 @@ def test_fixed_steps_of_a_scene_are_kept_and_written(fmu_file, tmp_path, monkeyp
         least = chosen.stop / max(step, chosen.step)
     assert record["left.shaft_torque"][1:].mean() == pytest.approx(wanted, rel=0.01)
     assert record["solver.steps"][-1] >= least * (1.0 - 1e-9) and record["solver.rejected"][-1] == 0.0
+
+
+def test_the_plan_says_that_its_speed_is_that_of_a_run_without_outputs():
+    text = ask({"ask": "plan", "of": about("study_turning")})["text"]
+    assert " x real time on this machine without reading outputs, " in text

@@ -42,7 +42,8 @@ fn cost(scene: &Scene) -> Option<String> {
     let ratio = numbers::significant(simulated / taken, 2);
     let all = numbers::significant(scene.stop_time * taken / simulated, 2);
     Some(format!(
-        "{ratio} x real time on this machine, {all} s for the whole scene, extrapolated from the first {} s",
+        "{ratio} x real time on this machine without reading outputs, {all} s for the whole scene, extrapolated from the \
+         first {} s",
         units::six_digits(simulated)
     ))
 }
