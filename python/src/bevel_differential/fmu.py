@@ -18,6 +18,7 @@ from .answers import about, ask
 from .former_names import present
 from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, variable_suggestion
+from .warned import warn
 
 _shared: dict[tuple[int, Path], "Fmu"] = {}
 # pairs of a process id and a folder that this process has extracted
@@ -108,6 +109,12 @@ class Fmu:
                 (name, each.shown_in(preferred.get(each.unit or ""))) for name, each in self.variables.items()))
             self._displaying[key] = other
         return self._displaying[key]
+
+    def check_shown(self, units: Sequence[str], names: Iterable[str]) -> None:
+        """Warns of each of the display `units` that has the dimension of no shown variable; `names`: their names."""
+        dimensions = {self.variable(name).unit for name in names}
+        warn(f"--unit {unit}: no shown value has this unit; their units are {', '.join(sorted(each for each in dimensions if each))}"
+             for unit in units if not dimensions & set(self._preferred([unit])))
 
     def _preferred(self, units):
         """Preferred units by the SI units of their dimensions."""

@@ -66,8 +66,8 @@ def add_fmu(parser: argparse.ArgumentParser) -> None:
 def add_units(parser: argparse.ArgumentParser) -> None:
     """Adds the option for the units of displayed values."""
     parser.add_argument("--unit", metavar="UNIT", action="append", default=[],
-                        help="show all values of its dimension in this unit, such as rpm or kN; may be repeated (default: those of "
-                             "display_units in the scene, else the usual units)")
+                        help="show all values of this kind in UNIT, for example `--unit rpm`; may be repeated (default: display_units of "
+                             "the scene, else the usual units)")
 
 
 def add_set(parser: argparse.ArgumentParser) -> None:

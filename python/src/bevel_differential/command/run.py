@@ -34,6 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
         return _compare(arguments)
     with Scene.load(arguments.scene[0], arguments.fmu, arguments.stop, arguments.unit) as scene:
         record = scene.set(once("--set", arguments.set)).run(arguments.output)
+        scene.fmu.check_shown(arguments.unit, (record.dtype.names or ())[1:])
         print(scene.summary(record))
         writers: list[tuple[Callable[..., object], str | None]] = [
             (scene.to_parquet if is_parquet(arguments.csv) else scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet),
@@ -50,6 +51,7 @@ def _compare(arguments):
 
     found = compare(*arguments.scene, outputs=arguments.output, values=once("--set", arguments.set), stop=arguments.stop,
                     display_units=arguments.unit, fmu=arguments.fmu)
+    found.fmu.check_shown(arguments.unit, found.outputs)
     print(found)
     for write, file in ((found.to_csv, arguments.csv), (found.to_csv, arguments.parquet), (found.plot, arguments.plot)):
         if file:

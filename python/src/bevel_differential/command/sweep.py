@@ -53,6 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
         scene.set(given["set"])
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
+        scene.fmu.check_shown(arguments.unit, [*result.metadata["vary"], *(name.partition(":")[0] for name in result.metadata["figures"])])
         print(text(result, given.get("runs"), scene.fmu))
         if arguments.csv:
             columns = result.displayed(scene.fmu)
