@@ -35,6 +35,11 @@ def test_a_grid_has_all_combinations_once(plan):
     assert grid.designs() == list(enumerate(expected)) and grid.runs == 18
 
 
+def test_levels_of_a_grid_have_no_rounding_errors(plan):
+    levels = values(plan({"limited_slip.torque_coefficient": "0.02..0.12:6"}, "grid"), "limited_slip.torque_coefficient")
+    assert levels.tolist() == [0.02, 0.04, 0.06, 0.08, 0.1, 0.12]
+
+
 def test_a_latin_hypercube_has_one_value_in_each_slice(plan):
     torques = values(plan(VARIED, "lhs", 50, 3), "left.load_torque")
     assert sorted(np.floor((torques - 700.0) / 4.0).astype(int)) == list(range(50))

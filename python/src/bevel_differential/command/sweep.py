@@ -24,10 +24,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runs", type=int, metavar="N", help="number of designs; not for a grid; Sobol rounds up to a power of two")
     parser.add_argument("--seed", type=int, metavar="N", help="seed of all draws (default: 0)")
     parser.add_argument("--want", metavar="OUTPUT:STATISTIC", action="append", default=[],
-                        help="a figure to record, such as left.speed:mean; the final value without a statistic")
+                        help="a quantity to record, such as left.speed:mean; the final value without a statistic")
     parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],
                         help="a condition that a feasible design meets, such as \"safety.root_min >= 1.2\"")
-    parser.add_argument("--from", dest="start", metavar="TIME", help="figures count after this time, such as \"0.14 s\"")
+    parser.add_argument("--from", dest="start", metavar="TIME", help="quantities count after this time, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
     add_file(parser, "--out", "Parquet file", "results; --resume continues from this file")
     add_file(parser, "--csv", "table", "write all runs as a table")
@@ -54,7 +54,7 @@ def run(arguments: argparse.Namespace) -> int:
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
         scene.fmu.check_shown(arguments.unit, [*result.metadata["vary"], *(name.partition(":")[0] for name in result.metadata["figures"])])
-        print(text(result, given.get("runs"), scene.fmu))
+        print(text(result, given.get("runs"), scene.fmu, arguments.csv is not None))
         if arguments.csv:
             columns = result.displayed(scene.fmu)
             print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")

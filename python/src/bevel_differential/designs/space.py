@@ -133,7 +133,8 @@ class Dimension:
         size = self.size()
         if self.kind == "list":
             return list(self.numbers)
-        values = np.linspace(self.numbers[0], self.numbers[1], size).tolist()
+        # between the ends, rounding removes the last bits that the interpolation adds: 0.04 instead of 0.039999999999999994
+        values = [self.numbers[0], *(float(f"{value:.15g}") for value in np.linspace(*self.numbers, size)[1:-1]), self.numbers[-1]]
         return [round(value) for value in values] if self.whole else values
 
     def __str__(self) -> str:

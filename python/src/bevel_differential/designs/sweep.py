@@ -32,6 +32,8 @@ from .task import Task
 if TYPE_CHECKING:
     import pandas
 
+# largest number of designs whose rows are printed
+MOST_ROWS = 20
 # number of messages that are listed
 MOST_MESSAGES = 5
 
@@ -160,9 +162,10 @@ def hashed(scene: Scene, what: Mapping[str, Any]) -> dict[str, Any]:
     return {**plain, "hash": hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()}
 
 
-def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) -> str:
-    """Summary: runs, failures by message, feasible designs, range of each figure, rate. `asked`: number of requested runs. Figures are
-    in SI, or in the display units of `fmu`."""
+def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None, is_in_table: bool = False) -> str:
+    """Summary: runs, failures by message, feasible designs, range of each quantity, rate, and the designs if there are few. `asked`:
+    number of requested runs. Quantities are in SI, or in the display units of `fmu`. `is_in_table`: true if a table of all runs is
+    written, too."""
     table, metadata = result.table, result.metadata
     lines = [f"runs      {table.num_rows}"]
     if asked is not None and asked != table.num_rows:
@@ -177,17 +180,22 @@ def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None) 
     if metadata["conditions"]:
         lines[-1] += f" ({'; '.join(metadata['conditions'])})"
     lines += ["", *_ranges(result, fmu), ""]
+    if fmu is not None and table.num_rows <= MOST_ROWS:
+        lines += [*_rows(result, fmu), ""]
     if result.new:
         lines.append(f"{result.new} runs in {result.seconds:.1f} s: {result.new / result.seconds:.1f} designs/s")
     if result.new < table.num_rows:
         lines.append(f"{table.num_rows - result.new} runs were kept from before")
-    lines.append("rows are not kept: name a file by --out" if result.file is None else f"written: {result.file}")
+    if result.file is not None:
+        lines.append(f"written: {result.file}")
+    elif not is_in_table:
+        lines.append("rows are not kept: name a file by --out or --csv")
     return "\n".join(lines)
 
 
 def _ranges(result, fmu):
-    """Smallest, mean and largest value of each figure, aligned."""
-    rows = [("figure", "unit", "min", "mean", "max")]
+    """Smallest, mean and largest value of each quantity, aligned."""
+    rows = [("quantity", "unit", "min", "mean", "max")]
     for name in result.metadata["figures"]:
         column, unit = result.table[name], result.unit(name)
         if fmu is not None:
@@ -197,3 +205,16 @@ def _ranges(result, fmu):
         found = [pc.min(column).as_py(), pc.mean(column).as_py(), pc.max(column).as_py()]
         rows.append((name, "" if unit == "1" else unit, *("-" if one is None else f"{one:.6g}" for one in found)))
     return aligned(rows)
+
+
+def _rows(result, fmu):
+    """Run, varied values and quantities of each design, aligned. A failed design has no quantities."""
+    shown = {name: [_cell(value) for value in values] for name, values in result.displayed(fmu).items()
+             if name not in ("feasible", "message", "seconds")}
+    return aligned([tuple(shown), *zip(*shown.values())])
+
+
+def _cell(value):
+    if value is None:
+        return "-"
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
