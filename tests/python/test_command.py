@@ -1,6 +1,7 @@
 """The command `bevel-differential`: its output, its files, and its messages about errors."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -50,6 +51,12 @@ def test_a_picture_has_a_panel_for_each_unit_with_the_usual_one(fmu_file):
     assert [text.get_text() for text in figure.axes[0].get_legend().texts] == ["left.speed", "carrier.speed"]
 
 
+@pytest.mark.parametrize("record", [np.zeros(3), [1.0, 2.0], np.zeros(3, [("time", float)]), np.zeros(3, [("left.speed", float)])])
+def test_a_record_without_time_or_outputs_is_not_drawn(fmu_file, record):
+    with Differential(fmu=fmu_file) as straight, pytest.raises(DifferentialError, match="structured array with the time and named outputs"):
+        straight.plot(record)
+
+
 def test_a_frame_is_the_record_by_time(fmu_file):
     with Differential(fmu=fmu_file) as straight:
         record, frame = (straight.run(stop=0.01, frame=as_frame) for as_frame in (False, True))
@@ -80,6 +87,46 @@ def test_sweep_prints_its_results_which_are_those_of_the_package(tmp_path, capsy
                          ["left.speed:mean"], ["efficiency >= 0.9"], "0.14 s", workers=0)
     assert SweepResult.load(out).digest() == expected.digest()
     assert "8 (5 requested" in printed and "feasible  8" in printed and "left.speed:mean" in printed and str(out) in printed
+
+
+def test_few_designs_are_printed_and_a_table_keeps_the_rows(tmp_path, capsys):
+    grid = [*SWEEP, "--plan", "grid", "--stop", "0.2 s"]
+    grid[grid.index("left.load_torque=700 N.m..900 N.m")] = "left.load_torque=700 N.m..900 N.m:2"
+    assert main(grid) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert any(line.split()[:2] == ["quantity", "unit"] for line in lines) and "--out or --csv" in lines[-1]
+    head = next(place for place, line in enumerate(lines) if line.startswith("run  "))
+    assert lines[head].split() == ["run", "left.load_torque", "contact.law", "left.speed:mean", "efficiency:final"]
+    assert [line.split()[:3] for line in lines[head + 1:head + 5]] == [
+        ["0", "700", "line"], ["1", "700", "line_weber"], ["2", "900", "line"], ["3", "900", "line_weber"]]
+    assert main([*grid, "--csv", str(tmp_path / "rows.csv")]) == 0
+    printed = capsys.readouterr().out
+    assert "not kept" not in printed and f"written: {tmp_path / 'rows.csv'}" in printed
+    assert main(["sweep", "--scene", "study_turning", "--stop", "1 ms", "--vary", "left.load_torque=700..720:21", "--plan", "grid", "--want",
+                 "left.speed", "--workers", "0"]) == 0
+    assert "\nrun  " not in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("options", [[], ["-u"]], ids=["buffered", "unbuffered"])
+@pytest.mark.parametrize("words, file", [
+    (["accuracy", "study_turning", "--stop", "5ms", "--want", "left.speed:mean", "--within", "30%", "--csv", "{}"], "a.csv"),
+    (["run", "study_turning", "--stop", "1ms", "--csv", "{}"], "a.csv"), (["plan", "study_turning", "--python", "{}"], "a.py"),
+    ([*SWEEP, "--plan", "lhs", "--runs", "2", "--csv", "{}"], "a.csv")])
+def test_a_command_writes_its_files_although_the_reader_of_its_output_has_ended(words, file, options, tmp_path):
+    reading, writing = os.pipe()
+    os.close(reading)
+    file = tmp_path / file
+    with os.fdopen(writing, "w") as closed:
+        done = subprocess.run([sys.executable, *options, "-m", "bevel_differential", *(word.format(file) for word in words)], stdout=closed,
+                              stderr=subprocess.PIPE, text=True, check=False)
+    assert file.is_file() and done.returncode == 1
+    assert not [line for line in done.stderr.splitlines() if not line.startswith(("warning: ", "  "))], done.stderr
+
+
+def test_accuracy_separates_the_work_of_its_runs_from_the_time_of_the_search(capsys):
+    assert main(["accuracy", "study_turning", "--stop", "5ms", "--want", "left.speed:mean", "--within", "30%"]) == 0
+    assert re.search(r"\d+ runs, as much work as [\d.]+ reference runs of [\d.e-]+ s\. The search took [\d.e-]+ s, with the start of each "
+                     r"run\.", capsys.readouterr().out)
 
 
 def test_a_plan_file_says_the_same_as_options_and_options_come_first(tmp_path):

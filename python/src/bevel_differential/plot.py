@@ -30,9 +30,9 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
     require("matplotlib", "plot")
     from . import style
 
-    names = (record.dtype.names or ())[1:]
-    if not names:
-        raise DifferentialError("the record has no outputs to draw")
+    names = tuple(name for name in getattr(record, "dtype", np.dtype(float)).names or () if name != "time")
+    if not names or "time" not in record.dtype.names:
+        raise DifferentialError("the record needs a structured array with the time and named outputs, such as `run` returns")
     panels = by_unit(fmu, record, names)
     with style.styled():
         figure, axes = style.panels(len(panels), 1, PANEL * len(panels) + REST, sharex=True, squeeze=False)

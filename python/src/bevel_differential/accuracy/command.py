@@ -41,8 +41,8 @@ def run(arguments: argparse.Namespace) -> int:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=changes(arguments),
                          display_units=arguments.unit, file=arguments.write, progress=progress)
     print(found.text)
-    print(f"{len(found.runs) - 1} runs cost {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s each: "
-          f"{time.monotonic() - begin:.2g} s in all")
+    print(f"{len(found.runs) - 1} runs, as much work as {found.answer['spent']:.2g} reference runs of {found.reference.seconds:.2g} s. "
+          f"The search took {time.monotonic() - begin:.2g} s, with the start of each run.")
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # if no setting is accurate enough, there is nothing to write
         if file and found.answer[key]:

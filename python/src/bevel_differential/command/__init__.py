@@ -6,10 +6,10 @@ import importlib
 import importlib.util
 import os
 import sys
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, redirect_stdout, suppress
 from io import UnsupportedOperation
-from typing import NoReturn
+from typing import Any, NoReturn, TextIO, cast
 
 from ..extras import install, version
 from ..text import aligned
@@ -55,6 +55,50 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         self.exit(WRONG, f"{self.prog}: {message}; see {self.prog} --help\n")
+
+
+class _Output:
+    """Standard output up to its first failure. Later text is discarded, so that a command continues and writes its files."""
+
+    def __init__(self, stream: TextIO):
+        self._stream = stream
+        self.failure: OSError | None = None
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Writes the text, unless the output has failed."""
+        if self.failure is None:
+            try:
+                return self._stream.write(text)
+            except OSError as error:
+                self.failure = error
+        return len(text)
+
+    def flush(self) -> None:
+        """Flushes the output, unless it has failed."""
+        if self.failure is None:
+            try:
+                self._stream.flush()
+            except OSError as error:
+                self.failure = error
+
+
+@contextmanager
+def _to_the_end() -> Iterator[None]:
+    """Context in which the work continues if standard output fails, as when the reader of a pipe closes it. Raises the failure at the
+    end."""
+    output = _Output(sys.stdout)
+    try:
+        with redirect_stdout(cast(TextIO, output)):
+            yield
+            output.flush()
+    finally:
+        if output.failure:
+            _discard_output()
+    if output.failure:
+        raise output.failure
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -104,7 +148,7 @@ def _run(name, arguments):
             parsed = parser.parse_args(arguments)
         except SystemExit as end:
             return end.code
-        with printed():
+        with printed(), _to_the_end():
             return module.run(parsed)
     except ModuleNotFoundError as missing:
         if missing.name.partition(".")[0] == PACKAGE:
