@@ -9,6 +9,7 @@
 //! NAME is a fixed parameter. VALUES are literals, true, false or numbers, separated by `|`. The test `co-simulation`
 //! is true if the FMU integrates. The test `initialisation` is true for values that are set before the first step.
 
+use std::fmt;
 use std::sync::OnceLock;
 
 use super::named::{index_of, number, number_of};
@@ -85,6 +86,49 @@ impl Condition {
             Self::Above(index, bound) => parameter(*index, p).is_some_and(|value| value > *bound),
             Self::OwnSteps => situation.own_steps,
             Self::FromStart => situation.from_start,
+        }
+    }
+
+    /// Returns the failed tests. Two short alternatives are both named. Of others, the one with the fewest failed tests
+    /// is chosen.
+    fn missing(&self, parameters: &mut Parameters, situation: Situation) -> Missing {
+        if self.holds(parameters, situation) {
+            return Missing::default();
+        }
+        let mut test = |index: &usize, sign: &str, values: &[f64]| {
+            let row = &table().rows[*index];
+            let values: Vec<String> = values.iter().map(|value| written(row, *value)).collect();
+            let now = parameter(*index, parameters).map_or(String::new(), |now| written(row, now));
+            Missing {
+                tests: vec![format!("{} {sign} {} (now: {now})", row.name, values.join(" or "))],
+                ..Missing::default()
+            }
+        };
+        let words = |text: &str| Missing { tests: vec![text.to_owned()], ..Missing::default() };
+        match self {
+            Self::Any(parts) => {
+                let all: Vec<Missing> = parts.iter().map(|part| part.missing(parameters, situation)).collect();
+                if let [one, other] = &all[..]
+                    && one.tests.len() + other.tests.len() <= MOST_TESTS
+                    && !one.has_alternatives
+                    && !other.has_alternatives
+                {
+                    let [one, other] = [one, other].map(|missing| missing.tests.join(" and "));
+                    return words(&format!("either {one} or {other}"));
+                }
+                let nearest = all.into_iter().min_by_key(|missing| missing.tests.len()).unwrap_or_default();
+                Missing { has_alternatives: true, ..nearest }
+            }
+            Self::All(parts) => {
+                let mut all = Missing::default();
+                parts.iter().for_each(|part| all.add(part.missing(parameters, situation)));
+                all
+            }
+            Self::OneOf(index, values) => test(index, "=", values),
+            Self::NoneOf(index, values) => test(index, "!=", values),
+            Self::Above(index, bound) => test(index, ">", &[*bound]),
+            Self::OwnSteps => words("the FMU integrates, as in co-simulation"),
+            Self::FromStart => words("it is set before the first step"),
         }
     }
 }
@@ -176,18 +220,47 @@ pub fn value_without_effect(
     if needs.start.is_none_or(|start| start == value) || acts(index, parameters, situation) {
         return None;
     }
-    if let Some(acts) = row.acts_when.filter(|_| has_effect(index, parameters, situation)) {
-        return Some(problem!(row.name, "{}{NO_EFFECT}{acts}; here only outputs repeat it", written(row, value)));
+    let only_repeated = has_effect(index, parameters, situation);
+    let mut missing = Missing::default();
+    for condition in needs.all().chain(&needs.acts_when) {
+        missing.add(condition.missing(parameters, situation));
     }
-    let mut missing = |needed: &Option<Condition>| needed.as_ref().is_some_and(|c| !c.holds(parameters, situation));
-    let switch = row.switch.filter(|_| missing(&needs.switch)).map(|name| format!("{name} = true"));
-    let when = row.when.filter(|_| missing(&needs.when)).map(|text| text.replace('|', " or "));
-    let acts: Vec<String> = switch.into_iter().chain(when).collect();
-    Some(problem!(row.name, "{}{NO_EFFECT}{}", written(row, value), acts.join(", and with ")))
+    let repeated = if only_repeated { ". Here, only outputs repeat it" } else { "" };
+    Some(problem!(row.name, "{}{NO_EFFECT}{missing}{repeated}", written(row, value)))
 }
 
 /// Common text of the warnings about values without effect.
-const NO_EFFECT: &str = " changes nothing in this scene: it acts with ";
+const NO_EFFECT: &str = " changes nothing in this scene. It acts ";
+
+/// Maximum number of failed tests in two alternatives that are both named.
+const MOST_TESTS: usize = 3;
+
+/// Tests that a condition fails, with the present values.
+#[derive(Default)]
+struct Missing {
+    /// Text of each failed test.
+    tests: Vec<String>,
+    /// True if the condition has alternatives to these tests.
+    has_alternatives: bool,
+}
+
+impl Missing {
+    fn add(&mut self, other: Self) {
+        for test in other.tests {
+            if !self.tests.contains(&test) {
+                self.tests.push(test);
+            }
+        }
+        self.has_alternatives |= other.has_alternatives;
+    }
+}
+
+impl fmt::Display for Missing {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let word = if self.has_alternatives { "for example if" } else { "only if" };
+        write!(f, "{word} {}", self.tests.join(" and "))
+    }
+}
 
 /// Returns a value as users write it, with its unit.
 fn written(row: &Variable, value: f64) -> String {
@@ -269,7 +342,8 @@ mod tests {
         let found = said(&p, Situation::START);
         assert_eq!(found.len(), 1, "{found:?}");
         assert!(
-            found[0].starts_with("oil.temperature: 253.15 K changes nothing in this scene: it acts with"),
+            found[0].starts_with("oil.temperature: 253.15 K changes nothing in this scene. It acts for example if ")
+                && found[0].ends_with(". Here, only outputs repeat it"),
             "{found:?}"
         );
         p.effects.limited_slip = true;
@@ -293,7 +367,29 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!(
             found[0].to_string(),
-            "limited_slip.preload: 70 N.m changes nothing in this scene: it acts with effects.limited_slip = true"
+            "limited_slip.preload: 70 N.m changes nothing in this scene. It acts only if effects.limited_slip = true (now: \
+             false)"
+        );
+    }
+
+    #[test]
+    fn a_value_without_effect_names_the_nearest_missing_conditions_with_their_present_values() {
+        let said = |name: &str, value: f64, change: fn(&mut Parameters)| {
+            let mut p = Parameters::default();
+            change(&mut p);
+            let index = index_of(name).unwrap();
+            value_without_effect(index, value, &mut p, Situation::START).unwrap().to_string()
+        };
+        assert_eq!(
+            said("carrier.torque_command", 900.0, |_| ()),
+            "carrier.torque_command: 900 N.m changes nothing in this scene. It acts only if scene.carrier_drive = torque \
+             (now: speed)"
+        );
+        // the wheel brake is off, and both alternatives are missing
+        assert_eq!(
+            said("wheel_brake.reference_temperature", 250.0, |_| ()),
+            "wheel_brake.reference_temperature: 250 K changes nothing in this scene. It acts only if effects.wheel_brake \
+             = true (now: false) and either wheel_brake.cold_factor != 1 (now: 1) or wheel_brake.hot_factor != 1 (now: 1)"
         );
     }
 }

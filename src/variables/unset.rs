@@ -128,7 +128,8 @@ pub fn in_one_line(found: &[Unset]) -> String {
 }
 
 /// Start of the line that lists these values.
-pub const NOBODY_SET: &str = "values of the study that nobody set act in this scene: ";
+pub const NOBODY_SET: &str = "these start values of the study influence this scene, and nobody set them (set them if \
+     your differential differs): ";
 
 /// Returns a warning if load torques that were not set would turn the wheels backward from rest.
 pub fn runaway(parameters: &Parameters, inputs: &Inputs, set: &SetValues) -> Option<Problem> {

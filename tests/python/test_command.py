@@ -102,8 +102,8 @@ def test_few_designs_are_printed_and_a_table_keeps_the_rows(tmp_path, capsys):
     assert main([*grid, "--csv", str(tmp_path / "rows.csv")]) == 0
     printed = capsys.readouterr().out
     assert "not kept" not in printed and f"written: {tmp_path / 'rows.csv'}" in printed
-    assert main(["sweep", "--scene", "study_turning", "--stop", "1 ms", "--vary", "left.load_torque=700..720:21", "--plan", "grid", "--want",
-                 "left.speed", "--workers", "0"]) == 0
+    assert main(["sweep", "--scene", "study_turning", "--stop", "1 ms", "--vary", "left.load_torque=700..720:21", "--plan", "grid",
+                 "--want", "left.speed", "--workers", "0"]) == 0
     assert "\nrun  " not in capsys.readouterr().out
 
 

@@ -49,7 +49,8 @@ def columns(file):
 @pytest.mark.parametrize("command", [["run", "{}"], ["run", "{}", "{other}"], ["sweep", "--workers", "0", "--plan", "grid", "--scene", "{}",
                                      "--vary", "left.load_torque=800, 810", "--want", "left.speed:mean"]])
 def test_a_unit_that_no_shown_value_has_gives_a_warning(command, tmp_path, capsys):
-    words = [word.format(a_file(tmp_path), other=a_file(tmp_path, "other.toml", more="geometry.backlash = \"0.2 mm\"")) for word in command]
+    other = a_file(tmp_path, "other.toml", more='geometry.backlash = "0.2 mm"')
+    words = [word.format(a_file(tmp_path), other=other) for word in command]
     assert main([*words, "--unit", "rpm", "--unit", "mm"]) == 0
     said = capsys.readouterr().err
     assert said.count("warning: --unit mm: no shown value has this unit") == 1 and "--unit rpm" not in said

@@ -111,6 +111,31 @@ def test_a_closed_instance_refuses_every_call(fmu, use):
         use(opened)
 
 
+def test_times_of_steps_may_have_units(fmu):
+    with fmu.open() as opened:
+        for size, stop in [(1e-3, 3e-3), ("1 ms", "3 ms")]:
+            opened.initialise(TURN, stop)
+            opened.step(size)
+            opened.do_step(size, size)
+            port = opened.port(["left.load_torque"], ["left.speed"])
+            found = port.do_step(700.0, "2 ms", size)
+            assert opened.time == 1e-3
+            if size == 1e-3:
+                expected = found
+        assert found == expected
+        with pytest.raises(DifferentialError, match="step = '1 mm'"):
+            opened.step("1 mm")
+        with pytest.raises(DifferentialError, match="left.load_torque: its rate is '1 N.m'"):
+            opened.set_slopes({"left.load_torque": "1 N.m"})
+
+
+def test_a_fixed_parameter_after_the_start_is_refused_with_the_call_that_sets_it(fmu):
+    with fmu.open() as opened:
+        opened.initialise(TURN)
+        with pytest.raises(DifferentialError, match=r"contact.law is a fixed parameter: .*set it in `initialise\(…\)`$"):
+            opened.set({"contact.law": "line"})
+
+
 def test_an_instance_for_model_exchange_takes_no_steps(fmu):
     with fmu.open("ModelExchange") as opened:
         opened.initialise(TURN)

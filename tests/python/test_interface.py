@@ -13,7 +13,7 @@ from fmpy import simulate_fmu
 
 import bevel_differential
 from bevel_differential import Differential, DifferentialError
-from bevel_differential.instance import NOBODY_SET
+from bevel_differential.values import NOBODY_SET
 
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
 TURN_FMPY = {"scene.planet_spin": 2, "spin.command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}

@@ -8,7 +8,7 @@ import pytest
 from bevel_differential import Differential, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask
 from bevel_differential.command import main
-from bevel_differential.instance import NOBODY_SET
+from bevel_differential.values import NOBODY_SET
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from fmi3 import Unit3
 
@@ -224,6 +224,13 @@ def test_python_warns_of_them(fmu_file):
         with pytest.warns(DifferentialWarning, match="nobody set.*right.load_torque = 835 N.m") as caught:
             differential.run(stop=0.002)
     assert sum("nobody set" in str(one.message) for one in caught) == 1
+
+
+def test_commands_print_a_line_for_each_group_of_them(fmu_file, capsys):
+    assert main(["run", "study_turning", "--stop", "1 ms", "--set", "geometry.module=5 mm", "--fmu", fmu_file]) == 0
+    lines = capsys.readouterr().err.splitlines()
+    place = lines.index(f"warning: {NOBODY_SET.strip()}")
+    assert lines[place + 1].startswith("  geometry: planet_teeth = ") and any(line.startswith("  inertia: ") for line in lines[place + 2:])
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])

@@ -8,8 +8,8 @@ import pytest
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene, shipped_scenes
 from bevel_differential.answers import about, ask
 from bevel_differential.command import main
-from bevel_differential.instance import UNFELT
 from bevel_differential.spectrum import Event, spectrum
+from bevel_differential.values import UNFELT
 
 SCENES = Path(__file__).resolve().parents[2] / "scenes"
 # values that are set, and the setting that they need
@@ -146,7 +146,7 @@ def test_the_plan_of_a_scene_names_unused_values_of_the_start_and_of_later_setti
 
 
 def test_the_commands_and_the_report_warn_once(fmu_file, tmp_path, capsys):
-    said = "left.brake_torque: 200 N.m changes nothing in this scene: it acts with effects.wheel_brake = true"
+    said = "left.brake_torque: 200 N.m changes nothing in this scene. It acts only if effects.wheel_brake = true (now: false)"
     scene = ["study_turning", "--set", "left.brake_torque=200 N.m", "--fmu", fmu_file]
     with warnings.catch_warnings():
         warnings.simplefilter("error", DifferentialWarning)

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from bevel_differential import Differential, Scene
-from bevel_differential.instance import UNFELT
+from bevel_differential.values import UNFELT
 from driving import STEADY_TURN
 from fmi3 import Unit3
 

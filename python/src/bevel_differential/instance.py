@@ -11,17 +11,17 @@ from fmpy.fmi2 import FMU2Model, FMU2Slave, defaultCallbacks, fmi2CallbackFuncti
 
 from . import machine
 from .batches import CALLS, Batches
-from .port import Port
-from .values import DISCARD, DifferentialError, Number, Value, Variable
+from .points import TimeValue, duration, seconds
+from .port import Port, rate
+from .values import DISCARD, NOBODY_SET, UNFELT, DifferentialError, Number, Value, Variable
 
 # categories of the log
 LOGGED = ["logStatusWarning", "logStatusDiscard", "logStatusError"]
-# text in warnings about values that have no effect in the scene
-UNFELT = " changes nothing in this scene: "
-# prefix of the line that lists values which take effect and which nobody set
-NOBODY_SET = "values of the study that nobody set act in this scene: "
 # text in a log for hosts around the words of an error: the failed call before it, and helpful calls after it
 _CALLS = re.compile(r"^fmi[23]\w+: (?:initialisation failed:\s*)?|; continue with fmi[23]\w+ or fmi[23]\w+$")
+# text in an error about a value that comes too late, and its text for users of Python
+_TOO_LATE = re.compile(r"it can be set only before fmi[23]ExitInitializationMode")
+_AT_START = "it can be set only at the start: set it in `initialise(…)`"
 # prefixes of refusals that concern the call instead of a value
 _ABOUT_CALL = ("not legal in", "this call")
 # fmpy's class and the element of the model description for each kind of instance
@@ -123,7 +123,7 @@ class Instance(Closing):
                 raise DifferentialError("the instance is closed; open another one", status)
             # an earlier warning is not the reason
             said, self._failure = self._failure, None
-            words = without_calls(said or f"it failed with status {status}")
+            words = _TOO_LATE.sub(_AT_START, without_calls(said or f"it failed with status {status}"))
             raise DifferentialError(words if said and not words.startswith(_ABOUT_CALL) else f"{doing}: {words}", status, kind)
 
     def _through(self, doing, call, *arguments):
@@ -163,8 +163,9 @@ class Instance(Closing):
         """Makes inputs change linearly in the following steps, until they are set again.
 
         `slopes`: change of Real inputs per second by name, SI units."""
-        references = [self.fmu.variable(name).reference for name in slopes]
-        self._through("setting slopes of inputs", self.raw.setRealInputDerivatives, references, [1] * len(slopes), list(slopes.values()))
+        variables = [self.fmu.variable(name) for name in slopes]
+        self._through("setting slopes of inputs", self.raw.setRealInputDerivatives, [variable.reference for variable in variables],
+                      [1] * len(slopes), [rate(variable, slopes[name]) for variable, name in zip(variables, slopes)])
 
     def derivatives_setter(self) -> Any:
         """Function of the FMU that sets derivatives of inputs, without wrappers."""
@@ -179,11 +180,12 @@ class Instance(Closing):
         """Values of several variables, as a list in their order."""
         return Batches.of(self.fmu.named(names)).get(self)
 
-    def initialise(self, values: Mapping[str, Value] | None = None, stop: float | None = None) -> Self:
-        """Initialises at time 0, with `values` in addition to those that were set; `stop` (s): no step will go beyond it.
+    def initialise(self, values: Mapping[str, Value] | None = None, stop: TimeValue | None = None) -> Self:
+        """Initialises at time 0, with `values` in addition to those that were set; `stop` (s, or text such as "5 ms"): no step
+        will go beyond it.
 
         After a run, the instance is reset first."""
-        self.start(self.fmu.numbers(values), stop)
+        self.start(self.fmu.numbers(values), None if stop is None else duration("stop", stop))
         return self
 
     def start(self, values: list[tuple[Variable, Number]], stop: float | None) -> None:
@@ -203,13 +205,18 @@ class Instance(Closing):
         self.events.clear()
         self._is_fresh, self.time = True, 0.0
 
-    def step(self, size: float) -> None:
-        """Advances by a communication step of `size`, s, from `time`."""
+    def step(self, size: TimeValue) -> None:
+        """Advances by a communication step of `size`, s or text such as "1 ms", from `time`."""
+        if not isinstance(size, float):
+            size = seconds("step", size)
         self.do_step(self.time, size)
         self.time += size
 
-    def do_step(self, time: float, size: float) -> None:
-        """Advances by a communication step of `size`, s, from a `time`, s, that the caller tracks."""
+    def do_step(self, time: TimeValue, size: TimeValue) -> None:
+        """Advances by a communication step of `size` from a `time` that the caller tracks; both s, or text such as "1 ms"."""
+        # floats skip the conversion, because this call is the fastest way to step
+        if not (isinstance(time, float) and isinstance(size, float)):
+            time, size = seconds("time", time), seconds("step", size)
         status = self._do_step(self._component, time, size, 1)
         if status >= DISCARD:
             self.check(status, f"the step from {time:g} s", "failed")

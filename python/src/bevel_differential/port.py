@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from .inputs import changing_variable
+from .points import TimeValue
 from .values import DISCARD, DifferentialError, Value, Variable
 
 # one value for each input; a single input also accepts its value without a list
@@ -43,8 +44,8 @@ class Port:
         self._sloping = inputs_at, len(driven), orders_at, _address(self._rates)
         self._getting = outputs_at, len(shown), _address(self._outputs)
 
-    def step(self, values: Given, size: float, rates: Given | None = None) -> list[float]:
-        """Sets the inputs, takes a step of `size` (s) from the time of the instance, and returns the outputs in SI, as a new list.
+    def step(self, values: Given, size: TimeValue, rates: Given | None = None) -> list[float]:
+        """Sets the inputs, takes a step of `size` (s, or text such as "1 ms") from the time of the instance, and returns the outputs in SI, as a new list.
 
         `values`: one for each input, in their order, written as in `set`; a single input also accepts its value without a list. `rates`:
         change of each input per second during this step, SI units; without rates, inputs are held."""
@@ -52,7 +53,7 @@ class Port:
         self._instance.step(size)
         return self.read()
 
-    def do_step(self, values: Given, time: float, size: float, rates: Given | None = None) -> list[float]:
+    def do_step(self, values: Given, time: TimeValue, size: TimeValue, rates: Given | None = None) -> list[float]:
         """Exchanges values as `step` does, but from a time, s, that the caller tracks."""
         self._write(values, rates)
         self._instance.do_step(time, size)
@@ -69,7 +70,7 @@ class Port:
     def _write(self, values, rates):
         self._fill(self._values, values, "values", Variable.checked)
         if rates is not None:
-            self._fill(self._rates, rates, "rates", _rate)
+            self._fill(self._rates, rates, "rates", rate)
         instance = self._instance
         status = self._set(instance._component, *self._setting)
         if status >= DISCARD:
@@ -97,11 +98,12 @@ def _address(buffer):
     return ctypes.c_void_p(buffer.buffer_info()[0])
 
 
-def _rate(variable, given):
+def rate(variable: Variable, given: Any) -> float:
+    """Change of an input per second, SI. Refuses everything but a finite number."""
     try:
-        rate = float(given)
+        number = float(given)
     except (TypeError, ValueError):
-        rate = float("nan")
-    if isinstance(given, (bool, np.bool_)) or not isfinite(rate):
+        number = float("nan")
+    if isinstance(given, (bool, np.bool_)) or not isfinite(number):
         raise DifferentialError(f"{variable.name}: its rate is {given!r}, which is not a finite number")
-    return rate
+    return number

@@ -11,14 +11,14 @@ from .extras import require
 from .fmu import Fmu
 from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
-from .instance import LOGGED, NOBODY_SET
+from .instance import LOGGED
 from .output_file import checked
 from .plot import plot
 from .points import TimeValue, duration, mean_over_time, seconds, span
 from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
-from .values import DifferentialError, FileName, Number, Value
+from .values import NOBODY_SET, DifferentialError, FileName, Number, Value
 from .warned import warn
 from .writing import whole
 

@@ -19,6 +19,10 @@ Number: TypeAlias = float | int | bool
 # value in the form that users write: SI, text with a unit or a literal's name, or a pair (number, unit), in SI without a unit
 Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
 FileName: TypeAlias = str | os.PathLike[str]
+# text in warnings about values that have no effect in the scene
+UNFELT = " changes nothing in this scene. "
+# prefix of the line that lists values which take effect and which nobody set; groups with "; " between them follow
+NOBODY_SET = "these start values of the study influence this scene, and nobody set them (set them if your differential differs): "
 # statuses from this one on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 

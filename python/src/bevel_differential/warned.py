@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from .values import DifferentialWarning
+from .values import NOBODY_SET, DifferentialWarning
 
 PACKAGE = __name__.partition(".")[0]
 
@@ -43,7 +43,7 @@ def printed() -> Iterator[None]:
                 show(message, category, *where)
             elif str(message) not in seen:
                 seen.add(str(message))
-                print(f"warning: {message}", file=sys.stderr, flush=True)
+                print(f"warning: {_by_group(str(message))}", file=sys.stderr, flush=True)
 
         warnings.showwarning = show_once
         warnings.simplefilter("always", DifferentialWarning)
@@ -56,3 +56,9 @@ def silenced() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DifferentialWarning)
         yield
+
+
+def _by_group(text):
+    """Text with a line for each group of values that nobody set."""
+    head, prefix, groups = text.partition(NOBODY_SET)
+    return "\n".join([f"{head}{prefix}".rstrip(), *(f"  {group}" for group in groups.split("; "))]) if prefix else text

@@ -13,9 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from ..instance import UNFELT, Instance
+from ..instance import Instance
 from ..scene import Scene
-from ..values import DifferentialError, Number
+from ..values import UNFELT, DifferentialError, Number
 from ..want import Want
 from ..designs.task import Row
 
