@@ -10,6 +10,8 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from warned_lines import without_warnings
+
 from bevel_differential import Differential, DifferentialError, Scene, extras
 from bevel_differential.command import COMMANDS, main
 from bevel_differential.designs.sweep import SweepResult, sweep
@@ -120,7 +122,7 @@ def test_a_command_writes_its_files_although_the_reader_of_its_output_has_ended(
         done = subprocess.run([sys.executable, *options, "-m", "bevel_differential", *(word.format(file) for word in words)], stdout=closed,
                               stderr=subprocess.PIPE, text=True, check=False)
     assert file.is_file() and done.returncode == 1
-    assert not [line for line in done.stderr.splitlines() if not line.startswith(("warning: ", "  "))], done.stderr
+    assert not without_warnings(done.stderr), done.stderr
 
 
 def test_accuracy_separates_the_work_of_its_runs_from_the_time_of_the_search(capsys):

@@ -18,6 +18,7 @@ from pathlib import Path
 import pytest
 from bevel_differential import command
 from documents import ROOT, blocks, commands, printed, saved
+from warned_lines import without_warnings
 
 # values that depend on the machine
 TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.]+ of the [\d.]+(?= ms of a run)")
@@ -129,7 +130,7 @@ def now(block, said):
 def check(source, said):
     """Checks all blocks that show the output of a command or snippet. With RENEW=1, it updates them."""
     for shown in SHOWN.get(source, []):
-        heard = said if "warning: " in shown.text else re.sub(r"^warning: .*\n", "", said, flags=re.MULTILINE)
+        heard = said if "warning: " in shown.text else without_warnings(said)
         if shows(shown.text, heard):
             continue
         renewed = now(shown.text, heard)

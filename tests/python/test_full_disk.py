@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from warned_lines import without_warnings
+
 from bevel_differential import writing
 from bevel_differential.command import COMMANDS, main
 
@@ -190,5 +192,5 @@ def test_a_full_disk_under_standard_output(words, fmu_file, tmp_path):
         words = [word.format(out=tmp_path) for word in words]
         ran = subprocess.run([sys.executable, "-m", "bevel_differential", *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False,
                              env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file})
-    lines = [line for line in ran.stderr.splitlines() if not line.startswith("warning: ")]
+    lines = without_warnings(ran.stderr).splitlines()
     assert lines == ["bevel-differential: standard output: No space left on device"] and ran.returncode == 1

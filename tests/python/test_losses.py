@@ -23,6 +23,7 @@ from bevel_differential.losses.grid import (Bound, estimates, figures_of, interp
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
 from interrupts import changed_command, with_interrupts
+from warned_lines import without_warnings
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
 CLUTCH = {"scene.gear_contact": "ideal", **theory.CLUTCHES, "limited_slip.preload": PRELOAD,
@@ -284,13 +285,13 @@ def test_ctrl_c_on_the_command_keeps_the_finished_rows(fmu_file, tmp_path, capsy
         time.sleep(0.02)
     os.killpg(running.pid, signal.SIGINT)
     said = running.communicate(timeout=120)
-    lines = [line for line in said[1].splitlines() if not line.startswith("warning: ")]
+    lines = without_warnings(said[1]).splitlines()
     assert running.returncode == 130 and len(lines) == 1 and "--resume" in lines[0], said
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     # so few points do not meet the bound, which is a finding
     assert main([*given, "--workers", "0", "--resume", "--fmu", fmu_file]) == 3
     told = capsys.readouterr()
-    assert all(line.startswith("warning: ") for line in told.err.splitlines()), told.err
+    assert not without_warnings(told.err), told.err
     new = int(re.search(r"^(\d+) runs in", told.out, re.MULTILINE)[1])
     assert kept > 0 and new + kept == len(pq.read_table(out)) and not parts.exists()
 

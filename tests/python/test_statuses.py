@@ -10,6 +10,7 @@ import pytest
 
 from evidence_unit import packed
 from short_scene import SCENE
+from warned_lines import without_warnings
 from bevel_differential import Differential, DifferentialError, cad, library, verify
 from bevel_differential.command import COMMANDS, DONE, FAILED, FINDING, INTERRUPTED, PACKAGE, STATUSES, WRONG, main
 from bevel_differential.command import examples as examples_command
@@ -119,7 +120,7 @@ def prepared(fmu_file, units, tmp_path, monkeypatch):
 def test_each_kind_of_end_has_its_status(status, line, prepared, capsys):
     prepared(status)
     assert main(line.split()) == status, capsys.readouterr().err
-    said = [text for text in capsys.readouterr().err.splitlines() if not text.startswith("warning: ")]
+    said = without_warnings(capsys.readouterr().err).splitlines()
     if status in (FAILED, WRONG):
         assert said and all(text.startswith("bevel-differential") for text in said if text.strip()), said
 

@@ -13,6 +13,7 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 from interrupts import changed_command, with_interrupts
+from warned_lines import without_warnings
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, cluster, store
@@ -240,7 +241,7 @@ def arguments(scene, out, wants, *more):
 
 def errors(text):
     """Lines of standard error that are not warnings of the first run."""
-    return [line for line in text.splitlines() if not line.startswith("warning: ")]
+    return without_warnings(text).splitlines()
 
 
 def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(fmu_file, tmp_path, capsys):
