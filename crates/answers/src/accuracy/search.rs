@@ -86,7 +86,7 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) 
     let mut chosen: Option<usize> = None;
     // the two plainest accurate gears: the richer of the two may be cheaper because its teeth are softer
     for &start in starts.iter().take(STARTS) {
-        let reduced = leave_out(bench, start, &effects, scene, within);
+        let reduced = leave_out(bench, start, &effects, base, scene, within);
         let reduced = if is_fixed {
             // richer gears cost more per step, so they would not allow shorter steps
             let Some(stepped) = in_fixed_steps(bench, reduced, scene, within) else { break };
@@ -170,8 +170,15 @@ fn screening(bench: &mut Bench, richest: &Scene, within: f64) -> (f64, Option<us
 
 /// Leaves effects out of run `start`, those with the smallest change first, while the result stays accurate enough and
 /// becomes cheaper. Effects that the scene as `written` does not have are left out even if that is more expensive,
-/// because they must not be added only to save time.
-fn leave_out(bench: &mut Bench, start: usize, singles: &[Single<Switch>], written: &Scene, within: f64) -> usize {
+/// because they must not be added only to save time. `base` is the run from which `singles` leave out one effect each.
+fn leave_out(
+    bench: &mut Bench,
+    start: usize,
+    singles: &[Single<Switch>],
+    base: Option<usize>,
+    written: &Scene,
+    within: f64,
+) -> usize {
     let size = |bench: &Bench, single: &Single<Switch>| {
         single.run.as_ref().map_or(f64::INFINITY, |&run| bench.trials[run].error())
     };
@@ -179,20 +186,27 @@ fn leave_out(bench: &mut Bench, start: usize, singles: &[Single<Switch>], writte
         singles.iter().filter(|single| single.of.is_on(&bench.trials[start].scene.parameters)).collect();
     left.sort_by(|a, b| size(bench, a).total_cmp(&size(bench, b)));
     let mut current = start;
-    // most effects do not matter: all of them together
-    let mut sum = 0.0;
-    let base = bench.trials[start].error();
+    // most effects do not matter: all of them together, except effects of the scene that save time, such as corner
+    // contact, without which forces jump
+    let saves_time = |bench: &Bench, single: &Single<Switch>| {
+        let cost = |run: usize| bench.trials[run].cost;
+        let costs = single.run.as_ref().ok().zip(base).map(|(&without, with)| [cost(without), cost(with)]);
+        single.of.is_on(&written.parameters) && costs.is_some_and(|[without, with]| without > (1.0 + SAVES) * with)
+    };
+    let (mut sum, error) = (0.0, bench.trials[start].error());
     let few = left.iter().take_while(|single| {
-        sum += (size(bench, single) - base).max(0.0);
+        sum += (size(bench, single) - error).max(0.0);
         sum <= TOGETHER * within
     });
     let few = few.count();
-    if few > 1 {
+    let (kept, batch): (Vec<&Single<Switch>>, Vec<&Single<Switch>>) =
+        left[..few].iter().copied().partition(|single| saves_time(bench, single));
+    if batch.len() > 1 {
         let mut scene = bench.trials[current].scene.clone();
-        left[..few].iter().for_each(|single| single.of.set(&mut scene.parameters, false));
+        batch.iter().for_each(|single| single.of.set(&mut scene.parameters, false));
         if let Some(less) = attempt(bench, current, &scene, "without all that do not matter", true, within) {
             current = less;
-            left.drain(..few);
+            left.splice(..few, kept);
         }
     }
     for single in left {

@@ -14,7 +14,7 @@ use answers::scene::{Scene, load};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::model::{GearContact, Method};
 use bevel_differential::variables::effective::{self, Situation};
-use bevel_differential::variables::index_of;
+use bevel_differential::variables::{index_of, named};
 
 /// No teeth, 50 rad/s, 99 N.m on each side.
 const IDEAL: &str = r#"
@@ -293,6 +293,43 @@ fn an_accuracy_that_no_affordable_fixed_step_reaches_is_reported() {
             && said.contains("solver.method = adaptive"),
         "{said}"
     );
+}
+
+/// Turn of 40 ms with imposed wheel speeds and friction of washers, in which friction moves torque to the slower wheel.
+const BIAS: &str = r#"
+description = "bias"
+stop_time = 0.04
+step = 1e-3
+outputs = ["torque_bias_ratio"]
+
+[set]
+scene.carrier_drive = "torque"
+carrier.torque_command = "900 N.m"
+scene.left_drive = "speed"
+scene.right_drive = "speed"
+left.speed_command = 52.5
+right.speed_command = 47.5
+effects.thrust_friction = true
+"#;
+
+#[test]
+fn an_effect_that_saves_time_stays_on_if_the_scene_has_it() {
+    let found = asked(BIAS, &["torque_bias_ratio:mean"], 0.02);
+    let chosen = &found.trials[found.chosen.expect("a setting")];
+    let parameters = &chosen.scene.parameters;
+    assert!(parameters.scene.gear_contact == GearContact::Tooth && parameters.effects.corner_contact);
+    // forces jump without corner contact, so the run takes more evaluations
+    let mut without = chosen.scene.clone();
+    without.parameters.effects.corner_contact = false;
+    let evaluations = |scene: &Scene| {
+        let mut run = SceneRun::start(scene, scene.step).expect("a run");
+        while !run.is_over() {
+            run.advance().expect("a step");
+        }
+        run.read(named("solver.rhs_calls").expect("a variable"))
+    };
+    let [with, without] = [&chosen.scene, &without].map(evaluations);
+    assert!(without > with, "{without} evaluations without corner contact, {with} with it");
 }
 
 #[test]
