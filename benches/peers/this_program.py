@@ -3,7 +3,7 @@
 There are two passes. The first one measures the cost of communication steps of 1 ms and of reading both speeds, with the C
 functions called through ctypes and nothing else. The second one reads speeds every 0.1 ms, so that no peak of the ripple is
 missed between samples, and the forces. Loads act in full from the start, as in the study. The start is otherwise that of
-the peers: speeds from the gear law, and teeth in the middle of their gaps.
+the peers: speeds from the gear law, and teeth in the middle of the tooth spaces.
 """
 
 import ctypes

@@ -28,7 +28,7 @@ pub enum Item {
     EventTime,
     /// Text of the last event.
     EventText,
-    /// Number of the last event since the start.
+    /// Number of events from the start up to the last event.
     EventCount,
     /// An event indicator.
     Indicator(usize),
@@ -70,7 +70,8 @@ pub fn planet_count() -> u32 {
     *PLACE.get_or_init(|| place("geometry.planet_count") as u32)
 }
 
-/// Index of the `held.*` output in row `index`, or `None` for other rows. These outputs change only at events.
+/// If row `index` is one of the three `held.*` outputs, its position among them (sides, planets, wheels). These outputs
+/// change only at events.
 pub fn held(index: usize) -> Option<usize> {
     static PLACES: OnceLock<[usize; 3]> = OnceLock::new();
     let places = PLACES.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(place));
@@ -101,7 +102,11 @@ pub fn added() -> &'static [Added] {
         }));
         added.extend(arrays());
         // at the end, so that all others keep their value references
-        added.push(own("event.count", "Number of the last event since the start; 0 = none", Item::EventCount));
+        added.push(own(
+            "event.count",
+            "Number of events from the start up to the last event; 0 = none",
+            Item::EventCount,
+        ));
         added
     })
 }

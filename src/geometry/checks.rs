@@ -224,7 +224,7 @@ fn striking_planets(spec: &GearSpec, pair: &Pair) -> Option<Problem> {
     ))
 }
 
-/// Returns a warning if the root fillet of gear `i` does not fit its gaps.
+/// Returns a warning if the root fillet of gear `i` does not fit into the tooth spaces.
 fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
     let wanted = spec.root_fillet * pair.module / pair.outer_cone;
     let foot = Foot::new(&pair.gears[i], wanted);
@@ -233,7 +233,7 @@ fn cut_fillet(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
         let why = if foot.floor > pair.gears[i].root {
             "flanks meet above the root cone"
         } else if foot.centre >= foot.middle {
-            "the whole gap is rounded"
+            "the whole tooth space is rounded"
         } else {
             "it would end above the pitch cone"
         };

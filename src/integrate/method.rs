@@ -10,8 +10,8 @@ pub struct Trial<const N: usize, P> {
     pub error: Point<N>,
     /// Size of this error as a fraction of the tolerance, see [`ErrorNorm::judge`].
     pub size: f64,
-    /// Result of the check halfway; `None` if the error at the end is too large. The dense output is then not used
-    /// either.
+    /// Result of the check halfway. `None` if the error at the end is too large; the step is then rejected, and its
+    /// dense output is not used.
     pub halfway: Option<Halfway<P>>,
 }
 
@@ -24,8 +24,9 @@ pub struct Halfway<P> {
     pub ledger_rates: P,
 }
 
-/// Weight of an error halfway relative to an error at the end. The middle is only one point of the motion in between,
-/// and its forces show errors of stiff motions that a stiffly accurate method has damped at the end.
+/// Weight of an error halfway relative to an error at the end. Errors halfway count double for two reasons. Elsewhere
+/// inside the step, the error may be larger than at this one point. Forces inside the step also contain errors of stiff
+/// motions, which a stiffly accurate method has damped at the end.
 const BETWEEN: f64 = 2.0;
 
 impl<const N: usize, P: Copy> Trial<N, P> {
@@ -95,7 +96,7 @@ impl<const N: usize> ErrorNorm<N> {
 /// A one-step method with an error estimate. It keeps no data between steps, so snapshots need not contain it.
 pub trait Method {
     /// Order p of the error estimate, 3 or 4: the estimate is proportional to h^(p+1).
-    fn estimate(&self) -> u32;
+    fn estimate_order(&self) -> u32;
 
     /// Computes one step of size `h` [s] from `start`, a point with its time, at which `lin` was evaluated. Returns
     /// `None` if the matrix is singular or an iteration does not converge; a shorter step is then tried. Counts its
@@ -113,7 +114,7 @@ pub trait Method {
     /// x^(1/(p+1)), accurate to 0.1 %, which suffices for a step size.
     #[inline]
     fn root(&self, x: f64) -> f64 {
-        if self.estimate() == 3 { x.sqrt().sqrt() } else { fifth_root(x) }
+        if self.estimate_order() == 3 { x.sqrt().sqrt() } else { fifth_root(x) }
     }
 }
 

@@ -57,7 +57,7 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Method for Radau {
     #[inline]
-    fn estimate(&self) -> u32 {
+    fn estimate_order(&self) -> u32 {
         3
     }
 

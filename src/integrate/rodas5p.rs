@@ -23,7 +23,7 @@ pub struct Rodas5P;
 
 impl Method for Rodas5P {
     #[inline(always)]
-    fn estimate(&self) -> u32 {
+    fn estimate_order(&self) -> u32 {
         4
     }
 

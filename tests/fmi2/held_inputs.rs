@@ -14,7 +14,7 @@ fn sine(k: usize) -> f64 {
     835.0 + 100.0 * (std::f64::consts::TAU * 2.0 * k as f64 * H).sin()
 }
 
-/// Creates a turn under loads, with contact law `law` and solver `method`.
+/// Creates a turn under loads with contact law `law`, solver `method` and relative `tolerance`.
 fn turn(law: i32, method: i32, tolerance: f64) -> Host {
     let host = Host::new();
     assert_eq!(host.set_integer("contact.law", law), Status::Ok);
@@ -25,8 +25,8 @@ fn turn(law: i32, method: i32, tolerance: f64) -> Host {
     host
 }
 
-/// Steps from point `first` to `last`. Calls `before` each step, so that the host may read outputs. Returns the
-/// outputs.
+/// Steps from point `first` to `last` and returns the outputs after each step. Before each step, calls `before`, in
+/// which the host may read outputs.
 fn drive(host: &Host, [first, last]: [usize; 2], torque: Staircase, before: impl Fn(&Host)) -> Vec<Vec<u64>> {
     (first..last)
         .map(|k| {
@@ -38,7 +38,7 @@ fn drive(host: &Host, [first, last]: [usize; 2], torque: Staircase, before: impl
         .collect()
 }
 
-/// Numbers of evaluations and rejected attempts per communication step, after the first hundred steps.
+/// Mean numbers of evaluations and rejected attempts per communication step, from step 100 to step 200.
 fn cost(host: &Host, torque: Staircase) -> [f64; 2] {
     let counts = || ["solver.rhs_calls", "solver.rejected"].map(|name| host.get(name));
     drive(host, [0, 100], torque, |_| {});

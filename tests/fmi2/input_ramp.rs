@@ -4,7 +4,7 @@ use bevel_differential::fmi2::*;
 
 use crate::common::{Host, assert_contains, reference};
 
-/// Step of these tests [s]. It is a power of two, so that ramps between values with few digits are exact.
+/// Step of these tests [s]. It is a power of two, so that ramps between values with few binary digits are exact.
 const STEP: f64 = 1.0 / 1024.0;
 /// Inertia of the carrier [kg·m²]. Gears have almost none.
 const CARRIER: f64 = 0.25;
@@ -40,7 +40,7 @@ const COURSE: [[f64; 3]; 6] = [
     [0.0, 0.0, 0.0],
 ];
 
-/// Takes a step from point `i`.
+/// Executes step `i`.
 fn step(host: &Host, i: usize) {
     assert_eq!(host.step(i as f64 * STEP, STEP), Status::Ok, "{:?}", host.log());
 }
@@ -51,7 +51,7 @@ fn set_derivative(host: &Host, name: &str, value: f64) {
     assert_eq!(status, Status::Ok, "{name}: {:?}", host.log());
 }
 
-/// Accelerations of the carrier and of half the speed difference of the wheels under torques [1/s²].
+/// Accelerations of the carrier and of half the speed difference of the wheels under torques [rad/s²].
 fn accelerations([drive, left, right]: [f64; 3]) -> [f64; 2] {
     [(drive - left - right) / (CARRIER + 2.0 * END), (right - left) / (2.0 * END)]
 }
@@ -96,7 +96,7 @@ fn negated_torques_give_the_negated_motion_to_the_last_bit() {
 }
 
 /// Scenes with torques, imposed speeds and brakes: level of teeth, enumerations, switches, and inputs with their start
-/// values and maximum changes. All values are multiples of powers of two.
+/// values and maximum changes. All values have few binary digits, so that ramps between them are exact.
 type Scene = (i32, &'static [(&'static str, i32)], &'static [(&'static str, i32)], &'static [(&'static str, f64, f64)]);
 const SCENES: [Scene; 4] = [
     (
@@ -144,8 +144,9 @@ fn set_inputs(host: &Host, scene: Scene, i: usize) {
     }
 }
 
-/// Returns all outputs after each step of the scene with ramps, from step `first` on.
-fn ramped(host: &Host, scene: Scene, first: usize) -> Vec<Vec<u64>> {
+/// Returns all outputs after each step of the scene from step `first` on, while inputs are set to their values at the
+/// end of each step.
+fn outputs_of_steps(host: &Host, scene: Scene, first: usize) -> Vec<Vec<u64>> {
     (first..PARTS.len() - 1)
         .map(|i| {
             set_inputs(host, scene, i);
@@ -170,10 +171,10 @@ fn a_ramp_equals_a_value_and_derivative_of_the_host_to_the_last_bit() {
             })
             .collect();
         let host = started(scene, true);
-        let ramps = ramped(&host, scene, 0);
+        let ramps = outputs_of_steps(&host, scene, 0);
         assert!(ramps == lines, "{scene:?}");
         // only the option makes the difference
-        assert!(ramped(&started(scene, false), scene, 0) != lines, "{scene:?}");
+        assert!(outputs_of_steps(&started(scene, false), scene, 0) != lines, "{scene:?}");
         // inputs are read as they were set
         for (name, start, _) in scene.3 {
             assert_eq!(host.get(name), *start);
@@ -184,7 +185,7 @@ fn a_ramp_equals_a_value_and_derivative_of_the_host_to_the_last_bit() {
 #[test]
 fn reading_between_setting_and_stepping_shows_the_present_inputs_and_changes_nothing() {
     for scene in SCENES {
-        let expected = ramped(&started(scene, true), scene, 0);
+        let expected = outputs_of_steps(&started(scene, true), scene, 0);
         let host = started(scene, true);
         for (i, expected) in expected.iter().enumerate() {
             let before = host.outputs();
@@ -199,7 +200,7 @@ fn reading_between_setting_and_stepping_shows_the_present_inputs_and_changes_not
 #[test]
 fn states_saved_before_a_step_contain_the_start_of_its_ramp() {
     for scene in SCENES {
-        let expected = ramped(&started(scene, true), scene, 0);
+        let expected = outputs_of_steps(&started(scene, true), scene, 0);
         let host = started(scene, true);
         for i in 0..3 {
             set_inputs(&host, scene, i);
@@ -208,10 +209,10 @@ fn states_saved_before_a_step_contain_the_start_of_its_ramp() {
         set_inputs(&host, scene, 3);
         let state = host.get_state();
         let bytes = host.serialize(state);
-        assert!(ramped(&host, scene, 3) == expected[3..], "{scene:?}");
+        assert!(outputs_of_steps(&host, scene, 3) == expected[3..], "{scene:?}");
         assert_eq!(host.set_state(state), Status::Ok);
         step(&host, 3);
-        assert!(host.outputs() == expected[3] && ramped(&host, scene, 4) == expected[4..], "{scene:?}");
+        assert!(host.outputs() == expected[3] && outputs_of_steps(&host, scene, 4) == expected[4..], "{scene:?}");
         host.free_state(state);
         let other = Host::new();
         let (status, copy) = other.deserialize(&bytes);
@@ -220,8 +221,8 @@ fn states_saved_before_a_step_contain_the_start_of_its_ramp() {
         assert_eq!(other.set_state(copy), Status::Ok);
         other.free_state(copy);
         step(&other, 3);
-        assert!(other.outputs() == expected[3] && ramped(&other, scene, 4) == expected[4..], "{scene:?}");
-        // a reset forgets the option with all other values
+        assert!(other.outputs() == expected[3] && outputs_of_steps(&other, scene, 4) == expected[4..], "{scene:?}");
+        // a reset also switches the option off
         assert_eq!(other.reset(), Status::Ok);
         let unset = Host::new();
         other.start();

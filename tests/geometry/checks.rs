@@ -113,7 +113,7 @@ fn a_fillet_that_does_not_fit_gives_a_warning() {
     let words = [
         "geometry.root_fillet: the planet's root fillet is cut to",
         "not 4.500 mm = 1.000 modules",
-        "the whole gap is rounded",
+        "the whole tooth space is rounded",
     ];
     assert_warns(&spec, &words);
     let steep = GearSpec { pressure_angle: 30f64.to_radians(), ..explicit([1.0, 2.0], [1.0, 2.0]) };

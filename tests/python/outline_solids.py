@@ -59,7 +59,7 @@ class Gear:
             azimuth = low + np.arcsin(np.sin(self.fillet) / np.sin(centre))
             end = np.arctan(np.tan(centre) * np.cos(azimuth - low))
         if azimuth > np.pi / self.teeth or end > self.pitch:
-            raise ValueError("the fillet does not fit its gap")
+            raise ValueError("the fillet does not fit into the tooth space")
         polar = self.root + (end - self.root) * np.linspace(0.0, 1.0, STEPS + 1) ** 2
         beside = (np.cos(self.fillet) - np.cos(polar) * np.cos(centre)) / (np.sin(polar) * np.sin(centre))
         return polar, azimuth - np.arccos(np.clip(beside, -1.0, 1.0))

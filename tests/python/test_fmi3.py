@@ -268,3 +268,18 @@ def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps
     assert 20 * few <= many
     # polling is late by at most 10 us, in which a brake changes speeds by some 1000 rad/s² and moves teeth through the backlash
     assert by_events == pytest.approx(by_looking, abs=0.05)
+
+
+def test_a_discarded_step_gives_the_time_at_which_it_failed(fmu3):
+    flags, last = [ctypes.c_bool() for _ in range(3)], ctypes.c_double(-1.0)
+    with Unit3(fmu3) as unit:
+        unit.initialise({})
+        for k in range(2):
+            unit.step(k * 1e-3, 1e-3)
+        unit.set({"left.load_torque": 1e7})
+        step = unit.raw.dll.fmi3DoStep
+        step.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_bool, *[ctypes.c_void_p] * 4]
+        discarded = 2
+        assert step(unit.raw.component, 2e-3, 1e-2, False, *map(ctypes.byref, flags), ctypes.byref(last)) == discarded
+    # the teeth bend too far long before the end, but not at the start
+    assert 2e-3 < last.value < 12e-3

@@ -19,7 +19,7 @@ pub extern "C" fn foreign_sundials(run: &mut Run, entries: Entries, data: Entrie
 /// CVODE's `CVRhsFn`.
 ///
 /// # Safety
-/// Called by CVODE with vectors of the run's size, and the run after [`foreign_sundials`].
+/// CVODE passes vectors of the run's size. [`foreign_sundials`] was called for `run` before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mut c_void, run: &mut Run) -> c_int {
     let Some([entries, _]) = run.entries else { return -1 };
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn foreign_cvode_rhs(_time: f64, u: *mut c_void, rate: *mu
 /// CVODE's `CVLsJacFn` for dense matrices.
 ///
 /// # Safety
-/// Like [`foreign_cvode_rhs`].
+/// The requirements of [`foreign_cvode_rhs`], and `matrix` is dense and has the run's size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode_jacobian(
     _time: f64,
@@ -52,8 +52,8 @@ pub unsafe extern "C" fn foreign_cvode_jacobian(
 /// Steps CVODE to each of `count` times and copies its u to `out`. Returns the first error, or 0.
 ///
 /// # Safety
-/// `step` is `CVode`, `memory` its memory, and `vector` has the run's size. The arrays have room for `count` times and
-/// states.
+/// `step` is the function `CVode`, `memory` is its memory, and `vector` has the run's size. `times` contains `count`
+/// times, and `out` has room for `count` states.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn foreign_cvode(
     run: *const Run,

@@ -23,9 +23,9 @@ LAWS = {"`impact`": ("impact", False), "`line`": ("line", False), "`line_weber`"
         "`line` + gear bodies": ("line", True), "`line_weber` + gear bodies": ("line_weber", True)}
 # fraction of the turn in which the teeth meet, which is ignored
 START = 0.1
-TITLE = ("Smallest and largest errors of each law, compared with `line_weber` + gear bodies. There are four gear pairs with 10/16, 12/20 "
-         "and 14/18 teeth, modules from 3 to 6 mm, with and without bores. Loads are 10 to 100 % of the study's load, scaled to the size "
-         "of the gears")
+TITLE = ("Smallest and largest errors of each law, compared with `line_weber` + gear bodies. The four gear pairs have 10/16 teeth without "
+         "bores, and 10/16, 12/20 and 14/18 teeth with bores; their modules are 3 to 6 mm. Loads are 10 to 100 % of the study's load, "
+         "scaled to the size of the gears")
 
 
 def figures(fmu, scene, values, law, bodies):

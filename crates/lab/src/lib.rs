@@ -1,9 +1,10 @@
 //! The laboratory: measurements and checks of the library. Users do not need it, and their commands do not compile it.
 //!
-//! - [`measure`]: cost of accuracy, solids and couplings, also in other programs
-//! - [`check`]: requirements for a change
+//! - [`measure`]: time and error of this program, of solid teeth, of coupled FMUs, and of other programs on the same
+//!   cases
+//! - [`check`]: commands that fail if the library breaks a promise
 //! - [`all`]: runs every command of both
-//! - [`tools`]: shared tools in addition to those of `fmu_build`
+//! - [`tools`]: tools for both, in addition to the tools of `fmu_build`
 
 #![warn(missing_docs)]
 

@@ -285,7 +285,7 @@ fn description(row: &Variable, choices: Choices) -> String {
     }
 }
 
-fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
+fn variable_type(row: &Variable, is_reinit: bool, choices: Choices) -> Element {
     let mut defaults = Parameters::default();
     match row.access {
         Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
@@ -296,7 +296,7 @@ fn variable_type(row: &Variable, is_reset: bool, choices: Choices) -> Element {
             .with_some("min", row.range.map(|range| number(range.min)))
             .with_some("max", row.range.map(|range| number(range.max)))
             .with_some("nominal", row.nominal.map(number))
-            .with_some("reinit", is_reset.then_some(true))
+            .with_some("reinit", is_reinit.then_some(true))
             .with_some("derivative", row.derivative_of.map(|index| index + 1))
             .with_some("start", real_start(row).map(number)),
         Access::Integer(access) => Element::new("Integer")

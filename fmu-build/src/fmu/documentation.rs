@@ -24,7 +24,7 @@ const INTRODUCTION: &str = "Dynamics of a bevel gear differential as an FMU for 
 const LIVE: &str = "The differential live in a browser: scenes, parameters and effects, with the gears in motion.";
 const TESTS: &str = "Scenes with expected results in the FMU, and how to test with them.";
 const USE: [&str; 5] = [
-    "Import the FMU into any host of FMI 2.0 on one of the platforms below.",
+    "Import the FMU into any host of its FMI version, 2.0 or 3.0, on one of the platforms below.",
     "Without any setting it simulates a passenger car's differential driving straight ahead at 60 km/h with 835 N.m on each \
      half-shaft.",
     "For a turn, set scene.planet_spin to imposed (2) and spin.command to the spin of the planets.",
@@ -43,11 +43,11 @@ const UNITS: [&str; 3] = [
 const LIMITATIONS: [&str; 4] = [
     "The shaft angle is 90 degrees. The end of initialisation checks each parameter and their combinations, and reports \
      each error with the name of its variable.",
-    "In co-simulation, inputs are constant over a communication step, unless the host sets their first or second derivatives \
-     (fmi2SetRealInputDerivatives).",
+    "In co-simulation, inputs are constant over a communication step, unless solver.input_ramp is on or the host sets \
+     their first or second derivatives (only in FMI 2.0: fmi2SetRealInputDerivatives).",
     "Published laws of friction and strength are also used beyond the ranges in which they were measured, without a warning.",
-    "A step that cannot be completed is discarded with the last successful time; restore a state or reset the instance to \
-     continue.",
+    "A step that cannot be completed returns fmi2Discard or fmi3Discard. The log and, in FMI 2.0, \
+     fmi2LastSuccessfulTime give the time that was reached. Restore a state or reset the instance to continue.",
 ];
 
 /// A picture of the page.
@@ -81,18 +81,18 @@ pub const FIGURES: [Figure; 3] = [
 pub struct Beside {
     /// Page with the differential in motion.
     pub live: Option<&'static str>,
-    /// Instructions for a test with the evidence.
+    /// Page that explains how to test with the scenes and expected results in the FMU.
     pub tests: Option<&'static str>,
 }
 
-/// Page of an archive with `libraries`, which contain the parts in `linked`.
+/// Page of an archive with `libraries`, into which the parts in `linked` are linked.
 pub fn page(libraries: &[Library], linked: &[LinkedPart], beside: &Beside) -> Result<String> {
     let mut body = Element::new("body")
         .child(Element::new("h1").text(MODEL_NAME))
         .child(Element::new("p").text(concat!(
             "Version ",
             env!("CARGO_PKG_VERSION"),
-            ", FMI 2.0 co-simulation and model exchange."
+            ", co-simulation and model exchange with FMI 2.0 and FMI 3.0."
         )))
         .child(paragraph(INTRODUCTION))
         .children(beside.live.map(|file| link(file, LIVE)))

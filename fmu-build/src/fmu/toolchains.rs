@@ -57,7 +57,7 @@ impl ToolchainsCommand {
         let wanted = |name: &str| self.platform.as_deref().is_none_or(|only| only == name);
         let progress = Progress::start("looking for Python");
         let mut made = Vec::new();
-        // zig also links for ARM, and describes the library of macOS
+        // zig also links for ARM, and its package contains the stub of macOS' system library (libSystem.tbd)
         if ["linux64", "aarch64-linux", "darwin64"].into_iter().any(wanted) {
             let linux = old_linux().made(|what| progress.stage(what))?;
             made.push(format!("linux64 for glibc {GLIBC}: {}", paths::shown(&linux.programs())));
@@ -193,8 +193,8 @@ impl Compiler {
         Self::found(targets).map_or_else(|| RUST.made(progress).map(Self::Unpacked), Ok)
     }
 
-    /// Sets up `cargo` to use this compiler. Debian's Rust also compiles the standard library, because it contains only
-    /// its source.
+    /// Sets up `cargo` to use this compiler. With Debian's Rust, cargo also compiles the standard library, because
+    /// the unpacked packages contain only its source for these targets.
     pub fn compile(&self, cargo: &mut Command) {
         if let Self::Unpacked(tools) = self {
             cargo

@@ -81,7 +81,10 @@ unsafe fn part(
         early.write(0);
         last.write(instance.now.simulation.as_ref().map_or(point, |simulation| simulation.time()));
         let [update, environment] = instance.allowed.update;
-        let ended = instance.step_to_event([point, size, until], update != 0)?;
+        let ended = instance.step_to_event([point, size, until], update != 0).inspect_err(|_| {
+            // a discarded step has advanced to where it failed
+            last.write(instance.now.simulation.as_ref().map_or(point, |simulation| simulation.time()));
+        })?;
         event.write(Boolean::from(ended.event));
         early.write(Boolean::from(ended.early));
         last.write(ended.time);

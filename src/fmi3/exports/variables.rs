@@ -3,7 +3,9 @@
 use super::*;
 use crate::instance::values::all_or_none;
 
-/// Passes on the outcome of a call that reads values, and completes the error of a call that sets them.
+/// Outcome of a call. If a call that sets several values fails, the message adds that none of them was set. The outcome
+/// of a call that reads values is unchanged. The first argument is the direction of the array `values`: `output` if the
+/// call reads variables, `input` if the call sets them.
 macro_rules! outcome {
     (output, $count:expr, $outcome:expr) => {
         $outcome

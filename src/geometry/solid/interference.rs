@@ -3,9 +3,9 @@
 //! Both apexes coincide and the gears turn by Willis' equation. A planet turned by θ from a tooth in the plane of both
 //! axes faces a gap of the side gear turned by θ z_p/z_s. All meshes of a differential pass through the same positions,
 //! half a tooth pitch apart, and left and right are mirror images. One pair over one pitch therefore covers all meshes.
-//! The pair is examined in two stances. In the first, teeth are in the middle of their gaps, with equal backlash on
-//! both flanks. In the second, all backlash is closed on one side, as in running gears; flanks then touch, and nothing
-//! else may touch.
+//! The pair is examined in two stances. In the first, teeth are in the middle of the tooth spaces, with equal backlash
+//! on both flanks. In the second, all backlash is closed on one side, as in running gears; flanks then touch, and
+//! nothing else may touch.
 //!
 //! A ray of one gear can be inside the other gear. Its *depth* is then the distance from the nearest face of the other
 //! gear, along the normal of this face. Each gear has one ray through each node of its outline, including the corners

@@ -3,7 +3,7 @@
 use crate::contact::detailed::{Face, Node, Slice};
 use crate::geometry::Pair;
 
-/// Cone distance of the resultant of a load per width that grows with R [m].
+/// Cone distance [m] of the resultant of a line load proportional to R.
 pub fn centroid(pair: &Pair) -> f64 {
     let (outer, inner) = (pair.outer_cone, pair.inner_cone);
     2.0 / 3.0 * (outer * outer * outer - inner * inner * inner) / (outer * outer - inner * inner)

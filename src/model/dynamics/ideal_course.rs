@@ -79,8 +79,8 @@ impl Course {
         self.speed + h * (a + h * (0.5 * b + h * (c * (1.0 / 6.0))))
     }
 
-    /// ∫ω dt, ∫ω t dt and ∫ω t²/2 dt from 0 to `h` [s]: the angle turned, and the factors of a torque's derivatives in
-    /// its work.
+    /// ∫ω dt, ∫ω t dt and ∫ω t²/2 dt from 0 to `h` [s]. The first is the angle turned. The work of a torque
+    /// M + Ṁ t + M̈ t²/2 is the sum of M, Ṁ and M̈ times these three integrals.
     fn moments(&self, h: f64) -> [f64; 3] {
         let (v, [a, b, c]) = (self.speed, self.acceleration);
         [

@@ -1,8 +1,9 @@
 //! Changes of torques without a restart of the integration.
 //!
-//! Torques only add to the accelerations. If nothing else changes, one evaluation therefore serves as the end of the
-//! step before the change and as the start of the next step. The pending step is completed up to the change, with the
-//! torques that acted in it, and the integration continues.
+//! Torques only add terms to the accelerations. If only they change, one evaluation with the new torques serves both
+//! the start of the next step and the end of the step before the change; for the latter, the change of the torques is
+//! taken back. The pending step is completed up to the change, with the torques that acted in it, and the integration
+//! continues.
 
 use super::timeline;
 use crate::model::assembly::Model;

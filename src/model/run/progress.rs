@@ -2,7 +2,8 @@
 //!
 //! While inputs are constant, the integrator's steps do not depend on the times that the host requests. The pending
 //! step ends beyond the present, and its dense output gives the motion at the present. When something changes, the
-//! pending step is completed up to the present, and the integration restarts there.
+//! pending step is completed up to the present, and the integration restarts there. If only torques change, the
+//! integration continues without a restart (see `change`).
 
 use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration};
@@ -27,8 +28,8 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &m
     timeline::begin_constant_inputs(state);
 }
 
-/// Completes the pending step up to the present, under the inputs that acted in it. Friction that is due to switch at
-/// the present switches.
+/// Completes the pending step up to the present, under the inputs that acted in it. Also switches friction that is due
+/// to switch at the present.
 pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
     let Some(pending_step) = &state.pending_step else { return };
     let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
@@ -84,7 +85,7 @@ pub fn integrate(
         let pauses = if state.time() < until {
             options.pauses && state.events.count() != events
         } else {
-            // without a pending step, the equations end here, and the next part starts a new clock
+            // no step is pending, so the next part starts a new clock, and the pause is stored at its time 0
             options.is_part && state.pending_step.is_none()
         };
         if pauses {
@@ -115,7 +116,8 @@ fn step_to_stop(
     arrive(state, stop, begin + clock.time, outcome)
 }
 
-/// Integrates in steps that do not depend on the stop, until the pending step contains it.
+/// Integrates in steps that do not depend on the stop. Ends if the pending step contains the stop, if the equations
+/// change at the stop, or if an event pauses the motion before the stop.
 fn step_past_stop(
     model: &Model,
     inputs: &Inputs,
@@ -125,10 +127,10 @@ fn step_past_stop(
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
     let mut change = jump.map(|jump| (change::begin_interval(state, &mut clock), jump));
-    let [mut shown, time] = timeline::last_communication_point(state, &clock);
-    let mut begin = time - shown;
-    let mut wanted = if stop.is_change { clock.end } else { shown + (stop.time - time) };
-    clock.now = wanted;
+    let [mut last_point, time] = timeline::last_communication_point(state, &clock);
+    let mut begin = time - last_point;
+    let mut target = if stop.is_change { clock.end } else { last_point + (stop.time - time) };
+    clock.now = target;
     // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
@@ -140,22 +142,22 @@ fn step_past_stop(
         }
         wrap_and_constrain(model, state);
         // an event has paused the motion before the stop
-        if outcome.is_ok() && state.pending_step.is_some() && clock.now < wanted {
-            state.pause = Some(Pause { now: shown, time, inputs: *inputs });
+        if outcome.is_ok() && state.pending_step.is_some() && clock.now < target {
+            state.pause = Some(Pause { now: last_point, time, inputs: *inputs });
             state.move_with_clock(begin + clock.now);
             return Ok(());
         }
-        // the pending step contains the stop, the equations end there, or a step has failed
+        // the pending step contains the stop, the equations change there, or a step has failed
         if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             let arrived = arrive(state, stop, begin + reached, outcome);
             if options.is_part && state.pending_step.is_some() {
-                state.pause = Some(Pause { now: shown, time, inputs: *inputs });
+                state.pause = Some(Pause { now: last_point, time, inputs: *inputs });
             }
             return arrived;
         }
         // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
-        (begin, shown, wanted) = (begin + by, shown - by, wanted - by);
+        (begin, last_point, target) = (begin + by, last_point - by, target - by);
     }
 }
 

@@ -17,16 +17,17 @@ const POINTS: [f64; 2] = [313.15, 373.15];
 const DENSITY_POINT: f64 = 288.15;
 /// Constant of Walther's equation [mm²/s].
 const WALTHER: f64 = 0.7;
-/// Square metres per second in a square millimetre per second.
+/// Number of m²/s in 1 mm²/s.
 const MM2: f64 = 1e-6;
-/// Lower limit of the density, as a fraction of the given density. No oil becomes so light.
+/// Lower limit of the density, as a fraction of the given density. No oil is so light.
 const LEAST_DENSITY: f64 = 0.1;
 
 spec! {
     /// The oil in the sump. The start values are those of an axle oil 75W-90.
     pub struct OilSpec {
-        /// Temperature of the oil and of all rubbing surfaces [K]. With the effect `warm_up`, it is the temperature at
-        /// the start, or of a given sump.
+        /// Temperature of the oil and of all rubbing surfaces [K]. With the effect `warm_up`, it is the oil's
+        /// temperature at the start, unless the scene starts with `steady_heat`. With `warm_up.sump_given`, the oil
+        /// keeps it, apart from the input `warm_up.sump_change`.
         pub temperature: f64 = 353.15,
         /// Kinematic viscosity at 40 °C [m²/s].
         pub viscosity_40: f64 = 100e-6,

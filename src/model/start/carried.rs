@@ -25,10 +25,10 @@ impl Carried {
     /// Torques under `inputs` at the speeds of `state`, for gears that move as the differential `ideal`: the ideal
     /// differential of the scene, or its variant with imposed planet spin.
     pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
-        let on_bodies = on_bodies(model, inputs, state);
+        let effect_torques = effect_torques(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
-        let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - on_bodies[s]);
-        let drive = inputs.carrier_torque + on_bodies[CARRIER];
+        let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - effect_torques[s]);
+        let drive = inputs.carrier_torque + effect_torques[CARRIER];
         // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
         let mut rigid = *ideal;
         rigid.plan.shafts = [false; 2];
@@ -61,7 +61,7 @@ impl Carried {
             }
         };
         let side_acceleration = rigid.side_accelerations(&motion);
-        let shaft = [0, 1].map(|s| teeth[s] + on_bodies[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
+        let shaft = [0, 1].map(|s| teeth[s] + effect_torques[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
         Self { teeth, shaft, side_acceleration, carrier_acceleration: motion.carrier, spin_acceleration: motion.spin }
     }
 }
@@ -80,7 +80,7 @@ fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
 
 /// Torques of effects, such as drag, on side gears and carrier at the speeds of `state` [N·m]. Half-shafts, pins and
 /// seats are not wound up yet.
-fn on_bodies(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
+fn effect_torques(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIER + 1] {
     let (q, mut v) = ([0.0; MAX_DOF], state.v);
     for (i, to) in model.layout.attached() {
         v[i] = v[to];

@@ -1,5 +1,6 @@
 //! Rows of the parameters, one file per group. The effects declare their own parameters. Parameters are fixed unless
-//! they are declared tunable. The order of the rows determines the value references.
+//! they are declared tunable. The order of the rows determines the value references. Rows named in `added.rs` are moved
+//! behind all others.
 
 mod bodies;
 mod contact;
@@ -38,7 +39,7 @@ fn scene() -> Vec<Row<Parameter<Parameters>>> {
     ]
 }
 
-/// Switches for two properties of plain teeth.
+/// Switches for backlash and corner contact, which belong to no effect.
 fn teeth() -> [Row<Parameter<Parameters>>; 2] {
     [
         row("effects.backlash", "Backlash between the teeth; false: none").switch(|p| &mut p.effects.backlash),

@@ -1,6 +1,6 @@
-//! Gear pairs for tests of tooth stiffness: those of the references, and random pairs as extreme as the interface
-//! allows.
-#![allow(dead_code)] // each test file uses its part
+//! Gear pairs for tests of tooth stiffness: the pairs of the references, and random pairs over most of the range that
+//! the interface allows.
+#![allow(dead_code)] // each test file uses only some of these items
 
 use crate::random::Draws;
 use bevel_differential::contact::stiffness::{Elasticity, PairStiffness, RootSpec};
@@ -47,7 +47,7 @@ pub fn default() -> PairStiffness {
 pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
     let mut u = Rng::with_seed(seed);
     std::iter::repeat_with(move || {
-        // few teeth are as frequent as many
+        // uniform in the logarithm, so that small numbers of teeth are as frequent as large ones
         let teeth = |u: &mut Rng| (5.0 * 40.999f64.powf(u.f64())) as i32;
         let system = (u.f64() * 6.0) as i32;
         let (planet_teeth, side_teeth) = (teeth(&mut u), teeth(&mut u));
@@ -79,7 +79,7 @@ pub fn random_pairs(seed: u64) -> impl Iterator<Item = GearSpec> {
     })
 }
 
-/// True if the pair passes the checks and both pitch angles are below 90°.
+/// True if the pair passes the checks and both pitch angles are below 1.55 rad (88.8°).
 pub fn buildable(spec: &GearSpec) -> bool {
     let pair = Pair::new(spec);
     let bevel = pair.gears.iter().all(|g| g.pitch > 0.0 && g.pitch < 1.55);

@@ -26,7 +26,7 @@ pub struct Mapped {
 }
 
 impl Scene {
-    /// Scene in the image `view`, by the table.
+    /// Image `view` of the scene, by the table of symmetries.
     pub fn image(&self, view: View) -> Self {
         let mut image = self.clone();
         image.inputs = self.image_of_inputs(view, &self.inputs);
@@ -38,7 +38,7 @@ impl Scene {
         }
         let (mut from, to) = (self.parameters, &mut image.parameters);
         for row in table().rows.iter().filter(|row| !matches!(row.access, Access::Output(_))) {
-            let there = same(&self.name(view, row.name));
+            let there = variable(&self.name(view, row.name));
             let sign = self.sign(view, row.name);
             match (row.access, there.access) {
                 (Access::Real(here), Access::Real(there)) => *there(to) = sign * *here(&mut from),
@@ -61,9 +61,10 @@ impl Scene {
         image
     }
 
-    /// Angles by which planets, left and right side gear are ahead in the image [rad]. They are not zero if the image
-    /// starts in another cycle of the teeth.
-    pub fn ahead(&self, view: View) -> [f64; 3] {
+    /// Angles added to the mirrored angles of the planets and the left and right side gear [rad]. They are half a tooth
+    /// pitch if sides are swapped and planet teeth are odd, a whole pitch if the image is shifted, otherwise zero. The
+    /// angle of the right side gear is negative.
+    pub fn added_angles(&self, view: View) -> [f64; 3] {
         let pitches = match view {
             View::Swapped if self.parameters.geometry.planet_teeth % 2 == 1 => 0.5,
             View::Shifted => 1.0,
@@ -73,12 +74,13 @@ impl Scene {
         [planet, side, -side]
     }
 
-    /// State from which the image continues, or `None` if it starts like a scene.
+    /// Start state of the image, made from the scene's `start`. `None` if the usual start of a simulation already gives
+    /// this state.
     pub fn image_of_start(&self, view: View, start: &State, layout: &Layout) -> Option<State> {
-        let ahead = self.ahead(view);
-        // of two equivalent minima, a start selects the one with positive spin angle; in a swapped image, this is the
-        // other minimum
-        if ahead == [0.0; 3] && view != View::Swapped {
+        let added_angles = self.added_angles(view);
+        // of two equilibria with equal energy, a start selects one by the sign of its spin angle; in a swapped image,
+        // the mirrored state is the other one
+        if added_angles == [0.0; 3] && view != View::Swapped {
             return None;
         }
         let mut image = *start;
@@ -102,13 +104,13 @@ impl Scene {
         image.friction.swap(WHEELS, WHEELS + 1);
         for g in 0..layout.groups {
             let (i, friction) = (layout.planet(g), &mut image.friction[PLANETS + g]);
-            (image.q[i], image.v[i]) = (ahead[0] - image.q[i], -image.v[i]);
-            (friction.anchor, friction.mode) = (ahead[0] - friction.anchor, friction.mode.reversed());
+            (image.q[i], image.v[i]) = (added_angles[0] - image.q[i], -image.v[i]);
+            (friction.anchor, friction.mode) = (added_angles[0] - friction.anchor, friction.mode.reversed());
         }
         for s in 0..2 {
-            image.q[s] += ahead[1 + s];
-            image.friction[s].anchor += ahead[1 + s];
-            image.friction[WHEELS + s].anchor += ahead[1 + s];
+            image.q[s] += added_angles[1 + s];
+            image.friction[s].anchor += added_angles[1 + s];
+            image.friction[WHEELS + s].anchor += added_angles[1 + s];
         }
         Some(image)
     }
@@ -117,14 +119,14 @@ impl Scene {
         let (mut from, mut image) = (*inputs, Inputs::ZERO);
         for row in &table().rows {
             let Access::Input(here) = row.access else { continue };
-            if let Access::Input(there) = same(&self.name(view, row.name)).access {
+            if let Access::Input(there) = variable(&self.name(view, row.name)).access {
                 *there(&mut image) = self.sign(view, row.name) * *here(&mut from);
             }
         }
         image
     }
 
-    /// Parity of a variable.
+    /// Parity of a variable in the reflection `view`; even in a rotation or a shift.
     fn parity(&self, view: View, name: &str) -> Parity {
         let line = &lines()[line_of(name).unwrap_or_else(|| panic!("{name} is in no table"))];
         match view {
@@ -137,7 +139,7 @@ impl Scene {
     /// Factor of a variable in the image.
     fn sign(&self, view: View, name: &str) -> f64 {
         let by_torque = self.parameters.scene.carrier_drive == CarrierDrive::Torque;
-        // two planets that change places are turned by half a turn
+        // to renumber two planets is to turn the carrier by half a turn, which reverses the offset of the axes
         if view == View::Renumbered && self.planets() == 2 && name == "tooth_errors.axis_offset" {
             return -1.0;
         }
@@ -164,20 +166,20 @@ impl Scene {
     /// Mapping of each output to the image.
     pub fn map(&self, view: View) -> Vec<Mapped> {
         let pair = self.pair();
-        let (lash, [ahead, left, right]) = (pair.normal_backlash * pair.mean_cone, self.ahead(view));
+        let (lash, [spin, left, right]) = (pair.normal_backlash * pair.mean_cone, self.added_angles(view));
         outputs()
             .iter()
             .map(|row| {
                 // missing planets and ideal gears have no backlash
                 let planet = planet_of(row.name).is_some_and(|i| i <= self.planets());
                 let meshes = planet && self.parameters.scene.gear_contact != GearContact::Ideal;
-                let apart = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
+                let lash_shift = if meshes && self.parity(view, row.name) == Parity::Lash { -lash } else { 0.0 };
                 let image = self.name(view, row.name);
                 let added = match image.as_str() {
                     "left.angle" | "left.wheel_angle" | "left.relative_angle" => left,
                     "right.angle" | "right.wheel_angle" | "right.relative_angle" => right,
-                    name if name.ends_with(".spin_angle") && planet => ahead,
-                    _ => apart,
+                    name if name.ends_with(".spin_angle") && planet => spin,
+                    _ => lash_shift,
                 };
                 let mapped =
                     Mapped { output: output(&image), factor: self.sign(view, row.name), added, magnitude: false };
@@ -198,6 +200,6 @@ fn planet_of(name: &str) -> Option<usize> {
     name[at..at + 1].parse().ok()
 }
 
-fn same(name: &str) -> &'static Variable {
+fn variable(name: &str) -> &'static Variable {
     named(name).unwrap_or_else(|| panic!("no variable {name}"))
 }

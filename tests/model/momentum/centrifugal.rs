@@ -1,7 +1,7 @@
 //! Centrifugal force of the planets on their washers: m r ω², with mass and centre of mass of their solids.
 //!
-//! Teeth in the middle of their gaps are unloaded, so that the torque that imposes the spin only overcomes the friction
-//! of the washers.
+//! Teeth in the middle of the tooth spaces are unloaded, so that the torque that imposes the spin only overcomes the
+//! friction of the washers.
 
 use bevel_differential::geometry::GearSpec;
 use bevel_differential::model::{

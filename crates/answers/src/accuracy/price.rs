@@ -1,5 +1,6 @@
-//! Cost of a run, in evaluations of plain teeth: its counts times the prices that `prices --write` measured. It does
-//! not depend on the machine, so equal questions get equal answers.
+//! Cost of a run, in evaluations of plain teeth: the run's numbers of communication steps and evaluations, times the
+//! prices that `prices --write` measured. The cost does not depend on the machine, so equal questions get equal
+//! answers.
 
 use std::sync::OnceLock;
 
@@ -12,7 +13,7 @@ use super::switches::effects;
 /// Columns: enabled effect or level; price of an evaluation of the tooth forces; price of a communication step.
 const MEASURED: &str = include_str!("../../data/prices.csv");
 
-/// Minimum price of an evaluation by which [`evaluations`] divides. [`cost`] uses lower prices unchanged.
+/// Minimum price by which [`evaluations`] divides. [`cost`] uses lower prices unchanged.
 const LEAST: f64 = 0.01;
 
 /// A row of `MEASURED`.
@@ -23,7 +24,9 @@ struct Price {
 }
 
 impl Price {
-    /// Price of an evaluation, without its share of the cost that a communication step has even without teeth.
+    /// Price of an evaluation, without the share of communication steps. The measured price spreads the whole time of a
+    /// run over its evaluations. The share that communication steps take even without teeth is removed here, because
+    /// [`cost`] counts it separately.
     fn net_evaluation(&self) -> f64 {
         self.per_evaluation * (1.0 - step_without_teeth() / self.per_step).max(0.0)
     }

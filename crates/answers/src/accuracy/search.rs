@@ -86,13 +86,23 @@ pub fn search(bench: &mut Bench, scene: &Scene, richest: &Richest, within: f64) 
     let mut chosen: Option<usize> = None;
     // the two plainest accurate gears: the richer of the two may be cheaper because its teeth are softer
     for &start in starts.iter().take(STARTS) {
-        let reduced = leave_out(bench, start, &effects, base, scene, within);
+        let reduced = leave_out(bench, start, &effects, &[], scene, within);
         let reduced = if is_fixed {
             // richer gears cost more per step, so they would not allow shorter steps
             let Some(stepped) = in_fixed_steps(bench, reduced, scene, within) else { break };
             stepped
         } else {
-            loosen(bench, reduced, within)
+            let mut best = loosen(bench, reduced, within);
+            // the same with the effects of the scene that save time, such as corner contact, without which forces jump
+            let kept = savers(bench, &effects, base, scene);
+            if !kept.is_empty() {
+                let with = leave_out(bench, start, &effects, &kept, scene, within);
+                let with = loosen(bench, with, within);
+                if bench.trials[with].cost < (1.0 - SAVES) * bench.trials[best].cost {
+                    best = with;
+                }
+            }
+            best
         };
         if chosen.is_none_or(|best| bench.trials[reduced].cost < CHEAPER * bench.trials[best].cost) {
             chosen = Some(reduced);
@@ -170,12 +180,12 @@ fn screening(bench: &mut Bench, richest: &Scene, within: f64) -> (f64, Option<us
 
 /// Leaves effects out of run `start`, those with the smallest change first, while the result stays accurate enough and
 /// becomes cheaper. Effects that the scene as `written` does not have are left out even if that is more expensive,
-/// because they must not be added only to save time. `base` is the run from which `singles` leave out one effect each.
+/// because they must not be added only to save time. Effects in `kept` are left out only if that is cheaper.
 fn leave_out(
     bench: &mut Bench,
     start: usize,
     singles: &[Single<Switch>],
-    base: Option<usize>,
+    kept: &[Switch],
     written: &Scene,
     within: f64,
 ) -> usize {
@@ -186,27 +196,21 @@ fn leave_out(
         singles.iter().filter(|single| single.of.is_on(&bench.trials[start].scene.parameters)).collect();
     left.sort_by(|a, b| size(bench, a).total_cmp(&size(bench, b)));
     let mut current = start;
-    // most effects do not matter: all of them together, except effects of the scene that save time, such as corner
-    // contact, without which forces jump
-    let saves_time = |bench: &Bench, single: &Single<Switch>| {
-        let cost = |run: usize| bench.trials[run].cost;
-        let costs = single.run.as_ref().ok().zip(base).map(|(&without, with)| [cost(without), cost(with)]);
-        single.of.is_on(&written.parameters) && costs.is_some_and(|[without, with]| without > (1.0 + SAVES) * with)
-    };
+    // most effects do not matter: all of them together
     let (mut sum, error) = (0.0, bench.trials[start].error());
     let few = left.iter().take_while(|single| {
         sum += (size(bench, single) - error).max(0.0);
         sum <= TOGETHER * within
     });
     let few = few.count();
-    let (kept, batch): (Vec<&Single<Switch>>, Vec<&Single<Switch>>) =
-        left[..few].iter().copied().partition(|single| saves_time(bench, single));
+    let (others, batch): (Vec<&Single<Switch>>, Vec<&Single<Switch>>) =
+        left[..few].iter().copied().partition(|single| kept.iter().any(|of| of.name() == single.of.name()));
     if batch.len() > 1 {
         let mut scene = bench.trials[current].scene.clone();
         batch.iter().for_each(|single| single.of.set(&mut scene.parameters, false));
         if let Some(less) = attempt(bench, current, &scene, "without all that do not matter", true, within) {
             current = less;
-            left.splice(..few, kept);
+            left.splice(..few, others);
         }
     }
     for single in left {
@@ -221,6 +225,17 @@ fn leave_out(
         }
     }
     current
+}
+
+/// Effects of the scene as `written` without which a run costs more than run `base`, which has all effects of `singles`.
+fn savers(bench: &Bench, singles: &[Single<Switch>], base: Option<usize>, written: &Scene) -> Vec<Switch> {
+    let cost = |run: usize| bench.trials[run].cost;
+    let costs_more = |single: &&Single<Switch>| {
+        let runs = single.run.as_ref().ok().zip(base);
+        single.of.is_on(&written.parameters)
+            && runs.is_some_and(|(&without, with)| cost(without) > (1.0 + SAVES) * cost(with))
+    };
+    singles.iter().filter(costs_more).map(|single| single.of).collect()
 }
 
 /// Returns the run of `scene` if it is accurate enough, and `plainer` or cheaper than run `current`.

@@ -29,7 +29,7 @@ pub struct Position {
 }
 
 impl Position {
-    /// Side gears rolled along by carrier and planets, with teeth in the middle of their gaps.
+    /// Side gears rolled along by carrier and planets, with teeth in the middle of the tooth spaces.
     pub fn rolling(spec: &GearSpec, carrier: f64, spin: f64) -> Self {
         let rolled = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth) * spin;
         Self { carrier, left: carrier + rolled, right: carrier - rolled, spin }

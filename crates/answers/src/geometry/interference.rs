@@ -29,7 +29,7 @@ pub struct InterferenceCheck {
     spec: GearSpec,
     /// Added thickness of the teeth [m], of both gears together, at the outer pitch circle.
     thicken: f64,
-    /// Results with the teeth in the middle of their gaps, and with all backlash taken up on one side.
+    /// Results with the teeth in the middle of the tooth spaces, and with all backlash taken up on one side.
     stances: [Interference; 2],
 }
 
@@ -77,7 +77,7 @@ impl InterferenceCheck {
             ));
         }
         let headings =
-            ["Teeth in the middle of their gaps", "Backlash taken up on one side, as gears run", "Neighbours"];
+            ["Teeth in the middle of the tooth spaces", "Backlash taken up on one side, as gears run", "Neighbours"];
         for (number, (heading, finding)) in (1..).zip(headings.iter().zip(self.findings())) {
             let (result, details) = finding.split_once('\n').unwrap_or((&finding, ""));
             out += &wrapped(&format!("{number}. {heading}: {result}."));

@@ -133,9 +133,10 @@ fn columns(found: &[PatternFindings], count: usize) -> Table {
 /// Table for the document.
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
-        "{}\nForce, centroid, line loads and pressure are for the instant at which the pair is nearest to its pitch point. \
-         The centroid of the load counts from the middle of the face toward the heel. Peak is the largest pressure at or \
-         above the pitch line over the engagement.\n",
+        "{}\nForce, centroid, line loads and pressure are for the instant at which the pair is nearest to its pitch \
+         point. The contact may then be slightly below the pitch line. The centroid of the load counts from the middle \
+         of the face toward the heel. Peak is the largest pressure of the whole engagement at or above the pitch line, \
+         so it can be smaller than the pressure.\n",
         columns(found, IN_DOCUMENT).markdown()
     )
 }

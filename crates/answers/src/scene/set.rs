@@ -179,7 +179,7 @@ fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> 
     }
 }
 
-/// Checks that a real value is within its range.
+/// Returns a real value in the unit of the interface. Fails if the value is unreadable or out of its range.
 pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
     let number = match value {
         Value::Float(number) => *number,
@@ -225,8 +225,8 @@ pub fn written(value: &Value) -> String {
     }
 }
 
-/// Start values of `scene` in the order of the FMU's variables: parameters that the scene sets explicitly or changes,
-/// then all inputs.
+/// Start values of `scene`, in the order of the FMU's variables: all inputs, and the parameters that the scene sets
+/// explicitly or that differ from the default.
 pub fn start_values(scene: &Scene) -> Vec<Setting> {
     let all = table().rows.iter();
     all.filter(|row| matches!(row.access, Access::Input(_)) || is_of_scene(scene, row))
@@ -234,12 +234,12 @@ pub fn start_values(scene: &Scene) -> Vec<Setting> {
         .collect()
 }
 
-/// Start values of parameters and inputs that `scene` sets explicitly or changes.
+/// Start values of the parameters and inputs that `scene` sets explicitly or that differ from the default.
 pub fn changed_values(scene: &Scene) -> Vec<Setting> {
     start_values(scene).into_iter().filter(|setting| is_of_scene(scene, setting.row)).collect()
 }
 
-/// True if `scene` sets a variable explicitly or changes its value.
+/// True if `scene` sets a variable explicitly, or if the variable's value in `scene` differs from the default.
 fn is_of_scene(scene: &Scene, row: &'static Variable) -> bool {
     let named = scene.settings.iter().any(|setting| setting.row.name == row.name);
     let value = |p: &Parameters, i: &Inputs| value_of(row, p, i);

@@ -1,5 +1,5 @@
-//! Check for memory errors and leaks: hosts in C that use instances from creation to end, and random calls, run under
-//! memcheck.
+//! Check for memory errors and leaks: a host in C that uses instances from creation to end, random calls, and random
+//! questions run under memcheck.
 
 use std::env;
 use std::ffi::OsString;
@@ -28,7 +28,7 @@ pub fn reference(name: &str) -> Result<OsString> {
     index_of(name).map(|i| i.to_string().into()).with_context(|| format!("there is no variable {name}"))
 }
 
-/// Arguments of the hosts in C: library, GUID, value references of an input and of an output.
+/// Arguments of hosts in C: library, GUID, value references of an input and of an output.
 pub fn arguments(library: &Path) -> Result<Vec<OsString>> {
     Ok(vec![library.into(), guid().into(), reference("left.load_torque")?, reference("left.speed")?])
 }
@@ -52,7 +52,7 @@ pub fn compiled(name: &str, options: &[&str]) -> Result<PathBuf> {
     Ok(program)
 }
 
-/// Checks hosts in C and random calls for memory errors and leaks (needs valgrind and cc)
+/// Checks a host in C, random calls and random questions for memory errors and leaks (needs valgrind and cc)
 #[derive(Args, Clone, Debug)]
 pub struct MemcheckCommand {
     /// Number of random questions
@@ -99,7 +99,7 @@ fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[Strin
         .context("valgrind checks the memory: install it (apt-get install valgrind)")?;
     let said = String::from_utf8_lossy(&output.stderr);
     if !output.status.success() {
-        let names = "with CARGO_PROFILE_RELEASE_STRIP=none in the environment, functions have their names";
+        let names = "to see names of functions, build and run again with CARGO_PROFILE_RELEASE_STRIP=none";
         return Err(Finding(format!("{program} ({}):\n{}\n{names}", output.status, said.trim_end())).into());
     }
     let errors = between(&said, "ERROR SUMMARY: ", " errors").context("valgrind reported no count of errors")?;
@@ -108,7 +108,7 @@ fn memcheck(program: &str, path: &Path, arguments: &[OsString]) -> Result<[Strin
     Ok([program, "memcheck", errors, lost, &seconds].map(str::to_owned))
 }
 
-/// Text of `said` between the texts `before` and `after`.
+/// Part of `said` between the texts `before` and `after`.
 fn between<'a>(said: &'a str, before: &str, after: &str) -> Option<&'a str> {
     said.split_once(before)?.1.split_once(after).map(|(text, _)| text)
 }

@@ -1,5 +1,5 @@
 //! Random questions to the library of answers, through its C interface and from several threads at the same time. Each
-//! must get an answer or a problem.
+//! question must get an answer or a problem.
 
 use std::collections::BTreeMap;
 use std::ffi::CString;
@@ -25,7 +25,7 @@ const PATIENCE: Duration = Duration::from_millis(20);
 const ODD: [&str; 14] =
     ["0", "-1", "1e308", "-1e-320", "1e999", "nan", "inf", "", "°", "4.5 mm", "3 kg", "true", "line_weber", "a\u{0}b"];
 
-/// Kinds of questions, each with its keys.
+/// Kinds of questions, each with its keys. `of[]` is the key `of` with a list of scenes.
 const KINDS: [(&str, &[&str]); 12] = [
     ("scenes", &["scenes"]),
     ("scene", &["of"]),
@@ -34,7 +34,7 @@ const KINDS: [(&str, &[&str]); 12] = [
     ("export", &["of", "format"]),
     ("loads", &["of", "out", "every"]),
     ("accuracy", &["of", "want", "within", "from"]),
-    ("pattern", &["ofs"]),
+    ("pattern", &["of[]"]),
     ("geometry", &["set", "facets", "thicken", "solids"]),
     ("word", &["statistic"]),
     ("statistics", &["points", "figures"]),
@@ -55,7 +55,7 @@ pub struct QuestionsCommand {
     seed: u64,
 }
 
-/// Statistics of the questions: counts by kind, the longest, and findings.
+/// Statistics of the questions: number of replies of each kind, longest time with its question, and findings.
 #[derive(Default)]
 struct Tally {
     kinds: BTreeMap<String, usize>,
@@ -64,11 +64,12 @@ struct Tally {
 }
 
 impl QuestionsCommand {
-    /// Asks the questions and prints a table of the replies. Fails if a reply is invalid.
+    /// Asks the questions and prints a table of the replies. Fails if a reply is invalid or reports an internal error,
+    /// or if a thread has panicked.
     pub fn run(&self) -> Result<()> {
         let progress = Progress::start("asking");
         let share = self.count.div_ceil(self.threads.max(1));
-        // not scoped, because memcheck would report the handle of a scoped main thread as a leak
+        // without `thread::scope`, which keeps a handle of the main thread that memcheck would report as a leak
         let spawned = |thread: usize| {
             let seed = self.seed.wrapping_add(thread as u64);
             thread::spawn(move || asked(share, seed))
@@ -114,7 +115,7 @@ fn asked(count: usize, seed: u64) -> Tally {
     tally
 }
 
-/// Kind of a reply; `None` if the reply is invalid or contains no problem.
+/// Kind of a reply. `None` if the reply contains neither an answer nor a kind with problems that all have messages.
 fn kind(reply: &str) -> Option<String> {
     let value: Value = serde_json::from_str(reply).ok()?;
     if value.get("answer").is_some_and(Value::is_object) {
@@ -149,10 +150,10 @@ fn question(random: &mut Rng) -> Value {
     let (kind, keys) = random.pick(&KINDS);
     let mut question = Map::new();
     question.insert("ask".into(), json!(kind));
-    // most of the valid keys, and below some that do not belong to the question
+    // most of the keys of this kind; the `if` after the loop sometimes adds a key that does not belong
     for key in keys {
         if !random.chance(12) {
-            let name = if *key == "ofs" { "of" } else { *key };
+            let name = if *key == "of[]" { "of" } else { *key };
             let value = if random.chance(25) { anything(random) } else { value(key, random) };
             question.insert(name.into(), value);
         }
@@ -167,7 +168,7 @@ fn value(key: &str, random: &mut Rng) -> Value {
     let odd = |random: &mut Rng| random.pick(&ODD).to_owned();
     match key {
         "of" => source(random),
-        "ofs" => json!((0..random.below(3)).map(|_| source(random)).collect::<Vec<_>>()),
+        "of[]" => json!((0..random.below(3)).map(|_| source(random)).collect::<Vec<_>>()),
         "set" => assignments(random),
         "scenes" => json!(paths::scenes()),
         "out" => json!(if random.chance(3) { "/nowhere/at/all.csv" } else { "/dev/null/x.csv" }),
@@ -242,7 +243,7 @@ fn numbers(random: &mut Rng) -> Vec<f64> {
     (0..random.below(13)).map(|i| if random.chance(4) { random.pick(&odd) } else { i as f64 }).collect()
 }
 
-/// Start of a text.
+/// First 400 characters of a text.
 fn cut(text: &str) -> String {
     text.chars().take(400).collect()
 }

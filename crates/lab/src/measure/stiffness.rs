@@ -125,15 +125,15 @@ impl Set {
         let face = gears.spec.face_width / gears.pair.outer_cone;
         let held = match c[6].as_str() {
             "tooth" => "root".to_owned(),
-            _ => format!("bores {}/{}", twice(&c[7]), twice(&c[8])),
+            _ => format!("bores {}/{}", diameter(&c[7]), diameter(&c[8])),
         };
         let system = if c[5] == "iso" { "ISO" } else { "Gleason" };
         [format!("{}/{} {system}", c[1], c[2]), format!("{face:.2}"), held]
     }
 }
 
-/// Formats twice the radius.
-fn twice(radius: &str) -> String {
+/// Diameter as text, from the text of a radius.
+fn diameter(radius: &str) -> String {
     radius.parse().map_or_else(|_| radius.to_owned(), |radius: f64| format!("{}", 2.0 * radius))
 }
 
@@ -160,12 +160,12 @@ fn page(sets: &[Set]) -> Result<String> {
             .double
             .iter()
             .map(|&[s, ..]| {
-                let apart: f64 = [s, s + gears.pair.base_pitch]
+                let by_line: f64 = [s, s + gears.pair.base_pitch]
                     .iter()
                     .map(|&s| gears.stiffness.exact(s, reference).stiffness())
                     .sum();
-                let [together, alone] = gears.mesh.two_pairs(s, reference);
-                [apart, together, together / alone]
+                let [coupled, uncoupled] = gears.mesh.two_pairs(s, reference);
+                [by_line, coupled, coupled / uncoupled]
             })
             .collect();
         let ratio = |k: usize| off(both.iter().zip(&set.double).map(|(found, expected)| found[k] / expected[1]));
@@ -185,8 +185,8 @@ fn page(sets: &[Set]) -> Result<String> {
     ))
 }
 
-/// Secant stiffness of IMPACT under the reference load [Pa]: torque divided by arc and ∫R²dR, with its force at the
-/// mean cone distance.
+/// Secant stiffness of IMPACT under the reference load [Pa]: torque divided by the arc and by ∫R²dR. IMPACT has a
+/// single force, which acts at the mean cone distance.
 fn impact(gears: &Gears) -> f64 {
     let Pair { mean_cone, outer_cone, inner_cone, .. } = gears.pair;
     let force = LINE_LOAD * gears.spec.face_width;

@@ -22,8 +22,8 @@ pub(super) const HOST: (&str, &str) = if cfg!(target_os = "windows") {
 pub struct Library {
     /// Name of the platform in FMI 2.0.
     pub platform: &'static str,
-    /// Names in FMI 3.0, each with its file. If one platform of FMI 2.0 corresponds to two of FMI 3.0, these are parts
-    /// of the whole file.
+    /// Names in FMI 3.0, each with its file. There are two for macOS, because FMI 3.0 has one platform per processor;
+    /// `file` is then the universal file joined from both.
     pub in_fmi3: Vec<(&'static str, PathBuf)>,
     /// Platform tags for pip, joined by dots; "this-machine" if pip determines the tag itself.
     pub in_wheels: &'static str,
@@ -33,7 +33,7 @@ pub struct Library {
     pub file: PathBuf,
     /// Library of answers, built in the same run.
     pub answers: PathBuf,
-    /// Requirements for a machine, as text.
+    /// Requirements that a machine must meet, as text.
     pub needs: String,
     /// Parts that the linker adds to the crates and Rust's standard library.
     pub added: Vec<AddedPart>,

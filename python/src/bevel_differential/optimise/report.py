@@ -52,7 +52,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
 
 def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], problem: Problem) -> str:
     """Sentence that compares a design with a front."""
-    checks = f"; refused by: {'; '.join(row.refused)}" if row.refused else "; it meets all conditions"
+    checks = f". Refused by: {'; '.join(row.refused)}" if row.refused else "; it meets all conditions"
     if not all(str(each.want) in row.figures for each in problem.objectives):
         return f"{name}: it does not run{checks}. {row.message}".strip()
     old = costs([row], problem.objectives)[0]

@@ -48,7 +48,8 @@ fn the_floor_exceeds_the_energy_of_one_rounded_position_by_a_limited_factor() {
         });
         println!("{contact:?}: shifts change {largest:e} J, floor {floor:e} J");
         assert!(largest > 1e-17 && largest <= floor, "{contact:?}: {largest:e} J, floor {floor:e} J");
-        // the floor adds all positions at both ends, and counts the carrier's angle for each body on the carrier
+        // the floor adds the contributions of all positions, and adds the rounding of the carrier's angle to the
+        // roundings of side gears and pins
         assert!(floor < 1e3 * largest, "{contact:?}: {largest:e} J, floor {floor:e} J");
     }
 }
@@ -64,11 +65,12 @@ fn unresolved_speeds_count_only_near_rest() {
         let floor =
             |speed: f64, tolerance: f64| equations.energy_floor([&moving_at(speed), &moving_at(speed)], tolerance, 0.0);
         let (tolerance, still) = (1e-6, floor(0.0, 0.0));
-        // the norm does not resolve 1e-6 rad/s, so the kinetic energy of all bodies at this speed counts
+        // the error norm does not resolve speeds below 1e-6 rad/s, so the kinetic energy of all bodies at this speed
+        // counts
         let [kinetic, _] = equations.energy(&moving_at(tolerance));
         assert!((floor(0.0, tolerance) - still - kinetic).abs() < 1e-6 * kinetic);
         assert_eq!(floor(5e-4, tolerance), floor(0.0, tolerance));
-        // at 2 mrad/s one millionth of the kinetic energy is more than that
+        // at 2 mrad/s, the tolerance times the kinetic energy exceeds the unresolved energy, so this no longer counts
         assert_eq!(floor(2e-3, tolerance), floor(2e-3, 0.0));
     });
 }

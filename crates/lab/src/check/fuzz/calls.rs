@@ -14,7 +14,7 @@ use super::site::{ROOM, Site};
 use crate::tools::random::Draws;
 
 /// Step sizes that must be refused [s].
-const NO_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
+const INVALID_STEPS: [f64; 4] = [0.0, -1.0, f64::NAN, f64::INFINITY];
 /// Maximum deviation of the time after a step from the step's end, relative to the time or to 1 s.
 const ROUNDING: f64 = 1e-12;
 
@@ -79,8 +79,8 @@ pub fn text(s: &Site, function: extern "C" fn() -> Text) -> CallResult {
     s.result(Status::Ok).unless(function().is_null(), "NULL")
 }
 
-/// Draws name and token of an instance, valid or not; true if an instance can be created with them. `right` is the
-/// valid token.
+/// Draws name and token of an instance, valid or not. Also returns true if an instance can be created with them.
+/// `right` is the valid token.
 pub fn name_and_token(r: &mut Rng, right: &CStr) -> ([Text; 2], bool) {
     let (name, token) = (r.below(4), r.below(4));
     let names = [c"a".as_ptr(), c"%s%n \xff".as_ptr(), c"".as_ptr(), ptr::null()];
@@ -88,8 +88,8 @@ pub fn name_and_token(r: &mut Rng, right: &CStr) -> ([Text; 2], bool) {
     ([names[name], tokens[token]], name < 2 && token < 2)
 }
 
-/// Result of an instantiation that must succeed if `is_right`. `is_silent` is true if the log is empty although a
-/// refusal must be logged.
+/// Result of an instantiation that must succeed if `is_right` and otherwise be refused. `is_silent` is true if the host
+/// has a log and nothing was written to it, which is wrong only after a refusal.
 pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> CallResult {
     let outcome = CallResult::of(Status::Ok, &Flaws::default());
     let outcome = outcome.unless(c.is_null() && is_silent, "refused without a line in the log");
@@ -99,7 +99,8 @@ pub fn instantiated(c: ComponentPointer, is_right: bool, is_silent: bool) -> Cal
     )
 }
 
-/// Frees a null pointer and an invalid one, which must have no effect. The round creates and frees instances.
+/// Frees a null pointer and an invalid one, which must have no effect. Valid instances are freed elsewhere, by the
+/// round that created them.
 pub fn free(s: &Site) -> CallResult {
     unsafe {
         (s.interface.free)(ptr::null_mut());
@@ -294,20 +295,21 @@ pub fn set_states(
     s.result(status)
 }
 
-/// End of a step: its status, the time that was reached if the function returns it, and true if the step ended early.
+/// End of a step: its status, the reached time if the function returns one, and true if the step ended early.
 pub type Ended = (Status, Option<f64>, bool);
 
 /// Executes a step, mostly from the present time, with `step(site, point, size)`.
 pub fn step(s: &mut Site, step: fn(&mut Site, f64, f64) -> Ended) -> CallResult {
     let now = s.instance.time().unwrap_or(0.0);
     let point = if s.r.chance(20) { real(s.r) } else { now };
-    // no steps that take hours, because the host would have to wait for them
-    let h = if s.r.chance(8) { s.r.pick(&NO_STEPS) } else { s.r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
-    s.flaws.any |= NO_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
+    // no long steps, because a step cannot be interrupted
+    let h = if s.r.chance(8) { s.r.pick(&INVALID_STEPS) } else { s.r.pick(&[1e-4, 1e-4, 1e-5, 3e-4, 1e-3, 1e-300]) };
+    s.flaws.any |= INVALID_STEPS.iter().any(|none| none.to_bits() == h.to_bits());
     let (status, last, is_early) = step(s, point, h);
     let (after, until) = (s.instance.time(), last.unwrap_or(point + h));
     let is_reached = after.is_some_and(|after| same_time(after, until)) && (is_early || same_time(until, point + h));
-    // an event at the start of a step advances by the smallest distinguishable time, which may exceed the step
+    // if an event ends a step at its start, time still advances by the smallest distinguishable amount, which may
+    // exceed the step
     let is_within = until >= point && (until <= point + h || same_time(until, point + h));
     let mut outcome = s.result(status);
     if status == Status::Ok && !(is_reached && is_within) {
