@@ -109,7 +109,7 @@ class Car:
         unset = self.unset
         if unset and not self._is_warned:
             listed = ", ".join(f"{name} = {value:g}" for name, value in unset.items())
-            warn([f"values of a passenger car that nobody set act in this car, SI units: {listed}"])
+            warn([f"these values of a passenger car influence this car, and nobody set them (SI units): {listed}"])
         self._is_warned = True
 
     def _checked(self, given):
