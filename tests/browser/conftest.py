@@ -1,6 +1,6 @@
-"""The page in Chromium for the tests, and beside it the native FMU and node.
+"""Fixtures for the tests of the page: the page in Chromium, the native FMU and node.
 
-The command `cargo run -p lab --release -- test-page` runs them and gives the environment variables PAGE, FMU, CHROMIUM and NODE."""
+The command `cargo run -p lab --release -- test-page` runs the tests and sets the environment variables PAGE, FMU, CHROMIUM and NODE."""
 
 import csv
 import os
@@ -13,9 +13,9 @@ from playwright.sync_api import sync_playwright
 from live import Live
 
 ARGUMENTS = ["--no-sandbox", "--enable-unsafe-swiftshader"]
-# small: without a graphics card a picture takes as long as it is large
+# small, because the time to draw a picture without a graphics card grows with its size
 WINDOW = {"width": 900, "height": 480}
-# of the page itself, beside the file: its worker, and what it holds packed
+# addresses inside the page: its worker and its packed data
 INSIDE = ("blob:", "data:")
 
 
@@ -25,7 +25,7 @@ def pytest_addoption(parser):
 
 
 def pytest_configure(config):
-    # by the name of a test: [cases, what was found, seconds]
+    # {name of a test: [cases, results, seconds]}
     config.checked = {}
 
 
@@ -36,7 +36,7 @@ def pytest_runtest_makereport(item, call):
         name = item.originalname.removeprefix("test_").replace("_", " ")
         row = item.config.checked.setdefault(name, [0, [], 0.0])
         row[0] += 1
-        # of a skipped test pytest gives file, line and reason
+        # for a skipped test, pytest gives file, line and reason
         row[1] += [f"not run: {report.longrepr[2].removeprefix('Skipped: ')}"] if report.skipped else [
             value for key, value in item.user_properties if key == "found"]
         row[2] += report.duration
@@ -52,7 +52,7 @@ def pytest_sessionfinish(session):
 
 
 def named_file(variable):
-    """The file that an environment variable names."""
+    """Returns the path in an environment variable. Ends the tests if the file does not exist."""
     path = Path(os.environ.get(variable, ""))
     if not path.is_file():
         pytest.exit(f"{variable} names no file; use: cargo run -p lab --release -- test-page", returncode=2)
@@ -61,7 +61,7 @@ def named_file(variable):
 
 @pytest.fixture
 def found(record_property):
-    """found(text): figures for the table of what was checked."""
+    """found(text): records results for the table of checks."""
     return lambda text: record_property("found", text)
 
 
@@ -73,13 +73,13 @@ def fmu():
 
 @pytest.fixture(scope="session")
 def scene_names():
-    """Of the scenes in the repository."""
+    """Sorted names of the scenes in the repository."""
     return sorted(file.stem for file in (Path(__file__).parents[2] / "scenes").glob("*.toml"))
 
 
 @pytest.fixture(scope="session")
 def page_file():
-    """The page, one HTML file."""
+    """Path of the page, a single HTML file."""
     return named_file("PAGE").resolve()
 
 
@@ -93,7 +93,7 @@ def browser():
 
 @pytest.fixture(scope="session")
 def opened(browser, page_file):
-    """opened(fragment, scripts): a new page in a window of its own, with the network cut off. The caller closes it."""
+    """opened(fragment, scripts): a new page in a separate browser context without network. The caller closes it."""
 
     def open_page(fragment="", scripts=()):
         context = browser.new_context(viewport=WINDOW, color_scheme="light")
@@ -104,7 +104,7 @@ def opened(browser, page_file):
 
 
 def close(live):
-    """Closes a page, which must have made no request but for itself and had no errors."""
+    """Closes a page. Fails if the page had errors or requested anything but its file and addresses inside it."""
     live.page.context.close()
     strange = [address for address in live.asked if address.split("#")[0] != live.address and not address.startswith(INSIDE)]
     assert strange == [], "a page that needs no server has asked for these"
@@ -113,7 +113,7 @@ def close(live):
 
 @pytest.fixture
 def fresh(opened):
-    """As `opened`, at rest; the pages are closed, and what they asked for is checked, at the end of the test."""
+    """fresh(fragment, scripts): a new page with its picture paused. The end of the test closes all pages and checks their requests."""
     pages = []
 
     def open_page(*arguments):
@@ -128,7 +128,7 @@ def fresh(opened):
 
 @pytest.fixture(scope="session")
 def shared(opened):
-    """The page that most tests use, one after the other."""
+    """Page that most tests share, one after another."""
     live = opened("scene=study_straight", ["covered.js", "sweep.js"])
     yield live
     close(live)
@@ -136,7 +136,7 @@ def shared(opened):
 
 @pytest.fixture
 def live(shared):
-    """The page that most tests use, with the straight scene; its picture stands still, and is not drawn."""
+    """Shared page with the straight scene. Its picture is paused and not drawn."""
     shared.rest()
     shared.go("scene=study_straight")
     yield shared

@@ -1,4 +1,4 @@
-// What keeps a reader from pressing a control: the part that lies over it, null where there is none.
+// Returns the name of the element that covers a control, or null if a user can press the control.
 window.coverOf = (control) => {
   control.scrollIntoView({ block: "center" });
   const { left, top, width, height } = control.getBoundingClientRect();
@@ -12,7 +12,7 @@ window.coverOf = (control) => {
 
 window.isSeen = (part) => part.checkVisibility({ visibilityProperty: true }) && part.getBoundingClientRect().width > 0;
 
-// Which controls a reader cannot press, as something else lies over them, and which boxes over the picture overlap.
+// Lists the controls that other elements cover and the boxes over the picture that overlap.
 window.covered = () => {
   const found = [];
   for (const control of document.querySelectorAll("button, input, select, summary")) {

@@ -1,4 +1,4 @@
-// Runs in the page before its program: notes what the page asks its worker for, and what the worker answers.
+// Runs in the page before its program. It records the requests of the page to its worker and the answers of the worker.
 window.ear = { asked: null, answers: {}, gears: [], workers: 0 };
 window.Worker = class extends Worker {
   constructor(...address) {
@@ -23,7 +23,7 @@ window.Worker = class extends Worker {
   }
 };
 
-// Without a graphics card drawing takes most of the time: while a test holds the pictures, the page gets a frame only when it is asked for.
+// Without a graphics card, drawing takes most of the time. After `ear.hold`, the page therefore draws only frames that a test requests.
 const soon = requestAnimationFrame;
 let held = null;
 window.requestAnimationFrame = (draw) => (held ? held.push(draw) : soon(draw));
@@ -34,19 +34,21 @@ ear.free = () => {
   for (const draw of held ?? []) soon(draw);
   held = null;
 };
-// The next frame.
+// Draws the next frame.
 ear.frame = () => new Promise((done) => soon((now) => {
   for (const draw of held?.splice(0) ?? []) draw(now);
   done();
 }));
 
-// What the page shows of a variable: its value and its word in the address, messages at controls by variable, the message over the picture.
+// Visible messages at controls, by variable.
 ear.complaints = () => Object.fromEntries([...document.querySelectorAll(".fault")].filter((each) => !each.hidden)
   .map((each) => [each.id.replace("fault ", ""), each.textContent]));
+// Message over the picture, or "".
 ear.message = () => {
   const message = document.getElementById("message");
   return message.hidden ? "" : message.textContent;
 };
+// Value of a variable, its text in the address, all messages at controls, and the message over the picture.
 ear.seen = (name) => ({
   value: page.setup.value(name),
   word: new URLSearchParams(location.hash.slice(1)).get(name),
@@ -54,7 +56,7 @@ ear.seen = (name) => ({
   message: ear.message(),
 });
 
-// Of a gear's surface: the farthest corner from the apex and the nearest [mm], and how many triangles there are.
+// Largest and smallest distance of a gear's vertices from the apex [mm], and the number of triangles.
 function measured({ vertices, triangles }) {
   const far = [];
   for (let i = 0; i < vertices.length; i += 3) far.push(Math.hypot(vertices[i], vertices[i + 1], vertices[i + 2]));

@@ -1,6 +1,5 @@
-// Runs in the page before its program: from the second run on, a failure stands for fmi2DoStep in the first worker. The page's own library
-// is left alone: the function is exchanged where the worker makes an instance of it. The script that comes next gives
-// `window.failure`.
+// Runs in the page before its program. From the second run on, `window.failure` replaces fmi2DoStep in the first worker. The library in the
+// page is unchanged, because the function is replaced when the worker instantiates the library. The next script defines `window.failure`.
 const Whole = Blob;
 const program = [];
 window.Blob = class extends Whole {
@@ -17,7 +16,7 @@ function exchange(fails) {
   WebAssembly.instantiate = async (...all) => {
     const made = await instantiate(...all);
     const { exports } = made;
-    // what unpacks the library is of WebAssembly, too
+    // the decompressor of the library is also a WebAssembly module
     if (!exports?.fmi2DoStep) return made;
     const step = (...values) => (runs > 1 ? fails : exports.fmi2DoStep)(...values);
     return { exports: { ...exports, fmi2DoStep: step } };

@@ -1,4 +1,4 @@
-// A step that never comes back.
+// A step that never returns.
 window.failure = () => {
   for (;;);
 };

@@ -1,4 +1,4 @@
-"""The page in a browser, used as a reader uses it: by its controls, keys and address."""
+"""The page in a browser, operated as a user would, with its controls, keys and address."""
 
 from pathlib import Path
 from urllib.parse import parse_qsl, quote, urlencode
@@ -6,19 +6,19 @@ from urllib.parse import parse_qsl, quote, urlencode
 import numpy as np
 
 HERE = Path(__file__).parent
-# of a run, or until the page shows something, ms
+# maximum wait for a run or for a change of the page [ms]
 PATIENCE = 60_000
-# of the driver that draws without a graphics card, on its speed, and on tests that read a plot's pixels
+# harmless warnings: the software renderer is slow, and tests read the pixels of plots
 REMARKS = ("GL Driver Message (OpenGL, Performance", "willReadFrequently")
 
 
 def address_of(settings):
-    """The fragment for {scene: …, variable: …}, as in a link."""
+    """Fragment of a link with the settings {scene: …, variable: …}."""
     return urlencode(settings, quote_via=quote)
 
 
 class Live:
-    """One opened page. `asked` are all addresses it has requested, `faults` its errors."""
+    """An opened page. `asked` lists all addresses that it has requested, and `faults` its errors and warnings."""
 
     def __init__(self, page, address, fragment="", scripts=()):
         self.page, self.address = page, address
@@ -38,26 +38,26 @@ class Live:
             self.faults.append(said.text)
 
     def wait(self, condition, argument=None):
-        """Waits until a JavaScript expression, or a function of `argument`, holds."""
+        """Waits until a JavaScript expression, or a function of `argument`, is true."""
         self.page.wait_for_function(condition, arg=argument, polling=20)
 
     def ask(self, expression, argument=None):
-        """The value of a JavaScript expression, or of a function of `argument`."""
+        """Value of a JavaScript expression, or of a function of `argument`."""
         return self.page.evaluate(expression, argument)
 
     @property
     def number(self):
-        """Of the run that was asked for last."""
+        """Number of the last requested run."""
         return self.ask("ear.asked.number")
 
     def answer(self, *kinds):
-        """What the worker has said to the last run, when it is of one of these kinds; else when the run has come to an end."""
+        """Waits for an answer of one of these `kinds` to the last run, by default for its end. Returns all answers so far."""
         wanted = list(kinds or ("over", "refused", "trap"))
         self.wait("kinds => kinds.some((kind) => ear.answers[ear.asked.number][kind])", wanted)
         return self.ask("ear.answers[ear.asked.number]")
 
     def go(self, fragment, *kinds):
-        """Follows a link of the page itself, and waits for its run."""
+        """Follows a link within the page and waits for its run."""
         if self.ask("location.hash") != f"#{fragment}":
             before = self.number
             self.ask("fragment => { location.hash = fragment; }", fragment)
@@ -65,14 +65,14 @@ class Live:
         return self.answer(*kinds)
 
     def control(self, name):
-        """The control of a variable, in an open group."""
+        """Returns the control of a variable and opens its group if necessary."""
         control = self.page.locator(f'[id="set {name}"]')
         if not control.is_visible():
             control.locator("xpath=ancestor::details/summary").click()
         return control
 
     def put(self, name, value, *kinds):
-        """Gives a value to a control as a reader does, and waits for the run: text, True or False, or a literal's name."""
+        """Sets a control as a user does and waits for the run. `value` is a text, a bool or the name of a literal."""
         control, before = self.control(name), self.number
         assert control.evaluate("c => c.type === 'checkbox' ? c.checked : c.selectedOptions?.[0].label ?? c.value") != value, (
             f"{name} is {value} already")
@@ -87,30 +87,30 @@ class Live:
         return self.answer(*kinds)
 
     def back(self, name, *kinds):
-        """Presses the button beside a control that brings the scene's value back."""
+        """Presses the button next to a control that restores the value of the scene, and waits for the run."""
         before = self.number
         self.control(name).locator("xpath=..").locator(".back").click()
         self.wait("before => ear.asked.number > before", before)
         return self.answer(*kinds)
 
     def value(self, name):
-        """A value of the set-up, in SI."""
+        """Value of a variable in the set-up [SI]."""
         return self.ask("name => page.setup.value(name)", name)
 
     def link(self):
-        """The set-up in the address: texts by name."""
+        """The set-up in the address, as {name: text}."""
         return dict(parse_qsl(self.ask("location.hash.slice(1)"), keep_blank_values=True))
 
     def complaints(self):
-        """Texts of the messages that stand at controls, by the control's variable."""
+        """Visible messages at controls, as {variable: text}."""
         return self.ask("ear.complaints()")
 
     def message(self):
-        """The message over the picture, "" where there is none."""
+        """Message over the picture, or ""."""
         return self.ask("ear.message()")
 
     def seen(self, name):
-        """What the page shows of a variable: value, word in the address, complaints, message."""
+        """Value of a variable, its text in the address, all messages at controls, and the message over the picture."""
         return self.ask("name => ear.seen(name)", name)
 
     def text(self, element):
@@ -118,18 +118,18 @@ class Live:
         return self.ask("id => document.getElementById(id).textContent", element)
 
     def record(self, names):
-        """The page's record of a run that is over: {name: values}, and the times as "time"."""
+        """Waits until the page has recorded all points. Returns {name: values}, with the times as "time"."""
         self.wait("ear.answers[ear.asked.number].points === page.record.count")
         columns = self.ask("names => [page.record.times, ...names.map((n) => page.record.column(n))].map((c) => Array.from(c))",
                            list(names))
         return {name: np.array(column, float) for name, column in zip(["time", *names], columns)}
 
     def rest(self):
-        """The picture stands still and is not drawn, for tests that do not look at it."""
+        """Pauses the picture and stops drawing, for tests that do not need pictures."""
         self.ask("ear.hold()")
         self.pause()
 
     def pause(self):
-        """Stops the picture, so that nothing is drawn that a test does not ask for."""
+        """Pauses the picture if it is playing."""
         if self.ask("page.player.playing"):
             self.page.locator("#play").click()

@@ -1,4 +1,4 @@
-"""The page's own programs in node: its library in WebAssembly, and the code that runs a scene."""
+"""Runs scenes in node with the programs of the page: its WebAssembly library and its run loop."""
 
 import base64
 import json
@@ -15,13 +15,14 @@ WEB = HERE.parents[1] / "fmu-build" / "page" / "web"
 
 
 def library_of(page_file):
-    """The library in WebAssembly that is packed into the page."""
+    """Unpacks the WebAssembly library of the page."""
     packed = re.search(r'<script[^>]*id="library"[^>]*>([^<]*)<', page_file.read_text(encoding="utf-8"))[1]
     return lzma.decompress(base64.b64decode(packed))
 
 
 def run_in_node(page_file, folder, scenes):
-    """{scene: columns of bits}: time, then the outputs. `scenes`: {name: {scene, references}} as in runner.mjs; `folder` is for files."""
+    """Returns {name: columns of bits}, time first and then the outputs. `scenes` is {name: {scene, references}} as in runner.mjs.
+    Temporary files are written to `folder`."""
     (folder / "library.wasm").write_bytes(library_of(page_file))
     (folder / "scenes.json").write_text(json.dumps(scenes))
     files = [WEB, folder / "library.wasm", folder / "scenes.json", folder / "records.json"]

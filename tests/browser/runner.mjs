@@ -1,7 +1,7 @@
-// Runs scenes in node with the page's own programs: node runner.mjs WEB LIBRARY.wasm SCENES.json OUT.json
+// Runs scenes in node with the programs of the page: node runner.mjs WEB LIBRARY.wasm SCENES.json OUT.json
 //
-// WEB is the folder with library.js and run.js; SCENES holds {name: {scene, references}} as the page gives them to its worker. OUT gets
-// {name: rows}, each number as the 16 digits of its bits.
+// WEB is the folder with library.js and run.js. SCENES contains {name: {scene, references}} as the page sends them to its worker. OUT
+// receives {name: rows}. Each number is written as 16 hexadecimal digits.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";

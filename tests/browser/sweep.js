@@ -1,6 +1,6 @@
-// Gives values to controls one after the other, and takes each back by the button beside its control: within the page, as the way from a
-// test to the page and back takes longer than what is tested. What would keep a reader from doing it ends the sweep.
-const LONGEST = 60_000; // ms until an answer
+// Sets controls one after another and restores each value with the button next to its control. This runs within the page, because calls
+// from a test into the page take longer than the checks. The sweep fails if a user could not press a control.
+const LONGEST = 60_000; // maximum wait for an answer [ms]
 
 window.sweep = async (cases) => {
   const outcomes = [];
@@ -8,14 +8,14 @@ window.sweep = async (cases) => {
     const control = document.getElementById(`set ${name}`);
     const back = control.closest(".row").querySelector(".back");
     const put = await answered(name, control, () => give(name, control, given));
-    // a picture takes as long as all the rest
+    // only every fourth case draws, because a picture takes as long as the case itself
     if (outcomes.length % 4 === 0) await ear.frame();
     outcomes.push([put, await answered(name, back, () => back.click())]);
   }
   return outcomes;
 };
 
-// Does something to a control or button; the worker's answer, and what the page shows then.
+// Calls `press` for a control or button. Returns the answer of the worker and what the page then shows.
 async function answered(name, part, press) {
   if (!isSeen(part)) part.closest("details").querySelector("summary").click();
   const hindrance = !isSeen(part) ? "not seen" : part.matches(":disabled, input[type=text]:read-only") ? "locked" : coverOf(part);
@@ -32,7 +32,7 @@ async function answered(name, part, press) {
   return { answer: { ...answer }, ...ear.seen(name) };
 }
 
-// A value as a reader gives it: text, true or false, or a literal's name.
+// Sets a control as a user does. `given` is a text, a boolean or the name of a literal.
 function give(name, control, given) {
   const shown = control.type === "checkbox" ? control.checked : control.selectedOptions?.[0].label ?? control.value;
   if (shown === given) throw new Error(`${name} is ${given} already`);

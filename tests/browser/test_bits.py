@@ -1,4 +1,4 @@
-"""The same bits in Chromium, in node and in the native FMU: nothing is rounded, no tolerance."""
+"""Chromium, node and the native FMU give identical bits: results are compared without rounding or tolerance."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from live import address_of
 from node_runs import run_in_node
 
 SCENES = ["study_straight", "study_turning", "torque_bias", "clunk"]
-# the page records the first of them for its picture, and the last because they are drawn
+# the page records the first outputs for its picture, and the last three because traces show them
 OUTPUTS = ["left.angle", "left.speed", "right.speed", "carrier.speed", "planet[1].spin_angle", "planet[1].left_normal_force",
            "solver.energy_residual", "left.shaft_torque", "right.shaft_torque", "left.normal_force"]
 
@@ -19,7 +19,7 @@ def bits(numbers):
 
 @pytest.fixture(scope="module")
 def in_chromium(shared):
-    """{scene: ({output: bits}, scene as the page gives it to its worker)}."""
+    """{scene: ({output: bits}, scene as the page sends it to its worker)}."""
     records = {}
     for name in SCENES:
         answer = shared.go(address_of({"scene": name, "show": " ".join(OUTPUTS[-3:])}))
@@ -48,7 +48,7 @@ def test_chromium_node_and_the_native_fmu_give_the_same_bits(scene, in_chromium,
             assert other.shape == numbers.shape, f"{name} in {where}"
             different = np.flatnonzero(other != numbers)
             assert different.size == 0, f"{name} in {where}: {different.size} of {numbers.size} differ, from {different[:1]}"
-    # values that never change would be no proof
+    # constant values would prove little
     moving = sum(np.unique(numbers).size > 1 for numbers in native.values())
     assert moving > len(OUTPUTS) / 2
     found(f"{scene} {len(record)} × {len(OUTPUTS)}")

@@ -1,11 +1,11 @@
-"""Every parameter and input is set from its control, and what the native FMU says of a value is what the page says."""
+"""Every parameter and input can be set from its control. The page accepts and refuses values exactly like the native FMU."""
 
 import pytest
 from bevel_differential import DifferentialError, Scene
 
-# short, as values count here and not what becomes of them
+# short, because these tests check values and not results
 SCENE, STOP = "study_straight", 0.02
-# of the whole numbers of FMI
+# largest Integer of FMI
 LARGEST = 2**31 - 1
 FRAGMENT = f"scene={SCENE}&stop_time={STOP}"
 
@@ -22,17 +22,17 @@ def settable(fmu):
 
 
 def text_of(number):
-    """A number as a reader types it."""
+    """A number as a user types it."""
     return f"{number:.5g}"
 
 
 def in_si(variable, text):
-    """What a reader types, read in the unit that the page shows."""
+    """Value in SI of a text that is typed in the unit of the page."""
     return variable.number((text, variable.shown(0.0)[0] or None))
 
 
 def another(variable, value):
-    """Another valid value than `value`: (what a reader gives to the control, the same in SI)."""
+    """A valid value that differs from `value`, as (value given to the control, value in SI)."""
     if variable.kind == "Boolean":
         return not value, not value
     if variable.kind == "Enumeration":
@@ -52,14 +52,14 @@ def another(variable, value):
 
 
 def from_link(variable, word):
-    """The value of a word in a link, in SI."""
+    """Value in SI of a text in a link."""
     if variable.kind == "Boolean":
         return {"true": True, "false": False}[word]
     return variable.literals[word] if variable.literals else float(word)
 
 
 def beyond(variable):
-    """A value above the range, as a reader types it, and in SI."""
+    """A value above the range, as (text that a user types, value in SI)."""
     if variable.kind == "Integer":
         return str(variable.maximum + 1), variable.maximum + 1
     text = text_of(variable.shown(2.0 * variable.maximum if variable.maximum > 0.0 else 1.0)[1])
@@ -67,17 +67,17 @@ def beyond(variable):
 
 
 class Native:
-    """What the native FMU says to the scene with a value of its own."""
+    """The native FMU with the values of the scene, for comparison with the page."""
 
     def __init__(self, fmu):
         self.fmu, self.values = fmu, Scene.load(SCENE).values
 
     def says(self, name, value):
-        """Its refusal at the start, a line, or None."""
+        """Message in one line if the FMU refuses to start with this value, otherwise None."""
         pairs = [(self.fmu.variable(each), number) for each, number in {**self.values, name: value}.items()]
         with self.fmu.open() as instance:
             try:
-                # past the package's own checks
+                # without the checks of the Python package
                 instance.start(pairs, STOP)
             except DifferentialError as refusal:
                 return str(refusal).replace("\n", " ")
@@ -85,14 +85,15 @@ class Native:
 
 
 def subject(fmu, message):
-    """(variable that a message is about, the message from its name on)."""
+    """(variable that a message names, message from that name on)."""
     words = message.split()
     name = next(word[:-1] for word in words if word.endswith(":") and word[:-1] in fmu.variables)
     return name, message[message.index(f"{name}:"):]
 
 
 def check(fmu, native, name, value, answer, seen):
-    """The page says what the native FMU says: nothing, or its message at a control. Returns whether the value was refused."""
+    """Checks that the page and the native FMU both accept a value, or both refuse it with the same message.
+    Returns true if the value was refused."""
     refusal = native.says(name, value)
     if refusal is None:
         assert "started" in answer, f"{name} = {value}: {answer}"
@@ -105,7 +106,7 @@ def check(fmu, native, name, value, answer, seen):
 
 
 def by_hand(live, name, given):
-    """Gives a value and takes it back, with keys and mouse: for both the worker's answer, and what the page shows then."""
+    """Sets a value and restores it, with keys and mouse. Returns for each the worker's answer and what the page then shows."""
     kinds = ("started", "refused")
     assert live.control(name).evaluate("control => coverOf(control)") is None, name
     put = {"answer": live.put(name, given, *kinds), **live.seen(name)}
@@ -113,7 +114,8 @@ def by_hand(live, name, given):
 
 
 def given_and_back(live, cases):
-    """{name: as `by_hand`} for values {variable: what a reader gives}; by hand the first of each kind, the others within the page."""
+    """Sets and restores the values of `cases`, {variable: value as a user gives it}. Returns {name: result as of `by_hand`}.
+    The first variable of each kind is set by hand, all others within the page."""
     hand = {variable.kind: variable.name for variable in reversed(cases)}.values()
     swept = [{"name": each.name, "given": given} for each, given in cases.items() if each.name not in hand]
     outcomes = live.ask("cases => sweep(cases)", swept)
@@ -136,7 +138,7 @@ def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found
             refused.append(name)
         assert "started" in back["answer"], name
         assert back["value"] == value and back["word"] is None and back["complaints"] == {}, name
-    # most values are taken, or the check says little
+    # the check proves little unless most values are accepted
     assert len(refused) < len(variables) / 4
     found(f"{len(variables)} variables; of {len(refused)} the FMU refuses the other value")
 
@@ -144,7 +146,7 @@ def test_every_parameter_and_input_can_be_set_from_its_control(short, fmu, found
 def test_a_value_beyond_the_range_shows_the_message_of_the_fmu_at_its_control(short, fmu, found):
     native = Native(fmu)
     ranged = [each for each in settable(fmu) if each.maximum is not None and (each.kind == "Real" or each.maximum < LARGEST)]
-    # the first of each kind and unit, and every third
+    # the first variable of each kind and unit, and every third variable
     first = {(each.kind, each.unit): each for each in reversed(ranged)}.values()
     ranged = [each for k, each in enumerate(ranged) if k % 3 == 0 or each in first]
     outcomes = given_and_back(short, {each: beyond(each)[0] for each in ranged})

@@ -1,6 +1,6 @@
-"""Ordinary drives on the page: its library gives the bits of the native FMU, and the drives meet the requirements.
+"""Ordinary drives on the page: its library and the native FMU give identical bits, and the drives meet the requirements.
 
-The drives, their player and their requirements are those of `tests/python`."""
+The drives, their player and their requirements come from `tests/python`."""
 
 import sys
 
@@ -23,27 +23,27 @@ KINDS = {"Enumeration": "Integer"}
 
 
 def fits(drive, contact):
-    """True if the page can play the drive, and wheels are held in it."""
+    """True if the page can play the drive, its gear contact is `contact`, and brakes hold wheels."""
     return (drive["start"]["scene.gear_contact"] == contact and drive["fmi"] == "2.0" and method(drive) == "adaptive"
             and not drive["slopes"] and drive["holds"])
 
 
 @pytest.fixture(scope="module")
 def chosen(fmu):
-    """{level of gear contact: drive}: of each level the first one that stops from a speed or on a slope, and stands."""
+    """{level of gear contact: drive}, with the first fitting drive of each level that stops from a speed or on a slope."""
     levels = {effect.name: effect.contact for effect in effects(str(fmu.file))}
     drawn = [drive for drive in drives(SEED, DRAWN, levels) if drive["manoeuvre"] in ("stop", "uneven_stop", "hill", "reverse")]
     return {contact: next(drive for drive in drawn if fits(drive, contact)) for contact in CONTACTS}
 
 
 def assignments(fmu, values):
-    """Values as the page gives them to its library."""
+    """Values as the page passes them to its library."""
     return [{"kind": KINDS.get(variable.kind, variable.kind), "reference": variable.reference, "value": float(number)}
             for variable, number in fmu.numbers(values)]
 
 
 def scene_of(fmu, drive):
-    """Drive as a scene of the page: inputs change at communication points, and are held between them."""
+    """Drive as a scene of the page. Inputs change at communication points and are constant between them."""
     points, inputs = times(drive), sampled(drive)
     rows = [dict(zip(inputs, map(float, row))) for row in np.column_stack(list(inputs.values()))]
     changes = [[time, assignments(fmu, row)] for k, (time, row) in enumerate(zip(points.tolist(), rows)) if k == 0 or row != rows[k - 1]]
@@ -53,7 +53,7 @@ def scene_of(fmu, drive):
 
 @pytest.fixture(scope="module")
 def names(fmu):
-    """Outputs that are compared: those of the requirements, and all heat."""
+    """Outputs that are compared: the outputs for the requirements and all heat."""
     return [*READ, *(v.name for v in fmu.variables.values() if v.causality == "output" and v.name.startswith("heat."))]
 
 

@@ -1,4 +1,4 @@
-"""A link is a set-up: an address that is opened elsewhere gives the same values and the same record."""
+"""A link contains the whole set-up: opened in another page, it gives the same values and the same record."""
 
 import numpy as np
 import pytest
@@ -7,7 +7,7 @@ from live import address_of
 
 OWN = {"geometry.planet_count": "4", "geometry.module": "4.8", "contact.law": "line", "effects.bearing_drag": True,
        "carrier.torque_command": "1650.25", "solver.relative_tolerance": "3e-7"}
-# the picture's time goes on while the page computes: a run of a few points is enough
+# a short run, because a few points are enough
 SHORT = "scene=study_straight&left.load_torque=800&stop_time=0.02"
 OUTPUTS = ["left.speed", "right.speed", "left.normal_force", "planet[1].left_normal_force", "left.angle", "solver.energy_residual"]
 
@@ -40,7 +40,7 @@ def test_a_link_restores_all_values_and_gives_the_same_record(live, fresh, fmu, 
 
 
 def follow(live, fragment):
-    """Opens a link that may be wrong in parts; its run."""
+    """Opens a link that may contain errors. Returns the answer to its run."""
     before = live.number
     live.ask("fragment => { location.hash = fragment; }", fragment)
     live.wait("before => ear.asked.number > before", before)
@@ -49,7 +49,7 @@ def follow(live, fragment):
 
 @pytest.mark.parametrize("odd", ["scene=nonsense", "no.such=1", "left.speed=3", "stop_time=-1", "show=no.such"])
 def test_words_of_an_address_that_mean_nothing_are_named_and_the_rest_is_simulated(live, odd):
-    # without a scene or a duration the first scene runs to its end
+    # these links contain no valid scene, so the first scene runs to its end
     others = "left.load_torque=800" if odd.startswith(("scene", "stop_time")) else SHORT
     assert "over" in follow(live, f"{others}&{odd}")
     assert odd in live.message() and live.value("left.load_torque") == 800.0

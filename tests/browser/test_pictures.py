@@ -1,4 +1,4 @@
-"""Pictures of each view, theme and size of window: gears are seen in them, and they move."""
+"""Pictures in each view, theme and window size show gears that move."""
 
 import io
 
@@ -11,15 +11,15 @@ from conftest import WINDOW
 WINDOWS = {"desk": {"width": 1280, "height": 720}, "phone": {"width": 390, "height": 844}}
 VIEWS = ["whole", "mesh", "side"]
 SCENE = "scene=one_wheel_on_ice"
-# parts of the run that stand in the two pictures
+# times of the two pictures, as fractions of the run
 TIMES = [0.11, 0.83]
 
 
 def picture(live, share, file):
-    """The gears at a share of the run, shape (rows, columns, 3)."""
+    """Picture of the gears after a fraction `share` of the run, with shape (rows, columns, 3)."""
     live.page.locator("#time").fill(repr(round(share * live.ask("page.player.stop"), 6)))
     live.wait("!page.moved && !page.view.stale")
-    # what is drawn is seen after the next frame
+    # a drawn picture is visible after the next frame
     live.ask("new Promise((seen) => requestAnimationFrame(() => requestAnimationFrame(seen)))")
     shot = Image.open(io.BytesIO(live.page.screenshot())).convert("RGB")
     if file:
@@ -30,14 +30,14 @@ def picture(live, share, file):
 
 
 def shares(pixels):
-    """Parts of a picture in the colours of planets (brass, red above blue) and of side gears (blue steel, blue above red)."""
+    """Fractions of a picture in the colours of planets (brass, red above blue) and side gears (blue steel, blue above red)."""
     red, _, blue = pixels[..., 0], pixels[..., 1], pixels[..., 2]
     return np.mean(red > blue + 45.0), np.mean(blue > red + 35.0)
 
 
 @pytest.fixture
 def sized(live):
-    """The page in another window and theme; afterwards it is as it was."""
+    """sized(window, theme): the page with another window size and theme. The end of the test restores both."""
     live.go(SCENE)
     live.ask("ear.free()")
     live.wait("page.view.differential.gears")

@@ -1,4 +1,4 @@
-"""The programs of the page pass their own tests, in node."""
+"""The programs of the page pass their unit tests in node."""
 
 import os
 import re

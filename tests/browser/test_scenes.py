@@ -1,4 +1,4 @@
-"""Scenes run in the page as their files say."""
+"""Scenes run in the page as their files define."""
 
 import re
 
@@ -8,7 +8,7 @@ from bevel_differential import Scene
 
 
 def communication_points(scene):
-    """How many points a scene has: multiples of its step, its end, and the changes between them."""
+    """Number of communication points of a scene: multiples of its step, its end, and the input changes between them."""
     regular = np.append(np.arange(int(scene.stop / scene.step * (1 - 1e-9)) + 1) * scene.step, scene.stop)
     inner = [time for time, _ in scene.changes if np.abs(regular - time).min() > 1e-6 * scene.step]
     return len(regular) + len(inner)
@@ -38,7 +38,7 @@ DEGREE = np.pi / 180.0
 
 
 def test_speeds_follow_the_willis_equation_when_a_control_is_changed(live, found):
-    # left and right: the carrier's speed, plus and minus the planet's spin times the ratio of teeth
+    # side gear speeds: carrier speed, plus and minus the planet spin times the tooth ratio
     live.go("scene=study_turning&scene.gear_contact=ideal")
     cases = [(954.0, 200.0, 10), (1908.0, 200.0, 10), (1908.0, 400.0, 10), (1908.0, 400.0, 12)]
     for carrier, spin, teeth in cases:
@@ -66,7 +66,7 @@ def test_another_module_or_number_of_teeth_draws_other_gears(live, name, text, g
     assert "over" in answer, answer
     live.wait("drawn => ear.gears.length > drawn && page.view.differential.reach", drawn)
     planet, side = live.ask("ear.gears.at(-1)")
-    # the heels of both gears lie on the sphere of the outer cone distance, in single precision
+    # the heels of both gears are on the sphere of the outer cone distance, in single precision
     for gear in (planet, side):
         assert np.isclose(gear["farthest"], outer_cone_distance(*gears), rtol=1e-6)
     assert not np.isclose(before[0]["farthest"], planet["farthest"], rtol=0.05)

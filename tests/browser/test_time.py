@@ -1,4 +1,4 @@
-"""Time of the picture: scrubbing, playing, keys; picture, traces and readings follow it."""
+"""Time of the picture: slider, playing and keys change it, and picture, traces and readings follow it."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ DEGREES = 180.0 / np.pi
 
 @pytest.fixture
 def turn(live):
-    """A run with speeds that change: over, and the picture at rest."""
+    """The page after a run with changing speeds. The picture is drawn but paused."""
     live.go("scene=one_wheel_on_ice&show=left.speed right.speed")
     live.pause()
     live.ask("ear.free()")
@@ -17,20 +17,20 @@ def turn(live):
 
 
 def scrub(live, time):
-    # a slider rounds off the last bits
+    # rounded, because the slider loses the last bits of its value
     time = round(float(time), 6)
     live.page.locator("#time").fill(repr(time))
     live.wait("time => page.player.time === time && page.traces.now === time && !page.moved", time)
 
 
 def reading(text):
-    """A number that is shown, and its unit."""
+    """A displayed number and its unit."""
     number, unit = text.replace("−", "-").split(" ", 1)
     return float(number), unit
 
 
 def line_at(live, share):
-    """Whether the line for the picture's time stands at this share of the width of the first plot."""
+    """True if the first plot has its time cursor at the fraction `share` of its width."""
     return live.ask("""(share) => {
         const { plot } = page.traces.plots[0];
         const { left, top, width, height } = plot.bbox;
@@ -46,7 +46,7 @@ def line_at(live, share):
     }""", share)
 
 
-# angle of a gear in the picture about the axis of the side gears, from where it is drawn at angle 0
+# rotation angle of a drawn gear about the axis of the side gears
 DRAWN = "name => { const e = page.view.differential[name].matrix.elements; return Math.atan2(e[6], e[5]); }"
 
 
@@ -61,7 +61,7 @@ def test_gears_readings_and_trace_cursor_follow_the_scrubbed_time(turn, found):
         legend = turn.ask("[...document.querySelectorAll('.legend span')].map((each) => each.textContent)")
         for side in sides:
             number, unit = reading(turn.text(f"{side}-speed"))
-            # four digits are shown
+            # the page shows four digits
             assert unit == "°/s" and np.isclose(number, DEGREES * now[f"{side}.speed"], rtol=6e-4)
             shown = next(text for text in legend if text.startswith(f"{side} speed"))
             assert reading(shown.removeprefix(f"{side} speed ")) == (number, unit)
@@ -70,7 +70,7 @@ def test_gears_readings_and_trace_cursor_follow_the_scrubbed_time(turn, found):
         assert cursor[0] and not cursor[1], f"the line in the plots is not at {time} s"
         at[time] = [turn.ask(DRAWN, side) for side in sides], [now[f"{side}.angle"] for side in sides]
     for time, (drawn, angles) in at.items():
-        # turned in the picture as in the record, whole turns aside
+        # the picture and the record turn equally, except for whole turns
         turned = np.subtract(drawn, at[0.0][0]) - np.subtract(angles, at[0.0][1])
         assert np.allclose(np.exp(1j * turned), 1.0, atol=1e-6), time
     assert len({angles[0] for _, angles in at.values()}) == len(at)
@@ -115,7 +115,7 @@ def test_keys_do_what_the_page_says(turn):
     before = turn.ask("page.view.camera.position.toArray()")
     keys.press("Shift+ArrowLeft")
     after = turn.ask("page.view.camera.position.toArray()")
-    # the eye goes round the gears at its distance
+    # the camera moves around the gears at constant distance
     assert np.linalg.norm(np.subtract(after, before)) > 1.0 and np.isclose(np.linalg.norm(after), np.linalg.norm(before))
     keys.press(" ")
     assert turn.ask("page.player.playing")

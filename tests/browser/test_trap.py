@@ -1,4 +1,4 @@
-"""A library that fails does not take the page with it."""
+"""The page survives a library that fails."""
 
 
 def test_a_worker_that_traps_is_started_anew_with_the_set_up_kept(fresh):
@@ -6,7 +6,7 @@ def test_a_worker_that_traps_is_started_anew_with_the_set_up_kept(fresh):
     assert "over" in live.answer() and live.message() == ""
     assert live.ask("ear.workers") == 1
     answer = live.put("geometry.module", "4.75")
-    # the text of the engine for the instruction "unreachable"
+    # text of the JavaScript engine for the instruction "unreachable"
     assert answer["trap"] == "unreachable"
     live.wait("!document.getElementById('message').hidden")
     assert "restarted" in live.message() and "your set-up is kept" in live.message() and "unreachable" in live.message()

@@ -1,4 +1,4 @@
-"""Windows from a telephone's to a desk's: every view of every scene plays on, and every control can be pressed."""
+"""In windows from phone to desktop width, every view of every scene plays, and every control can be pressed."""
 
 import pytest
 
@@ -11,7 +11,7 @@ VIEWS = ["whole", "mesh", "side", "flank"]
 
 @pytest.fixture(scope="module")
 def playing(opened):
-    """A page whose picture plays, frame by frame when it is asked for."""
+    """A page whose picture plays, but draws only the frames that a test requests."""
     live = opened("scene=study_straight", ["covered.js"])
     live.ask("ear.hold()")
     yield live
@@ -23,20 +23,20 @@ def sized(request, playing):
     """The page in a window of this width."""
     playing.page.set_viewport_size({"width": request.param, "height": 800})
     playing.wait("width => innerWidth === width", request.param)
-    # a test that fails leaves it open
+    # a failed test leaves the walk open
     playing.ask("page.walk.close()")
     yield playing
     assert playing.faults == []
 
 
 def look(live, view):
-    """Another view, once its run and the gears are there."""
+    """Selects a view and waits for its run and its gears."""
     live.ask("view => document.querySelector(`[data-camera=${view}]`).click()", view)
     live.answer("points", "refused")
     live.wait("page.view.differential.gears && page.shapes.waiting.length === 0")
 
 
-# whether the time of the picture moves and the gears are drawn, before the patience [ms] is over
+# true if the picture's time advances and the gears are drawn within `patience` [ms]
 GOES_ON = """async (patience) => {
     const [time, drawn, begin] = [page.player.time, page.view.renderer.info.render.frame, performance.now()];
     const goesOn = () => page.player.time !== time && page.view.renderer.info.render.frame > drawn;
@@ -46,7 +46,7 @@ GOES_ON = """async (patience) => {
 
 
 def test_every_view_of_every_scene_plays_on(sized, scene_names, found):
-    # a view of each scene, another at the next width: each view of each scene at one width or more
+    # one view per scene and width, so that all widths together check every view of every scene
     turn = WIDTHS.index(sized.ask("innerWidth"))
     for k, scene in enumerate(scene_names):
         view = VIEWS[(k + turn) % len(VIEWS)]
@@ -56,7 +56,7 @@ def test_every_view_of_every_scene_plays_on(sized, scene_names, found):
     found(f"{sized.ask('innerWidth')} px")
 
 
-# what is still covered when boxes have made room for each other, within some frames, or the patience [ms] is over
+# covered controls and overlapping boxes that remain after boxes had up to `patience` [ms] to make room for each other
 CLEARS = """async (patience) => {
     const begin = performance.now();
     let left;

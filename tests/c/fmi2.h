@@ -1,4 +1,4 @@
-/* For hosts in C: the part of FMI 2.0 that they use, the library opened at run time, a logger, and checks. */
+/* Support for hosts in C: the FMI 2.0 functions that they use, loaded at run time, a logger, and checks. */
 
 #ifndef FMI2_H
 #define FMI2_H
@@ -70,7 +70,7 @@ typedef struct {
 FUNCTIONS(DECLARE)
 #undef DECLARE
 
-/* Opens the library and finds its functions. */
+/* Opens the library and looks up its functions. */
 static void open_library(const char *path)
 {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -87,7 +87,7 @@ static void open_library(const char *path)
 #undef FIND
 }
 
-/* Where this program reports failed checks, if not on standard error. */
+/* File for reports of failed checks. NULL selects standard error. */
 static FILE *reports;
 
 /* Ends the program if `condition` is false. */
@@ -99,7 +99,7 @@ static FILE *reports;
         } \
     } while (0)
 
-/* Counts messages in the `long` at `environment`; reads every byte, so that memcheck finds bytes that were never written. */
+/* Counts messages in the `long` at `environment`. It reads every byte, so that memcheck finds uninitialised bytes. */
 static void count_message(void *environment, const char *name, Status status, const char *category, const char *text, ...)
 {
     if (strlen(name) && strlen(category) && strlen(text) && status <= ERROR)

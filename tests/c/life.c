@@ -1,5 +1,5 @@
-/* The life cycle of instances of both kinds in a C host: refused calls, steps, states, serialisation.
-   For memcheck: life LIBRARY GUID INPUT OUTPUT, with value references of an input and an output. */
+/* Life cycle of instances for co-simulation and model exchange in a C host: refused calls, steps, states, serialisation.
+   Usage under memcheck: life LIBRARY GUID INPUT OUTPUT. INPUT and OUTPUT are value references. */
 
 #include <math.h>
 
@@ -24,7 +24,7 @@ static void begin(void *c)
     MUST(ExitInitializationMode(c) == OK);
 }
 
-/* A state is stored, serialised, damaged, deserialised and restored. */
+/* Stores, serialises, damages, deserialises and restores a state. */
 static void store_and_restore(void *c)
 {
     void *state = NULL, *copy = NULL;
@@ -66,7 +66,7 @@ static void refusals(void)
     FreeInstance(c);
 }
 
-/* An initialisation that fails, with every real parameter a thousand times too large. */
+/* Multiplies all settable real variables by 1000, so that the initialisation fails. The instance must start after a reset. */
 static void failed_initialisation(int kind)
 {
     void *c = make(kind);

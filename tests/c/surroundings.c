@@ -1,6 +1,6 @@
 /* The library leaves the host's process as it was: working directory, environment, locale, signals, floating-point mode,
-   files, threads, standard output and error. Also: how the host's floating-point mode changes results.
-   surroundings LIBRARY GUID LOAD SPEED INERTIA, the last three as value references. */
+   files, threads, standard output and error. The program also measures how the host's floating-point mode changes results.
+   Usage: surroundings LIBRARY GUID LOAD SPEED INERTIA. The last three are value references. */
 
 #define _GNU_SOURCE
 #include <dirent.h>
@@ -21,7 +21,7 @@ static const char *guid;
 static unsigned input, output, inertia;
 
 enum { SIGNALS = 64, STEPS = 50 };
-/* Control bits of the SSE unit: what to flush, what traps, how to round; the others are flags of exceptions. */
+/* Control bits of the SSE unit: flush to zero, trap masks and rounding. The other bits are exception flags. */
 static const unsigned CONTROL = 0xffc0;
 
 typedef struct {
@@ -73,13 +73,13 @@ static Surroundings inspect(void)
     return s;
 }
 
-/* A run with refused calls, a failed step, states and a failed initialisation; returns the speed after the steps. */
+/* Runs with refused calls, a failed step, states and a failed initialisation. Returns the speed after the steps. */
 static double run(void)
 {
     long lines = 0;
     Callbacks callbacks = counting(&lines);
     void *c = Instantiate("run", CO_SIMULATION, guid, NULL, &callbacks, 0, 1), *state = NULL;
-    /* without inertia at its end the side gear would rattle, and rounding errors would decide on impacts */
+    /* without inertia at its end, the side gear would rattle, and rounding errors would determine the impacts */
     double speed, end = 0.5, load = 1e7, none = NAN, module = 4.5;
     unsigned first = 0;
     MUST(c && !Instantiate("run", CO_SIMULATION, "{wrong}", NULL, &callbacks, 0, 1));
@@ -92,7 +92,7 @@ static double run(void)
     MUST(GetReal(c, &output, 1, &speed) == OK && GetFMUstate(c, &state) == OK);
     MUST(SetReal(c, &input, 1, &none) == DISCARD && DoStep(c, 0.0, -1.0, 1) == ERROR);
     MUST(SetFMUstate(c, state) == OK && FreeFMUstate(c, &state) == OK && Terminate(c) == OK && Reset(c) == OK);
-    /* teeth bent too far */
+    /* this load bends the teeth too far */
     MUST(EnterInitializationMode(c) == OK && ExitInitializationMode(c) == OK && SetReal(c, &input, 1, &load) == OK);
     MUST(DoStep(c, 0.0, 1e-2, 1) == DISCARD && Reset(c) == OK);
     MUST(SetReal(c, &first, 1, &module) == OK && EnterInitializationMode(c) == OK);
@@ -110,7 +110,7 @@ static double run(void)
     return speed;
 }
 
-/* Repeats the run in another floating-point mode, which must not change. Prints the relative change of the result. */
+/* Repeats the run in another floating-point mode, which the library must not change. Prints the relative change of the result. */
 static void in_mode(const char *name, unsigned sse, int rounding, double plain)
 {
     unsigned before = _mm_getcsr();
@@ -125,7 +125,7 @@ static void in_mode(const char *name, unsigned sse, int rounding, double plain)
     printf("%s %.3g\n", name, fabs(speed / plain - 1.0));
 }
 
-/* True if a run survives a host that lets floating-point exceptions trap. */
+/* Runs in a child process that traps floating-point exceptions, and prints if the process survives. */
 static void trapping(const char *name, int exceptions)
 {
     fflush(stdout);
@@ -151,13 +151,13 @@ int main(int count, char **arguments)
     input = (unsigned)atoi(arguments[3]);
     output = (unsigned)atoi(arguments[4]);
     inertia = (unsigned)atoi(arguments[5]);
-    /* settings that no library would choose */
+    /* unusual settings, so that a library that overwrites them is noticed */
     setlocale(LC_ALL, "C.UTF-8");
     setenv("BEVEL_TEST", "%s 1,5", 1);
     umask(027);
     signal(SIGPIPE, SIG_DFL);
 
-    /* after opening the library and a first run, because the C library may open files for these */
+    /* before opening the library, so that the check includes its loading */
     Surroundings before = inspect();
     open_library(arguments[1]);
     FILE *output_file = tmpfile();

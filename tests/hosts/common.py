@@ -1,13 +1,14 @@
-"""What every host's script needs: the scene, the variables of the FMU by name, and the table that is written.
+"""Common code of the scripts for the FMI hosts: the scene, the variables of the FMU by name, and the table of results.
 
 usage of each script: HOST.py FMU SCENE.json OUT.csv
 
-The FMU is that of FMI 2.0, or that of FMI 3.0 for hosts that read it. All do the same. Parameters and inputs are set
-before initialisation; inputs that change at a communication point are set before the step that begins there; outputs are
-read after initialisation, where the host can, and after every step. The table has a line for each communication point,
-with 17 significant digits, which restore every bit of a double. A line of JSON on standard output gives the host's
-version and the seconds from loading the FMU to freeing it. A host that cannot be loaded on this machine ends with status
-3 and says why in one line.
+The FMU is of FMI 2.0, or of FMI 3.0 for hosts that support it. All scripts follow the same sequence. They set parameters
+and inputs before initialisation. An input that changes at a communication point is set before the step that begins at that
+point. Outputs are read after initialisation, if the host supports it, and after every step.
+
+The table has a line for each communication point, with 17 significant digits, which restore every bit of a double. A line
+of JSON on standard output gives the host's version and the seconds from loading the FMU to freeing it. If the host cannot
+be loaded on this machine, the script ends with status 3 and prints the reason in one line.
 """
 
 import json
@@ -19,13 +20,13 @@ from functools import cache
 from fmpy import read_model_description
 
 CANNOT_LOAD = 3
-# what numbers of other types are in Python
+# Python types of FMI types; all others are int
 TYPES = {"Real": float, "Float64": float, "Boolean": bool}
 
 
 @dataclass
 class Variable:
-    """A variable; `kind` is its element in the model description. `structural`: FMI 3.0 sets it in configuration mode."""
+    """A variable. `kind` is its element in the model description; a `structural` parameter of FMI 3.0 is set in configuration mode."""
 
     name: str
     kind: str
@@ -33,7 +34,7 @@ class Variable:
     structural: bool
 
     def number(self, value):
-        """`value` of the scene as the FMU takes it."""
+        """Converts a `value` of the scene to the type of the variable."""
         return TYPES.get(self.kind, int)(value)
 
 
@@ -55,12 +56,12 @@ def description(fmu):
 
 
 def is_three(fmu):
-    """Whether it is an FMU of FMI 3.0."""
+    """True for an FMU of FMI 3.0."""
     return described(fmu).fmiVersion.startswith("3")
 
 
 class Scene:
-    """What is simulated: values by name in SI, enumerations as numbers, and the outputs to record."""
+    """A simulation task: step and stop time, values by name in SI, enumerations as numbers, and the outputs to record."""
 
     def __init__(self, path):
         with open(path, encoding="utf-8") as file:
@@ -68,12 +69,12 @@ class Scene:
         self.step, self.stop = order["step"], order["stop"]
         self.steps = round(self.stop / self.step)
         self.parameters, self.outputs = order["parameters"], list(order["outputs"])
-        # an input is a number or a series of [time, value], each value from that communication point on
+        # an input is a number or a series of [time, value]; each value applies from the communication point at that time on
         self.series = {name: value if isinstance(value, list) else [[0.0, value]]
                        for name, value in order["inputs"].items()}
 
     def start(self, known):
-        """(variable, value) of all that is set before initialisation."""
+        """All (variable, value) pairs to set before initialisation."""
         values = self.parameters | {name: series[0][1] for name, series in self.series.items()}
         return [(known[name], known[name].number(value)) for name, value in values.items()]
 
@@ -86,8 +87,8 @@ class Scene:
 
 
 def stepped(scene, write, step, read, at_start=True):
-    """Values at all communication points: `write(name, value)` sets an input, `step(k)` begins at point k, `read()` gives
-    the outputs; not `at_start`: the host cannot read before the first step."""
+    """Simulates a scene and returns {communication point: values}. `write(name, value)` sets an input, `step(k)` performs the
+    step from point k, and `read()` returns the outputs. `at_start` is false if the host cannot read before the first step."""
     rows = {0: read()} if at_start else {}
     for k in range(scene.steps):
         for name, value in scene.changes(k).items():
@@ -98,7 +99,8 @@ def stepped(scene, write, step, read, at_start=True):
 
 
 def main(load, run):
-    """`load` imports the host and returns its version; `run(fmu, scene)` returns {communication point: values}."""
+    """Runs the script of a host. `load` imports the host and returns its version; `run(fmu, scene)` returns {communication
+    point: values}."""
     if len(sys.argv) != 4:
         raise SystemExit(f"usage: {sys.argv[0]} FMU SCENE.json OUT.csv")
     fmu, scene = sys.argv[1], Scene(sys.argv[2])
@@ -107,7 +109,7 @@ def main(load, run):
     except (ImportError, OSError) as error:
         print(error, file=sys.stderr)
         raise SystemExit(CANNOT_LOAD) from None
-    # the description is read and kept before the clock runs
+    # reads and caches the model description before the time is measured
     described(fmu)
     begin = time.perf_counter()
     rows = run(fmu, scene)

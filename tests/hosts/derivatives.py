@@ -1,5 +1,7 @@
-"""Derivatives of the states and their Jacobian at points of a scene, by FMPy, call by call: what hosts that evaluate the equations in
-model exchange are compared with. The script of such a host takes its points and its columns from here."""
+"""State derivatives and their Jacobian at points of a scene, computed with individual FMI calls in FMPy.
+
+They are the reference for hosts that evaluate the equations in model exchange. The script of such a host uses the points and columns of
+this module."""
 
 import math
 import shutil
@@ -10,23 +12,23 @@ import common
 import with_fmpy
 
 load = with_fmpy.load
-# points of a scene: the start, and states around it
+# number of points of a scene: the start and states around it
 POINTS = 5
-# largest distance of a state from the start, in nominal values
+# maximum distance of a state from its start value, relative to its nominal value
 AWAY = 0.05
 
 
 @dataclass(frozen=True)
 class Point:
-    """Values by name, SI, at which derivatives are evaluated."""
+    """Values by name [SI] at which derivatives are evaluated."""
 
     states: dict[str, float]
     inputs: dict[str, float]
 
 
 class Equations:
-    """Names of the states in the order of the model description, of their derivatives and of the inputs; `nominal` values of states and
-    inputs by name, SI."""
+    """Names of the states, their derivatives and the inputs, in the order of the model description. `nominal` contains the nominal values
+    by name [SI]."""
 
     def __init__(self, fmu):
         described = common.described(fmu)
@@ -36,16 +38,17 @@ class Equations:
         self.nominal = {variable.name: float(variable.nominal or 1.0) for variable in described.modelVariables}
 
     def columns(self):
-        """Names of the recorded values: derivatives, and their changes by a nominal change of a state or an input."""
+        """Names of the recorded values: derivatives, and their linear changes for a nominal change of a state or an input."""
         return [*self.rates, *(f"{rate} by {name}" for rate in self.rates for name in (*self.states, *self.inputs))]
 
     def row(self, rates, slopes):
-        """The recorded values; `rates` by name of their state, `slopes` by names of that state and of what is changed, SI."""
+        """Recorded values of a point. `rates` is {state: derivative} [SI]. `slopes` is {(state, name): partial derivative} [SI], the
+        derivative of that state's rate with respect to the state or input `name`."""
         return [*(rates[state] for state in self.states),
                 *(slopes[state, name] * self.nominal[name] for state in self.states for name in (*self.states, *self.inputs))]
 
     def points(self, start, scene):
-        """The points around the states `start`, with the inputs that the scene has meanwhile."""
+        """Points around the states `start`, with the inputs of the scene at equally spaced times."""
         for k in range(POINTS):
             away = {name: AWAY * self.nominal[name] * math.sin(k * (j + 1.0)) for j, name in enumerate(self.states)}
             time = scene.stop * k / POINTS
@@ -75,7 +78,7 @@ def run(fmu, scene):
 
 @contextmanager
 def started(fmu, scene):
-    """An instance for model exchange in continuous-time mode, and its states at the start by name."""
+    """An instance for model exchange in continuous-time mode, and its initial states by name."""
     import fmpy
     from fmpy.fmi2 import FMU2Model
 
@@ -95,7 +98,7 @@ def started(fmu, scene):
 
 
 def of(get, count):
-    """Values that a function of FMI writes into an array."""
+    """Returns `count` values that the FMI function `get` writes into an array."""
     from ctypes import c_double
 
     values = (c_double * count)()
@@ -104,7 +107,7 @@ def of(get, count):
 
 
 def set_states(model, values):
-    """Sets all states together."""
+    """Sets all states in one call."""
     from ctypes import c_double
 
     model.setContinuousStates((c_double * len(values))(*values), len(values))

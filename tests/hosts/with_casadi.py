@@ -1,7 +1,7 @@
-"""CasADi's DaeBuilder: a function of states and inputs, with its Jacobian. C++, its own import, model exchange of FMI 2.0.
+"""DaeBuilder of CasADi, a host in C++ with its own FMI import for model exchange of FMI 2.0. It evaluates derivatives and their Jacobian.
 
-It sets states and inputs as variables, in one call, and takes the Jacobian from directional derivatives. It would set tunable
-parameters (its inputs `p`) between events, which the FMU refuses: their values, like those of other parameters, are set before.
+DaeBuilder sets states and inputs as variables in one call and computes the Jacobian from directional derivatives. It would set tunable
+parameters (its inputs `p`) between events, which the FMU refuses. The script therefore sets all parameters in advance.
 """
 
 import tempfile
@@ -13,7 +13,7 @@ import derivatives
 
 
 def load():
-    import casadi  # noqa: F401 - fails here where it is missing
+    import casadi  # noqa: F401 - fails here if it is missing
 
     return version("casadi")
 

@@ -1,8 +1,8 @@
-"""Ecos by ecospy. C++, fmi4c; with --process the FMU runs in a separate process (proxyfmu).
+"""Ecos, a host in C++ with fmi4c, used through ecospy. With --process, the FMU runs in a separate process (proxyfmu).
 
-It does not support enumerations: it ignores their variables, and logs a warning for a value given to one. Values before
-initialisation are a parameter set. A structural parameter of FMI 3.0 is refused, as Ecos does not enter configuration mode:
-only its debug log says so.
+Ecos does not support enumerations: it ignores their variables and logs a warning if a value is set. Values before
+initialisation are passed as a parameter set. Ecos does not enter configuration mode, so the FMU refuses structural parameters
+of FMI 3.0. Only the debug log of Ecos reports this.
 """
 
 import os

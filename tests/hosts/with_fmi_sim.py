@@ -1,8 +1,9 @@
-"""fmi-sim, the program of the crates fmi and fmi-schema. Rust.
+"""fmi-sim, the program of the Rust crates fmi and fmi-schema.
 
-The environment variable FMI_SIM holds its path. Values before initialisation go to its command line, where enumerations
-are numbers; inputs are a file. It interpolates inputs linearly between rows; with a row for every communication point there
-is nothing to interpolate. It records outputs before it sets the inputs of the same point, as the other scripts do.
+The environment variable FMI_SIM contains its path. Values before initialisation are passed on the command line, with
+enumerations as numbers; inputs are passed in a file. fmi-sim interpolates inputs linearly between rows. The file has a row for
+every communication point, so nothing is interpolated. Like the other scripts, fmi-sim records outputs before it sets the
+inputs of the same point.
 """
 
 import csv
@@ -21,7 +22,7 @@ def load():
     program = os.environ.get("FMI_SIM", "")
     if not os.path.isfile(program):
         raise ImportError("FMI_SIM does not name the program fmi-sim")
-    # it prints its version as an error
+    # fmi-sim prints its version as an error
     asked = subprocess.run([program, "--version"], capture_output=True, text=True, env=QUIET)
     return re.search(r"fmi-sim (\S+)", asked.stdout + asked.stderr).group(1)
 
@@ -53,7 +54,7 @@ def run(fmu, scene):
 
 
 def table(scene):
-    """All inputs at all communication points."""
+    """CSV table of all inputs at all communication points."""
     values = {name: series[0][1] for name, series in scene.series.items()}
     lines = [",".join(["time", *values])]
     for k in range(scene.steps + 1):

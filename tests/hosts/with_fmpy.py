@@ -1,4 +1,4 @@
-"""FMPy, call by call: the others are compared with this one. Python, its own import by ctypes."""
+"""FMPy, a Python host that imports the FMU with ctypes, used with individual FMI calls. It is the reference for the other hosts."""
 
 import shutil
 from importlib.metadata import version
@@ -36,7 +36,7 @@ def stepped(fmu, scene, known, outputs):
 
 
 def two(scene, known, options):
-    """An initialised slave of FMI 2.0, and what sets and reads its real numbers."""
+    """An initialised slave of FMI 2.0, and the functions that set and read its real variables."""
     from fmpy.fmi2 import FMU2Slave
 
     slave = FMU2Slave(**options)
@@ -56,7 +56,8 @@ def begun(instance, scene, known):
 
 
 def three(scene, known, options):
-    """The same of FMI 3.0, whose structural parameters are set in configuration mode."""
+    """An initialised slave of FMI 3.0, and the functions that set and read its real variables. Structural parameters are set in
+    configuration mode."""
     from fmpy.fmi3 import FMU3Slave
 
     slave = FMU3Slave(**options)

@@ -1,7 +1,7 @@
-"""The FMU inside another FMU: FMU Manipulation Toolbox puts it into a container, a C program that imports it. FMPy only
-steps the container. Enumerations are Integers there, and parameters are prefixed with the inner FMU's name.
+"""The FMU inside another FMU. FMU Manipulation Toolbox packs it into a container, a C program that imports it, and FMPy steps
+the container. In the container, enumerations are Integers, and the inner FMU's name is the prefix of parameters.
 
-Inputs and outputs are named one by one: an array whose size is a structural parameter cannot be among them.
+The container connects scalar inputs and outputs. An array whose size is a structural parameter cannot be connected.
 """
 
 import copy
@@ -29,7 +29,7 @@ def run(fmu, scene):
         outer = contained(Path(fmu).resolve(), scene, Path(folder))
         found = common.variables(outer)
         prefix = Path(fmu).stem.lower() + "."
-        # what is local inside is not seen from outside
+        # local variables of the inner FMU are not visible outside
         names = {name: next((n for n in (name, prefix + name) if n in found), None) for name in inner}
         known = {name: copy.copy(inner[name]) for name, seen in names.items() if seen}
         for name, variable in known.items():
@@ -38,7 +38,7 @@ def run(fmu, scene):
 
 
 def contained(fmu, scene, folder):
-    """The container, of the same version of FMI; its steps have the scene's length."""
+    """Path of a container for the same version of FMI. Its step size is the step of the scene."""
     (folder / fmu.name).write_bytes(fmu.read_bytes())
     rows = ["rule;from_fmu;from_port;to_fmu;to_port", f"FMU;{fmu.name};;;"]
     rows += [f"INPUT;;{name};{fmu.name};{name}" for name in scene.series]

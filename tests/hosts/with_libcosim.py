@@ -1,8 +1,8 @@
-"""libcosim, the engine of the Open Simulation Platform, by libcosimpy. C++, FMI Library.
+"""libcosim, the engine of the Open Simulation Platform, a host in C++ with FMI Library, used through libcosimpy.
 
-It does not support enumerations and ignores their variables. Values before initialisation are its initial values; inputs
-change by its override manipulator, which acts at the begin of the next step. It initialises within the first step, so
-nothing can be read at the start. Time is counted in whole nanoseconds.
+libcosim does not support enumerations and ignores their variables. Values before initialisation are set as initial values.
+Inputs are set with the override manipulator, which acts at the start of the next step. libcosim initialises within the first
+step, so nothing can be read at the start. Time is an integer number of nanoseconds.
 """
 
 from importlib.metadata import version
