@@ -93,7 +93,9 @@ def test_scenes_with_the_same_name_are_distinguished_and_warnings_name_them(tmp_
     assert "after/axle − before/axle" in said.out and "other − before/axle" in said.out
     lines = [line for line in said.err.splitlines() if "tooth_errors.side_runout" in line]
     assert lines and all(line.startswith("warning: after/axle: ") for line in lines)
-    assert all(line.startswith(("warning: before/axle: ", "warning: after/axle: ", "warning: other: ")) for line in said.err.splitlines())
+    # the further lines of a warning are indented
+    warned = [line for line in said.err.splitlines() if not line.startswith(" ")]
+    assert all(line.startswith(("warning: before/axle: ", "warning: after/axle: ", "warning: other: ")) for line in warned), warned
 
 
 def test_scenes_in_python_may_have_one_name():

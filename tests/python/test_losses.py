@@ -321,7 +321,7 @@ def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
     with Scene.load("torque_bias", fmu=fmu_file) as scene:
         levels = dict(zip(VARIABLES, ([167.0, 1670.0], [5.0, 50.0], [0.5, 20.0], [253.15, 393.15])))
         made = losses(scene, levels, within="1%", unseen=3, most=16, workers=0, tell=said.append)
-        assert said[0].startswith("model: tooth") and said[0].endswith(", corner contact"), said[0]
+        assert said[0].startswith("model: tooth") and "corner contact" in said[0].replace("_", " "), said[0]
         assert made.restless == 0
         # a point that would stall has a message with the remedy
         stalled = PointTask(benched(scene).set({"effects.corner_contact": False, "solver.relative_tolerance": 1e-4}))
