@@ -69,7 +69,10 @@ fn unit(row: &Variable) -> String {
 
 /// Returns `text`, as `start` and `allowed` print it, without the display unit, which has a separate column.
 fn without_unit(row: &Variable, text: String) -> String {
-    row.display.map_or(text.clone(), |shown| text.replace(&format!(" {}", shown.name), ""))
+    match row.display {
+        Some(shown) => text.replace(&format!(" {}", shown.name), ""),
+        None => text,
+    }
 }
 
 /// Smallest and largest value, or the names of the choices.
