@@ -10,7 +10,8 @@ use crate::contact::planet::Contact;
 use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::solid::mass::GearMass;
 use crate::geometry::{Pair, checks};
-use crate::model::effect_kinds::{BUILT, ToothEffects};
+use crate::model::effect_kinds::body_friction::PARTS;
+use crate::model::effect_kinds::{BUILT, Friction, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
 use crate::model::setup::{CONTACT_HEAT, HEAT_OUTPUTS, HEATS, Parameters, SceneEffects, advice, validation};
@@ -95,6 +96,11 @@ impl Model {
         warnings.extend(effects.warnings());
         warnings.extend(advice::warnings(parameters));
         let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
+        let parts = Friction::part_count(&body_effects.friction);
+        if parts > PARTS {
+            let said = problem!("effects", "they put {parts} dry frictions on one body, but it takes at most {PARTS}");
+            return Err(vec![said]);
+        }
         let gears = match plan.contact {
             GearContact::Ideal => {
                 // warming up is recorded step by step, but the closed form has no steps

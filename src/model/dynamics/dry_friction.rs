@@ -94,18 +94,22 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         j: &mut Jacobian<'_, N>,
     ) {
         let side = self.teeth.sin_base[1];
+        let ramps = self.applied.friction().ramps;
+        let torques = [0, 1].map(|s| self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]));
         for s in 0..2 {
             let Some((direction, of_side)) = self.slopes_of_sliding(at, s, &sides[s]) else { continue };
-            let torque = self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]);
-            let slopes = self.by_group([0.0; WITH_OTHER], |g| {
-                let by = loads[g][s].pressing_slopes();
-                std::array::from_fn(|k| {
-                    self.members(g)
-                        * (of_side[0] * by.side_axial[k] + of_side[1] * torque.signum() * side * by.force[k])
-                })
-            });
-            for row in [(s, -direction), (CARRIER, direction)] {
-                self.spread_all::<L>(row, s, &slopes, j);
+            let by_torque = ramps.slopes(torques, s);
+            for t in (0..2).filter(|&t| t == s || ramps.both_sides) {
+                let by_thrust = if t == s { of_side[0] } else { 0.0 };
+                let slopes = self.by_group([0.0; WITH_OTHER], |g| {
+                    let by = loads[g][t].pressing_slopes();
+                    std::array::from_fn(|k| {
+                        self.members(g) * (by_thrust * by.side_axial[k] + of_side[1] * by_torque[t] * side * by.force[k])
+                    })
+                });
+                for row in [(s, -direction), (CARRIER, direction)] {
+                    self.spread_all::<L>(row, t, &slopes, j);
+                }
             }
         }
         for g in 0..self.groups() {

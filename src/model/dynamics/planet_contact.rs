@@ -231,9 +231,11 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     #[inline]
     fn mesh_surface_loads<L: MeshLoad>(&self, at: &Point<N>, loads: &S::ByGroup<[L; 2]>) -> MeshLoads<S, N> {
         let side = self.teeth.sin_base[1];
+        let torques = [0, 1].map(|s| self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]));
+        let pressing = self.applied.friction().ramps.loads(torques);
         let sides = [0, 1].map(|s| SurfaceLoad {
             thrust: self.sum(|g| self.members(g) * loads[g][s].pressing().side_axial),
-            load: self.sum(|g| self.members(g) * side * loads[g][s].force()[Q]).abs(),
+            load: pressing[s],
         });
         let mut planets = S::ByGroup::filled(SurfaceLoad::default());
         for g in 0..self.groups() {

@@ -2,8 +2,9 @@
 
 use super::{FrictionPart, SurfaceLoad};
 
-/// Maximum number of friction parts on one body.
-pub const PARTS: usize = 3;
+/// Maximum number of friction parts on one body: washer, clutch pack, its measured curve, and lock. The start of a
+/// simulation checks it ([`super::Friction::part_count`]).
+pub const PARTS: usize = 4;
 
 /// Limit torques of all parts, and the spring that holds the body.
 #[derive(Clone, Copy, Debug)]
@@ -44,14 +45,16 @@ impl BodyFriction {
         Self { commanded: true, ..Self::new(damping_time, released_heat_index) }
     }
 
-    /// Adds parts that share a spring of `stiffness` [N·m/rad]. `varies_with_slip` is true if their friction changes
-    /// with slip.
-    pub fn push(&mut self, parts: &[FrictionPart], stiffness: f64, varies_with_slip: bool) {
-        if stiffness > 0.0 && self.count + parts.len() <= PARTS {
+    /// Adds parts that share a spring of `stiffness` [N·m/rad] with the damping `damping_time` [s] over its stiffness.
+    /// `varies_with_slip` is true if their friction changes with slip.
+    pub fn push(&mut self, parts: &[FrictionPart], (stiffness, damping_time): (f64, f64), varies_with_slip: bool) {
+        if stiffness > 0.0 {
             self.parts[self.count..self.count + parts.len()].copy_from_slice(parts);
             self.count += parts.len();
             self.varies_with_slip |= varies_with_slip;
             self.stiffness += stiffness;
+            // dampings add up like stiffnesses; equal times remain exactly what they are
+            self.damping_time += (damping_time - self.damping_time) * (stiffness / self.stiffness);
         }
     }
 

@@ -93,7 +93,7 @@ impl<'a> DryFriction<'a> {
 
     /// Limit torque of a held body: static ratio times kinetic limit torque, summed over all parts [N·m].
     fn breakaway(&self, by: &SurfaceLoad) -> f64 {
-        self.parts().map(|(part, source)| source.static_ratio * part.at(by)).sum()
+        self.parts().map(|(part, source)| part.breakaway(source, by)).sum()
     }
 
     /// Torque against the motion [N·m].

@@ -2,7 +2,9 @@
 
 use super::body_friction::BodyFriction;
 use super::dry_friction::DAMPING_TIME;
-use super::{FrictionPart, FrictionSource, PlanetFriction, SideFriction, SurfaceKind, SurfaceLoad, WheelFriction};
+use super::{
+    FrictionPart, FrictionSource, PlanetFriction, Ramps, SideFriction, SurfaceKind, SurfaceLoad, WheelFriction,
+};
 use crate::model::scene::{FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs};
 use crate::model::thermal::NODES;
 
@@ -15,6 +17,8 @@ pub struct Friction {
     pub planet: BodyFriction,
     /// Friction on the left and the right wheel.
     pub wheel: [BodyFriction; 2],
+    /// Parts that convert the mesh torques on the side gears to pressure.
+    pub ramps: Ramps,
     /// Function that returns the limit torques of both wheels [N·m]; `None` without brakes.
     wheel_limit: Option<fn(&Inputs) -> [f64; 2]>,
 }
@@ -25,6 +29,7 @@ impl Friction {
         side: BodyFriction::NONE,
         planet: BodyFriction::NONE,
         wheel: [BodyFriction::NONE; 2],
+        ramps: Ramps::OWN_SIDE,
         wheel_limit: None,
     };
 
@@ -54,21 +59,46 @@ impl Friction {
         all
     }
 
+    /// Largest number of friction parts on one body that `sources` have together.
+    pub fn part_count(sources: &[FrictionSource]) -> usize {
+        let of_side = |source: &FrictionSource| match source.side.stiffness {
+            0.0 => 0,
+            _ => 1 + usize::from(source.side.curve.is_some()),
+        };
+        let of_planet = |source: &FrictionSource| match source.planet.stiffness {
+            0.0 => 0,
+            _ => 1 + usize::from(source.varies_with_slip()),
+        };
+        let sum = |of: &dyn Fn(&FrictionSource) -> usize| sources.iter().map(of).sum::<usize>();
+        sum(&of_side).max(sum(&of_planet)).max(sum(&|source| usize::from(source.wheel.is_some())))
+    }
+
     /// Adds source number `index`. `part` is the applied fraction of its full force, and `factor` multiplies its
     /// friction.
     fn add(&mut self, (index, source): (u16, &FrictionSource), part: f64, factor: f64) {
         let varies_with_slip = source.varies_with_slip();
         let none = FrictionPart { heat_index: source.heat_index, source: index, ..FrictionPart::NONE };
-        let SideFriction { constant, per_thrust, per_torque, stiffness, .. } = source.side;
-        let side = FrictionPart { constant, per_thrust, per_load: per_torque, ..none };
-        self.side.push(&[side.times(part * factor)], part * stiffness, varies_with_slip);
+        let SideFriction { constant, per_thrust, per_torque, ramps, curve, stiffness, .. } = source.side;
+        if per_torque != 0.0 {
+            self.ramps = ramps;
+        }
+        let side = FrictionPart { constant, per_thrust, per_load: per_torque, ..none }.times(part * factor);
+        let spring = (part * stiffness, source.damping_time);
+        match curve {
+            Some(curve) => {
+                let measured = FrictionPart { constant: curve.breakaway(), surface: SurfaceKind::SideCurve, ..none };
+                self.side.push(&[side, measured], spring, varies_with_slip);
+            }
+            None => self.side.push(&[side], spring, varies_with_slip),
+        }
         let PlanetFriction { per_pin_force: per_load, per_thrust, stiffness, .. } = source.planet;
         let pin = FrictionPart { per_load, surface: SurfaceKind::Pin, ..none };
         let washer = FrictionPart { per_thrust, surface: SurfaceKind::PlanetWasher, ..none };
+        let spring = (part * stiffness, source.damping_time);
         if varies_with_slip {
-            self.planet.push(&[pin, washer].map(|of| of.times(part * factor)), part * stiffness, true);
+            self.planet.push(&[pin, washer].map(|of| of.times(part * factor)), spring, true);
         } else {
-            self.planet.push(&[FrictionPart { per_thrust, ..pin }.times(part * factor)], part * stiffness, false);
+            self.planet.push(&[FrictionPart { per_thrust, ..pin }.times(part * factor)], spring, false);
         }
     }
 
@@ -93,7 +123,8 @@ impl Friction {
                     surface: SurfaceKind::Wheel,
                     ..FrictionPart::NONE
                 };
-                self.wheel[s].push(&[part.times(factor)], wheel.stiffness, source.varies_with_slip());
+                let spring = (wheel.stiffness, wheel.damping_time[s]);
+                self.wheel[s].push(&[part.times(factor)], spring, source.varies_with_slip());
             }
         }
         self.wheel_limit = Some(wheel.limit);

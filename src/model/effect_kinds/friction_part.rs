@@ -36,11 +36,19 @@ impl FrictionPart {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
+    /// Limit torque while stuck [N·m].
+    pub(super) fn breakaway(&self, source: &FrictionSource, by: &SurfaceLoad) -> f64 {
+        if self.surface == SurfaceKind::SideCurve { self.constant } else { source.static_ratio * self.at(by) }
+    }
+
     /// Limit torque of a surface of `source` [N·m] while the body slides at `speed` [rad/s] in its direction, and the
     /// derivative with respect to speed. It is `inline(never)` to keep the code of friction without slip dependence
     /// small.
     #[inline(never)]
     pub(super) fn sliding(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        if self.surface == SurfaceKind::SideCurve {
+            return source.side.curve.map_or([0.0; 2], |curve| curve.at(speed));
+        }
         let ([value, slope], kinetic) = (source.law(self.surface).factor(speed), self.at(by));
         let [torque, by_speed] = [value * kinetic, slope * kinetic];
         let Some(limit) = source.pv_limit() else { return [torque, by_speed] };
@@ -52,6 +60,9 @@ impl FrictionPart {
     /// Derivatives of the torque of [`Self::sliding`] with respect to thrust and load.
     #[inline(never)]
     pub(super) fn slopes(&self, source: &FrictionSource, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
+        if self.surface == SurfaceKind::SideCurve {
+            return [0.0; 2];
+        }
         let [value, _] = source.law(self.surface).factor(speed);
         let [by_thrust, by_load] = [value * self.per_thrust, value * self.per_load];
         let Some(limit) = source.pv_limit() else { return [by_thrust, by_load] };
@@ -67,8 +78,8 @@ impl FrictionPart {
 pub struct SurfaceLoad {
     /// Thrust on a side gear, or on a planet [N].
     pub thrust: f64,
-    /// Magnitude of the mesh torque on a side gear [N·m] or of the force across a planet's pin [N], or the limit torque
-    /// of a wheel [N·m].
+    /// Mesh torque that presses the pack of a side gear [N·m], magnitude of the force across a planet's pin
+    /// [N], or limit torque of a wheel [N·m].
     pub load: f64,
 }
 

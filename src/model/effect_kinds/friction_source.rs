@@ -1,6 +1,7 @@
 //! Contribution of an effect to the dry friction of bodies: limit torques that depend on the loads on the surfaces.
 
-use super::{Pressed, PvLimit, SlipLaw, SlipSpec};
+use super::dry_friction::DAMPING_TIME;
+use super::{Pressed, PvLimit, Ramps, SlipLaw, SlipSpec, TorqueCurve};
 use crate::model::scene::Inputs;
 use crate::model::thermal::{NODES, OIL};
 
@@ -12,8 +13,12 @@ pub struct SideFriction {
     pub constant: f64,
     /// Torque per thrust on the side gear [m].
     pub per_thrust: f64,
-    /// Torque per mesh torque on the side gear.
+    /// Torque per mesh torque that presses the surface.
     pub per_torque: f64,
+    /// Parts that convert mesh torque to pressure.
+    pub ramps: Ramps,
+    /// Torque over slip in addition, with a breakaway torque.
+    pub curve: Option<TorqueCurve>,
     /// Stiffness while stuck [N·m/rad].
     pub stiffness: f64,
     /// Mean radius of the surface [m].
@@ -57,6 +62,8 @@ pub struct WheelFriction {
 pub enum SurfaceKind {
     /// Surface between side gear and carrier.
     Side,
+    /// The same surface, with a torque from a measured curve.
+    SideCurve,
     /// Surface between a planet and its pin.
     Pin,
     /// Surface of a planet's washer.
@@ -87,6 +94,8 @@ pub struct FrictionSource {
     pub planet: PlanetFriction,
     /// Friction on the wheels.
     pub wheel: Option<WheelFriction>,
+    /// Damping of the springs on side gears and planets over their stiffness [s].
+    pub damping_time: f64,
     /// Limit torque while stuck over limit torque while sliding.
     pub static_ratio: f64,
     /// Parameters of sliding.
@@ -107,6 +116,7 @@ impl FrictionSource {
             side,
             planet,
             wheel: None,
+            damping_time: DAMPING_TIME,
             static_ratio: 1.0,
             sliding: SlipSpec::default(),
             temperature: SurfaceTemperature::Node(OIL),
@@ -127,6 +137,8 @@ impl FrictionSource {
         let PlanetFriction { radius: [pin, washer], pressed: [on_pin, on_washer], .. } = self.planet;
         match kind {
             SurfaceKind::Side => (self.side.radius, self.side.pressed),
+            // the load behind a measured torque is unknown
+            SurfaceKind::SideCurve => (0.0, Pressed::NONE),
             SurfaceKind::Pin => (pin, on_pin),
             SurfaceKind::PlanetWasher => (washer, on_washer),
             SurfaceKind::Wheel => self.wheel.map_or((0.0, Pressed::NONE), |wheel| (wheel.radius, wheel.pressed)),
@@ -152,7 +164,7 @@ impl FrictionSource {
 
     /// True if friction changes with slip.
     pub fn varies_with_slip(&self) -> bool {
-        !self.law(SurfaceKind::Side).is_constant() || self.pv_limit().is_some()
+        !self.law(SurfaceKind::Side).is_constant() || self.pv_limit().is_some() || self.side.curve.is_some()
     }
 
     /// True if friction depends on the loads of the meshes.

@@ -13,9 +13,11 @@ pub mod friction_part;
 pub mod friction_source;
 pub mod friction_state;
 pub mod pressed;
+pub mod ramps;
 pub mod slip_law;
 pub mod slip_spec;
 pub mod teeth;
+pub mod torque_curve;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting, pv_reading};
@@ -26,7 +28,9 @@ pub use friction_source::{
 };
 pub use friction_state::{FrictionState, Mode};
 pub use pressed::{Pressed, PvLimit, Surface};
+pub use ramps::Ramps;
 pub use slip_law::SlipLaw;
 pub use slip_spec::SlipSpec;
 pub(super) use slip_spec::{check_slip, slip_rows};
 pub use teeth::{FlankFriction, ToothEffects};
+pub use torque_curve::TorqueCurve;

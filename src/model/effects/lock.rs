@@ -1,7 +1,9 @@
-//! Lock between both side gears and the carrier: a clutch that is pressed from outside, with T_max = command × torque.
+//! Lock between both side gears and the carrier: a clutch that is pressed from outside, with T_max = command × torque. While it holds,
+//! each side is a spring and a damper in parallel: T = command × stiffness × (z + τ ω).
 
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::{Parameter, Row, row, units};
+use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};
 
 spec! {
@@ -11,6 +13,8 @@ spec! {
         pub torque: f64 = 5e3,
         /// Stiffness of each side at full command [N·m/rad].
         pub stiffness: f64 = 1e6,
+        /// Damping of each side over its stiffness [s].
+        pub damping_time: f64 = DAMPING_TIME,
     }
 }
 
@@ -28,6 +32,11 @@ impl Declare for LockSpec {
                 (1.0, 1e9),
                 |p| &mut p.stiffness,
             ),
+            row("lock.damping_time", "Damping of the closed lock over its stiffness").real(
+                units::SECOND,
+                (0.0, 1.0),
+                |p| &mut p.damping_time,
+            ),
         ]
     }
 
@@ -42,6 +51,7 @@ impl Declare for LockSpec {
 impl Effect for LockSpec {
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
         let side = SideFriction { constant: self.torque, stiffness: self.stiffness, ..SideFriction::default() };
-        Some(FrictionSource { side, by_lock: true, ..FrictionSource::new(setting.heat_index) })
+        let Self { damping_time, .. } = *self;
+        Some(FrictionSource { side, damping_time, by_lock: true, ..FrictionSource::new(setting.heat_index) })
     }
 }

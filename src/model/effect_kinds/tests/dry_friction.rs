@@ -10,7 +10,7 @@ const STIFFNESS: f64 = 1e3;
 
 /// A body whose limit torque is its load.
 fn by_load(mut body: BodyFriction) -> BodyFriction {
-    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], STIFFNESS, false);
+    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], (STIFFNESS, DAMPING_TIME), false);
     body
 }
 
@@ -120,7 +120,7 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
     // 1e-5 of 1 mN·m
     let stiff = 1e9;
     let mut body = BodyFriction::commanded(DAMPING_TIME, 0);
-    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], stiff, false);
+    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], (stiff, DAMPING_TIME), false);
     let (sources, by) = ([FrictionSource::new(0)], pressed(1e-3));
     let brake = DryFriction::new(&body, &sources);
     for sign in [1.0, -1.0] {
