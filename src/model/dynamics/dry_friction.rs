@@ -104,7 +104,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
                 let slopes = self.by_group([0.0; WITH_OTHER], |g| {
                     let by = loads[g][t].pressing_slopes();
                     std::array::from_fn(|k| {
-                        self.members(g) * (by_thrust * by.side_axial[k] + of_side[1] * by_torque[t] * side * by.force[k])
+                        self.members(g)
+                            * (by_thrust * by.side_axial[k] + of_side[1] * by_torque[t] * side * by.force[k])
                     })
                 });
                 for row in [(s, -direction), (CARRIER, direction)] {

@@ -38,13 +38,13 @@ macro_rules! points {
             vec![$(
                 row(
                     concat!("limited_slip.curve[", $number, "].slip"),
-                    concat!("Slip speed at point ", $number, " of the measured clutch torque; unset if slip and torque are 0"),
+                    "Slip speed of this point of the measured clutch torque; a point is unset if slip and torque are 0",
                 )
                 .when(any_torque!())
                 .real((units::RAD_PER_S, RPM), (0.0, 1e4), |p| &mut p.curve[$number - 1].slip),
                 row(
                     concat!("limited_slip.curve[", $number, "].torque"),
-                    concat!("Torque of each clutch pack at point ", $number, ", in addition to preload and mesh torque"),
+                    "Torque of each clutch pack at this point, in addition to preload and mesh torque",
                 )
                 .real(units::NEWTON_METRE, (0.0, 1e6), |p| &mut p.curve[$number - 1].torque),
             )+]

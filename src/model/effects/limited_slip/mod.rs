@@ -80,7 +80,7 @@ pub const CLUTCH_HEAT: Heat = Heat {
 
 impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
-        "Clutch packs between side gears and carrier: preloaded, torque-proportional, viscous or measured, with stiction";
+        "Clutch packs on the side gears: preload, ramps, viscous torque, or a measured curve; with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
     const EXAMPLE: &'static [(&'static str, f64)] = &[("limited_slip.preload", 50.0)];
     const READINGS: &'static [Reading] =
@@ -99,9 +99,9 @@ impl Declare for LimitedSlipSpec {
             )
             .tunable()
             .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.pressed_by", "Mesh torque that presses each clutch pack").when(PRESSABLE).choice(
-                |p: &mut Self| &mut p.pressed_by,
-            ),
+            row("limited_slip.pressed_by", "Mesh torque that presses each clutch pack")
+                .when(PRESSABLE)
+                .choice(|p: &mut Self| &mut p.pressed_by),
             row(
                 "limited_slip.coast_ratio",
                 "Torque coefficient under negative mesh torque, relative to torque_coefficient; 0 = one-way",
@@ -179,7 +179,8 @@ impl LimitedSlipSpec {
             ("limited_slip.hot_factor", self.sliding.hot_factor != start.sliding.hot_factor),
             ("limited_slip.pv_limit", self.sliding.pv_limit != start.sliding.pv_limit),
         ];
-        let names: Vec<&'static str> = differing.iter().filter(|(_, differs)| *differs).map(|(name, _)| *name).collect();
+        let names: Vec<&'static str> =
+            differing.iter().filter(|(_, differs)| *differs).map(|(name, _)| *name).collect();
         let first = names.first().filter(|_| !self.is_pressed())?;
         Some(problem!(
             first,
