@@ -32,8 +32,15 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let outputs: Array = answer.scene.outputs.iter().map(|row| row.name).collect();
     document["outputs"] = Item::Value(Value::Array(outputs));
     take_out_idle(&mut document, &chosen.scene);
-    let written = load::parse(&answer.scene.name, &answer.scene.file, &document.to_string())?;
-    let Scene { parameters: wanted, inputs, .. } = acting(&chosen.scene);
+    let parsed = |text: &str| load::parse(&answer.scene.name, &answer.scene.file, text);
+    let (mut written, wanted) = (parsed(&document.to_string())?, acting(&chosen.scene));
+    if differing(&written, &wanted).iter().any(|(row, _)| curve::is_point(row.name)) {
+        // a scene with a curve cannot set single points
+        if let Some(set) = document.get_mut("set").and_then(Item::as_table_like_mut) {
+            take_out(set, "", &|name| name == CURVE);
+        }
+        written = parsed(&document.to_string())?;
+    }
     for (key, before, after) in
         [("stop_time", written.stop_time, answer.scene.stop_time), ("step", written.step, answer.scene.step)]
     {
@@ -42,14 +49,9 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         }
     }
     let set = document.entry("set").or_insert_with(|| Item::Table(Table::new()));
-    for row in &table().rows {
-        let values = [(written.parameters, written.inputs), (wanted, inputs)].map(|(p, i)| value(row, &p, &i));
-        if let [Some(before), Some(after)] = values
-            && before.to_string() != after.to_string()
-        {
-            let former = former_names::of(row.name).filter(|former| contains(set, former));
-            put(set, former.as_deref().unwrap_or(row.name), after)?;
-        }
+    for (row, value) in differing(&written, &wanted) {
+        let former = former_names::of(row.name).filter(|former| contains(set, former));
+        put(set, former.as_deref().unwrap_or(row.name), value)?;
     }
     let head = format!(
         "# Made from scene {}: {}.\n# Error {} relative to the richest model; {} % is allowed.\n\n",
@@ -59,19 +61,24 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         100.0 * answer.within
     );
     let text = format!("{head}{document}");
-    let again = load::parse(&answer.scene.name, &answer.scene.file, &text).context("the chosen scene")?;
-    ensure!(again.parameters == wanted, "the written scene differs from the scene that was run");
+    let again = parsed(&text).context("the chosen scene")?;
+    ensure!(again.parameters == wanted.parameters, "the written scene differs from the scene that was run");
     Ok(text)
+}
+
+/// Variables whose values differ between the scenes `written` and `wanted`, with the values in `wanted`.
+fn differing(written: &Scene, wanted: &Scene) -> Vec<(&'static Variable, Value)> {
+    let differing = |row| {
+        let [before, after] = [written, wanted].map(|scene| value(row, &scene.parameters, &scene.inputs));
+        let (before, after) = (before?, after?);
+        (before.to_string() != after.to_string()).then_some((row, after))
+    };
+    table().rows.iter().filter_map(differing).collect()
 }
 
 /// Removes values from a scene file that have no influence in `scene`.
 fn take_out_idle(document: &mut DocumentMut, scene: &Scene) {
-    let row_is_idle = |row, situation| !acts(row, scene, situation);
-    // a curve of which only some points act is replaced by those points
-    let is_idle = |name: &str, situation| match name {
-        CURVE => curve::rows().iter().flatten().any(|row| row_is_idle(row, situation)),
-        _ => named(name).is_some_and(|row| row_is_idle(row, situation)),
-    };
+    let is_idle = |name: &str, situation| named(name).is_some_and(|row| !acts(row, scene, situation));
     if let Some(set) = document.get_mut("set").and_then(Item::as_table_like_mut) {
         take_out(set, "", &|name| is_idle(name, Situation::START));
     }

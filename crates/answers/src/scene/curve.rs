@@ -66,7 +66,6 @@ pub fn is_list(text: &str) -> bool {
 
 /// Returns the problem of the key `name` if it sets the same variable as one of the keys `before`.
 pub fn set_twice(name: &str, before: &[&str]) -> Option<String> {
-    let is_point = |key: &str| key.strip_prefix(CURVE).is_some_and(|rest| rest.starts_with('['));
     let is_same = |key: &str| key == name || name == CURVE && is_point(key) || key == CURVE && is_point(name);
     let key = before.iter().find(|key| is_same(key))?;
     Some(if *key == name {
@@ -77,8 +76,13 @@ pub fn set_twice(name: &str, before: &[&str]) -> Option<String> {
     })
 }
 
+/// True if the variable `name` belongs to a point of the curve.
+pub fn is_point(name: &str) -> bool {
+    name.strip_prefix(CURVE).is_some_and(|rest| rest.starts_with('['))
+}
+
 /// Variables of slip and torque of all points, in their order.
-pub fn rows() -> Vec<[&'static Variable; 2]> {
+fn rows() -> Vec<[&'static Variable; 2]> {
     let point = |number: usize| COLUMNS.map(|column| named(&format!("{CURVE}[{number}].{column}")));
     (1..)
         .map_while(|number| if let [Some(slip), Some(torque)] = point(number) { Some([slip, torque]) } else { None })
