@@ -147,6 +147,17 @@ def test_a_path_in_the_file_of_a_command_is_relative_to_that_file(folder):
         assert beside(other, file) == other
 
 
+def test_a_sweep_reads_the_curve_next_to_its_plan(fmu_file, folder, capsys):
+    plan = folder / "plan.toml"
+    plan.write_text(f'scene = "{(folder / "scene.toml").as_posix()}"\nwant = ["right.shaft_torque:final"]\nplan = "grid"\n'
+                    '[set]\nlimited_slip.curve = "half.csv"\n[vary]\ncarrier.torque_command = "700 N.m, 900 N.m"\n', encoding="utf-8")
+    (folder / "half.csv").write_text("slip [rpm],torque\n100,40\n", encoding="utf-8")
+    assert main(["sweep", "--plan-file", str(plan), "--fmu", str(fmu_file), "--workers", "0", "--csv", "sweep.csv"]) == 0
+    rows = np.genfromtxt("sweep.csv", delimiter=",", names=True, dtype=None, encoding="utf-8", deletechars="")
+    assert rows["right.shaft_torque:final"] == pytest.approx([350.0 + 40.0, 450.0 + 40.0], rel=1e-3)
+    capsys.readouterr()
+
+
 @pytest.mark.parametrize(("changes", "numbers", "is_kept"), [
     ({}, MEASURED, True), ({CURVE: [[0, 50], [5, 60]]}, [0.0, 50.0, 5.0, 60.0], False), ({"effects.limited_slip": False}, [], False),
 ], ids=["as in the scene", "changed", "without effect"])
