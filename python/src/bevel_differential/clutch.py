@@ -113,12 +113,8 @@ class _Arguments:
         found = float(variable.number(value))
         low = -math.inf if least is None else least
         if found < low or (above is not None and found <= above) or (most is not None and found > most):
-            def shown(limit: float) -> str:
-                unit, size = variable.shown(limit)
-                return f"{size:.6g} {unit}".rstrip()
-
-            limits = [*([f"above {shown(above)}"] if above is not None else []), *([f"{shown(least)} or more"] if least is not None else []),
-                      *([f"at most {shown(most)}"] if most is not None else [])]
+            limits = [words.format(_shown(variable, limit)) for words, limit in (("above {}", above), ("{} or more", least), ("at most {}", most))
+                      if limit is not None]
             unit = f"; numbers are in {variable.unit}" if variable.unit not in (None, "", "1") and not variable.has_unit(value) else ""
             raise DifferentialError(f"{variable.name} = {_written(value)}: it must be {' and '.join(limits)}{unit}")
         return found
@@ -145,6 +141,11 @@ class _Arguments:
                 unit = "" if variable.unit in (None, "1") else f" {variable.unit}"
                 raise DifferentialError(f"{self.call}: {variable.name} = {number:.6g}{unit}, calculated from {arguments}, is outside "
                                         f"[{low:g}, {high:g}]{unit}")
+
+
+def _shown(variable, limit):
+    unit, size = variable.shown(limit)
+    return f"{size:.6g} {unit}".rstrip()
 
 
 def _limit(value):
