@@ -117,8 +117,8 @@ def test_without_limited_slip_the_tables_are_left_out_with_the_reason(mapped, ta
 def test_the_command_says_what_it_leaves_out(switch, said, fmu_file, tmp_path, capsys):
     file = tmp_path / "map.m"
     assert main(["losses", "torque_bias", "--quick", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
-                 "effects.thrust_friction=false", "--set", f"effects.limited_slip={switch}", "--set", "limited_slip.preload=40 N.m", "--set",
-                 "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9", "--temperature",
+                 "effects.thrust_friction=false", "--set", f"effects.limited_slip={switch}", "--set", "limited_slip.preload=40 N.m",
+                 "--set", "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9", "--temperature",
                  "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file), "--fmu", fmu_file]) == 0
     words = f"{file} has no tables of the coupling torque: effects.limited_slip is off"
     assert (words in capsys.readouterr().out) is said

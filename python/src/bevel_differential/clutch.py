@@ -50,15 +50,15 @@ class Clutch:
         share = of.like("friction", friction, "limited_slip.plate_coefficient")
         smaller, larger = (of.length(name, radius) for name, radius in (("inner", inner), ("outer", outer)))
         if not smaller < larger:
-            raise DifferentialError(f"{of.call}: inner = {inner!r} is not below outer = {outer!r}; both are radii of the faces, in m if they "
-                                    "are numbers")
+            raise DifferentialError(f"{of.call}: inner = {inner!r} is not below outer = {outer!r}; both are radii of the faces, in m if "
+                                    "they are numbers")
         drive, coast = (_cotangent(of.angle(name, angle)) for name, angle in (("ramp_drive", ramp_drive), ("ramp_coast", ramp_coast)))
         lever = of.length("ramp_radius", ramp_radius)
         force = of.number("spring_force", spring_force, "planet[1].thrust_force", least=0.0)
         if drive == 0.0 and coast > 0.0:
             raise DifferentialError(
-                f"{of.call}: ramp_drive = {ramp_drive!r} presses nothing, but ramp_coast = {ramp_coast!r} presses the packs: the FMU refers "
-                "the coast ramps to the drive ramps, so these must press; turn the signs of all torques and speeds of the scene, and "
+                f"{of.call}: ramp_drive = {ramp_drive!r} presses nothing, but ramp_coast = {ramp_coast!r} presses the packs: the FMU "
+                "refers the coast ramps to the drive ramps, so these must press; turn the signs of all torques and speeds of the scene, and "
                 "exchange ramp_drive and ramp_coast")
         mean = 0.5 * (smaller + larger)
         per_force = count * share * mean
@@ -113,8 +113,8 @@ class _Arguments:
         found = float(variable.number(value))
         low = -math.inf if least is None else least
         if found < low or (above is not None and found <= above) or (most is not None and found > most):
-            limits = [words.format(_shown(variable, limit)) for words, limit in (("above {}", above), ("{} or more", least), ("at most {}", most))
-                      if limit is not None]
+            ends = (("above {}", above), ("{} or more", least), ("at most {}", most))
+            limits = [words.format(_shown(variable, limit)) for words, limit in ends if limit is not None]
             unit = f"; numbers are in {variable.unit}" if variable.unit not in (None, "", "1") and not variable.has_unit(value) else ""
             raise DifferentialError(f"{variable.name} = {_written(value)}: it must be {' and '.join(limits)}{unit}")
         return found
