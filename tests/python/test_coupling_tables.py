@@ -118,8 +118,8 @@ def test_the_command_says_what_it_leaves_out(switch, said, fmu_file, tmp_path, c
     file = tmp_path / "map.m"
     assert main(["losses", "torque_bias", "--quick", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
                  "effects.thrust_friction=false", "--set", f"effects.limited_slip={switch}", "--set", "limited_slip.preload=40 N.m",
-                 "--set", "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9", "--temperature",
-                 "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file), "--fmu", fmu_file]) == 0
+                 "--set", "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9",
+                 "--temperature", "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file), "--fmu", fmu_file]) == 0
     words = f"{file} has no tables of the coupling torque: effects.limited_slip is off"
     assert (words in capsys.readouterr().out) is said
     assert ("TTin" in file.read_text(encoding="utf-8")) is not said

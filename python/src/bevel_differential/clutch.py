@@ -58,8 +58,8 @@ class Clutch:
         if drive == 0.0 and coast > 0.0:
             raise DifferentialError(
                 f"{of.call}: ramp_drive = {ramp_drive!r} presses nothing, but ramp_coast = {ramp_coast!r} presses the packs: the FMU "
-                "refers the coast ramps to the drive ramps, so these must press; turn the signs of all torques and speeds of the scene, and "
-                "exchange ramp_drive and ramp_coast")
+                "refers the coast ramps to the drive ramps, so these must press; turn the signs of all torques and speeds of the scene, "
+                "and exchange ramp_drive and ramp_coast")
         mean = 0.5 * (smaller + larger)
         per_force = count * share * mean
         found: dict[str, Value] = {
