@@ -128,11 +128,38 @@ def thrust_friction(random, vehicle, _contact, _law):
 
 
 def limited_slip(random, vehicle, contact, _law):
-    """Plates with preload, and with torque from the meshes if the level of contact has such torques."""
-    coefficient = float(random.choice([0.0, 0.1, 0.3])) if contact in ("lumped", "tooth") else 0.0
-    values = {"effects.limited_slip": True, "limited_slip.preload": vehicle.peak * random.uniform(0.03, 0.3),
-              "limited_slip.torque_coefficient": coefficient}
-    return values | (sticky(random, "limited_slip") if random.random() < 0.2 else {})
+    """Plates with preload; some also with torque from the meshes, with sheared oil, or with a measured curve."""
+    values = {"effects.limited_slip": True, "limited_slip.preload": vehicle.peak * random.uniform(0.03, 0.3)}
+    if contact in ("lumped", "tooth"):
+        values |= ramps(random)
+    values |= sticky(random, "limited_slip") if random.random() < 0.2 else {}
+    values |= viscous(random, vehicle) if random.random() < 0.25 else {}
+    return values | (measured(random, vehicle) if random.random() < 0.25 else {})
+
+
+def ramps(random):
+    """Torque from the meshes: none, or with ramps of any kind, some of which lock themselves in one direction."""
+    coefficient = float(random.choice([0.0, 0.1, 0.3, 0.6]))
+    if coefficient == 0.0:
+        return {"limited_slip.torque_coefficient": 0.0}
+    return {"limited_slip.torque_coefficient": coefficient, "limited_slip.coast_ratio": float(random.choice([0.0, 0.4, 1.0, 2.0])),
+            "limited_slip.pressed_by": str(random.choice(["own_side", "both_sides"]))}
+
+
+def viscous(random, vehicle):
+    """Sheared oil, with less than linear torque as of silicone oil or with more."""
+    return {"limited_slip.viscous_torque": vehicle.peak * random.uniform(0.05, 0.3), "limited_slip.viscous_speed": random.uniform(1.0, 20.0),
+            "limited_slip.viscous_exponent": random.uniform(0.3, 1.2)}
+
+
+def measured(random, vehicle):
+    """Measured curve of 2 to 8 points; some begin with a breakaway torque, and some fall."""
+    count, slip = int(random.integers(2, 9)), 0.0 if random.random() < 0.5 else random.uniform(0.1, 2.0)
+    values = {}
+    for i in range(1, count + 1):
+        values |= {f"limited_slip.curve[{i}].slip": slip, f"limited_slip.curve[{i}].torque": vehicle.peak * random.uniform(0.05, 0.3)}
+        slip += random.uniform(0.5, 5.0)
+    return values
 
 
 def tooth_friction(random, _vehicle, _contact, _law):
