@@ -169,6 +169,19 @@ def test_a_scene_of_the_survey_is_known_by_its_number():
     assert all(type(value) in (bool, int, float, str) for k in range(20) for value in survey_scenes.drawn(1, k).values.values())
 
 
+def test_the_survey_draws_all_kinds_of_clutches_and_the_unit_accepts_them(fmu):
+    scenes = [survey_scenes.drawn(1, index) for index in range(400)]
+    kinds = ["limited_slip.coast_ratio", "limited_slip.viscous_torque", "limited_slip.curve[1].slip"]
+    for kind in kinds:
+        drawn = [scene for scene in scenes if kind in scene.values]
+        assert drawn and all(scene.values["effects.limited_slip"] for scene in drawn)
+        with fmu.open() as instance:
+            instance.initialise(drawn[0].values)
+            instance.step(1e-4)
+    curves = [scene.values for scene in scenes if kinds[2] in scene.values]
+    assert {values[kinds[2]] == 0.0 for values in curves} == {False, True}
+
+
 def test_tallies_of_processes_add_up():
     def tally(seconds):
         rows = [{"function": name, "statuses": [4, 3, 2, 1], "seconds": seconds, "longest": seconds}
