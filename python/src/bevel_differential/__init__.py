@@ -12,6 +12,7 @@
 """
 
 from .accuracy import Accuracy, accuracy
+from .clutch import Clutch
 from .comparison import Comparison, compare
 from .differential import Differential
 from .fmu import Fmu
@@ -20,5 +21,5 @@ from .scene import Scene
 from .scene_file import shipped_scenes
 from .values import DifferentialError, DifferentialWarning
 
-__all__ = ["Accuracy", "Comparison", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "LossMap", "Scene", "accuracy",
-           "compare", "shipped_scenes"]
+__all__ = ["Accuracy", "Clutch", "Comparison", "Differential", "DifferentialError", "DifferentialWarning", "Fmu", "LossMap", "Scene",
+           "accuracy", "compare", "shipped_scenes"]

@@ -44,6 +44,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..report.write import need
     from ..scene import Scene
     from . import losses
+    from .coupling import left_out
     from .grid import GOAL
     from .picture import draw
     from .report import write as write_report
@@ -71,6 +72,8 @@ def run(arguments: argparse.Namespace) -> int:
                         (arguments.report, write_report)):
         if file:
             print(f"written: {write(made, file)}")
+    if arguments.simulink and (why := left_out(made)):
+        print(f"{arguments.simulink} has no tables of the coupling torque: {why}")
     return FINDING if made.estimate > GOAL else DONE
 
 

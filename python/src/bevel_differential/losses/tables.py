@@ -8,7 +8,7 @@ import numpy as np
 from ..records import write
 from ..values import FileName
 from ..writing import write_whole
-from . import MeasuredMap
+from . import MeasuredMap, coupling
 from .grid import efficiency, places, torques_of
 from .loss_map import MAPPED, SIGNS
 
@@ -84,8 +84,6 @@ def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
     slips = np.concatenate([-slip[::-1], [0.0], slip])
     whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
     torques = torques_of(whole, places([torque, speed, slips, temperature]))
-    middle = [len(line) // 2 for line in made.lines]
-    coupling = 0.5 * np.abs(torques[:, :, len(slip) + 1:, :, 0])
     text = [
         f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.error}.",
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
@@ -93,11 +91,7 @@ def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
         *CONVENTION,
         _vector("Trq_bpts", torque), _vector("omega_bpts", speed), _vector("Temp_bpts", temperature),
         _array("eta_tbl", np.clip(share, LEAST, 1.0)),
-        "% Limited Slip Differential, coupling by slip speed-dependent torque data (slip, torque), and by input torque dependent",
-        "% torque data (input, torque): half the difference of the wheels' torques in the middle of the other axes:",
-        _vector("slip", np.append(0.0, slip)),
-        _vector("coupling_torque_of_slip", np.append(0.0, coupling[middle[0], middle[1], :, middle[3]])),
-        _vector("input_torque", torque), _vector("coupling_torque_of_input", coupling[:, middle[1], middle[2], middle[3]]),
+        *_coupling(made),
         "% n-D Lookup Tables, linear, over torque T, speed w, slip s = left - right, temperature; of the torques left and right TL, TR",
         "% and the loss P: locking = TL - TR, dragging = T - TL - TR, P = -locking s/2 + lost (|w| + |s|/2):",
         _vector("slip_bpts", slips),
@@ -105,6 +99,27 @@ def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
     ]
     write_whole(file, "\n".join(text) + "\n")
     return Path(file)
+
+
+def _coupling(made):
+    """Lines with the tables of the coupling torque, or with the reason why there are none."""
+    if why := coupling.left_out(made):
+        return [f"% Limited Slip Differential: no table of the coupling torque, because {why}."]
+    torque, speed, slip, warmth = (f"{line[place]:.6g} {unit}" for line, place, unit in
+                                   zip(made.lines, coupling.middle(made), ("N.m", "rad/s", "rad/s", "K")))
+    (slips, of_slip), (inputs, of_input) = coupling.over_slip(made), coupling.over_input(made)
+    found = [
+        "% Limited Slip Differential. The coupling torque is the difference of the axle torques, T2 - T1, of both clutches together: each",
+        "% axle gets half of it. The slip is half the difference of the axle speeds, (w1 - w2)/2. Axle 1 is the left one. A final drive of",
+        "% ratio i changes only Tin, which is then Tin / i.",
+        f"% Slip speed dependent torque data, dwT in rad/s and Tdw in N.m, at {torque}, {speed}, {warmth}. The differential sticks at",
+        "% slip 0, so dry friction has its full torque from the next slip on:",
+        _vector("dwT", slips), _vector("Tdw", of_slip),
+    ]
+    if len(inputs) < coupling.FEWEST:
+        return [*found, "% Input torque dependent torque data: left out, because the map has a single torque; give more by --torque."]
+    return [*found, f"% Input torque dependent torque data, Tin and TTin in N.m, at {speed}, {warmth} and a difference of {slip}:",
+            _vector("Tin", inputs), _vector("TTin", of_input)]
 
 
 def _vector(name, values):

@@ -1,0 +1,151 @@
+"""Clutch packs from their drawing and from a bias ratio: numbers calculated by hand, limits, refusals, and torques of the FMU."""
+
+from math import inf, nan, pi, sqrt
+
+import pytest
+from bevel_differential import Clutch, Differential, DifferentialError
+
+# a pack with four faces from 40 to 60 mm, pressed by ramps of 45° in drive and 60° in coast at 35 mm, and by 500 N of springs
+PACK = {"faces": 4, "friction": 0.12, "inner": 0.040, "outer": 0.060, "ramp_drive": "45 deg", "ramp_coast": "60 deg",
+        "ramp_radius": 0.035, "spring_force": 500.0}
+# by hand:
+#   mean radius   (40 + 60)/2 = 50 mm, so n μ r_m = 4 · 0.12 · 0.05 m = 0.024 m
+#   κ             0.024 m/(0.035 m · tan 45°) = 24/35, because tan 45° = 1
+#   coast ratio   tan 45°/tan 60° = 1/√3
+#   preload       0.024 m · 500 N = 12 N·m
+#   area          4 · π (0.06² − 0.04²) m² = 4 π · 0.002 m²
+KAPPA, COAST, PRELOAD, AREA = 24.0 / 35.0, 1.0 / sqrt(3.0), 12.0, 0.008 * pi
+
+
+@pytest.fixture
+def plates(fmu):
+    """plates(changes): values of the clutch with changed arguments."""
+    return lambda **changes: Clutch.from_plates(**PACK | changes, fmu=fmu).values
+
+
+def refused(call, *parts):
+    with pytest.raises(DifferentialError) as raised:
+        call()
+    assert all(part in str(raised.value) for part in parts), raised.value
+
+
+# values
+
+def test_values_are_those_calculated_by_hand(plates):
+    found = plates()
+    assert found.pop("limited_slip.pressed_by") == "both_sides" and found.pop("effects.limited_slip") is True
+    assert found == pytest.approx({
+        "limited_slip.preload": PRELOAD, "limited_slip.torque_coefficient": KAPPA, "limited_slip.coast_ratio": COAST,
+        "limited_slip.mean_radius": 0.05, "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": 0.12}, rel=1e-12)
+
+
+def test_texts_pairs_and_numbers_in_si_have_the_same_values(plates):
+    written = plates(faces="4", friction="0.12", inner="40 mm", outer=(60, "mm"), ramp_drive=pi / 4.0, ramp_coast=(60.0, "deg"),
+                     ramp_radius="35mm", spring_force="0.5 kN")
+    plain = plates()
+    assert written.pop("limited_slip.pressed_by") == plain.pop("limited_slip.pressed_by")
+    assert written == pytest.approx(plain, rel=1e-12)
+
+
+@pytest.mark.parametrize("changes, factor", [({"faces": 8}, 2.0), ({"friction": 0.06}, 0.5), ({"inner": 0.030, "outer": 0.050}, 0.8),
+                                             ({"ramp_radius": 0.070}, 0.5), ({"ramp_drive": "60 deg"}, 1.0 / sqrt(3.0)),
+                                             ({"ramp_drive": "30 deg"}, sqrt(3.0))])
+def test_the_coefficient_grows_with_faces_friction_and_radius_and_falls_with_lever_and_angle(plates, changes, factor):
+    assert plates(**changes)["limited_slip.torque_coefficient"] == pytest.approx(factor * KAPPA, rel=1e-12)
+
+
+@pytest.mark.parametrize("coast, ratio", [("90 deg", 0.0), (pi / 2.0, 0.0), ("45 deg", 1.0), ("60 deg", COAST), ("30 deg", sqrt(3.0))])
+def test_ramps_are_one_way_two_way_or_between(plates, coast, ratio):
+    found = plates(ramp_coast=coast)
+    assert found["limited_slip.coast_ratio"] == (ratio if ratio == 0.0 else pytest.approx(ratio, rel=1e-12))
+    assert found["limited_slip.torque_coefficient"] == pytest.approx(KAPPA, rel=1e-12)
+
+
+def test_without_ramps_that_press_only_the_springs_do(plates, fmu):
+    found = plates(ramp_drive="90 deg", ramp_coast="90 deg")
+    assert found["limited_slip.torque_coefficient"] == 0.0 and found["limited_slip.preload"] == pytest.approx(PRELOAD, rel=1e-12)
+    with Differential({"scene.gear_contact": "ideal"} | found, fmu=fmu) as axle:
+        axle.final(["left.speed"], stop=0.01)
+        assert not [text for text in axle.warnings if "limited_slip.pressed_by" in text or "limited_slip.coast_ratio" in text]
+
+
+def test_a_self_locking_pack_is_allowed_and_the_fmu_warns(plates, fmu):
+    found = plates(faces=8)
+    assert found["limited_slip.torque_coefficient"] == pytest.approx(48.0 / 35.0)
+    with Differential({"scene.gear_contact": "lumped"} | found, fmu=fmu) as axle:
+        axle.final(["left.speed"], stop=0.001)
+        assert any("lock themselves" in text for text in axle.warnings)
+
+
+# refusals
+
+@pytest.mark.parametrize("name, value, words", [
+    ("faces", 0, ["1 or more"]), ("faces", 2.5, ["whole number"]), ("faces", True, ["number"]), ("faces", "many", ["number"]),
+    ("friction", 0.0, ["0.01 or more", "at most 1"]), ("friction", 1.5, ["at most 1"]), ("friction", nan, ["finite"]),
+    ("inner", 0.0, ["above 0 mm", "numbers are in m"]), ("inner", 0.06, ["not below outer = 0.06"]), ("inner", "70 mm", ["not below"]),
+    ("inner", inf, ["finite"]), ("outer", "60 deg", ["unit 'deg'", "mm"]), ("outer", None, ["number"]),
+    ("ramp_drive", 45, ["above 0 deg and at most 90 deg", "numbers are in rad"]), ("ramp_drive", "0 deg", ["above 0 deg"]),
+    ("ramp_drive", "91 deg", ["at most 90 deg"]), ("ramp_coast", -0.1, ["above 0 deg"]), ("ramp_coast", "60", ["at most 90 deg", "rad"]),
+    ("ramp_radius", 0.0, ["above 0 mm"]), ("ramp_radius", nan, ["finite"]), ("spring_force", -1.0, ["0 N or more"]),
+    ("spring_force", "500 N.m", ["unit 'N.m'"])])
+def test_an_argument_out_of_range_is_refused_by_its_name(plates, name, value, words):
+    refused(lambda: plates(**{name: value}), f"Clutch.from_plates: {name} = ", *words)
+
+
+@pytest.mark.parametrize("changes, name, causes", [
+    ({"faces": 100}, "torque_coefficient", "faces"), ({"ramp_coast": "1 deg"}, "coast_ratio", "ramp_drive and ramp_coast"),
+    ({"spring_force": "1e9 N"}, "preload", "spring_force"), ({"inner": 1e-4, "outer": 1e-3}, "mean_radius", "inner and outer")])
+def test_a_value_that_the_fmu_would_refuse_is_refused_with_its_arguments(plates, changes, name, causes):
+    refused(lambda: plates(**changes), f"limited_slip.{name} = ", causes, "is outside [")
+
+
+def test_ramps_that_press_only_in_coast_are_refused_with_a_remedy(plates):
+    refused(lambda: plates(ramp_drive="90 deg"), "ramp_drive = '90 deg' presses nothing", "ramp_coast = '60 deg'", "turn the signs",
+            "exchange ramp_drive and ramp_coast")
+
+
+@pytest.mark.parametrize("arguments, words", [((0.99,), ["tbr = 0.99", "1 or more"]), ((inf,), ["tbr", "finite"]), (("x",), ["tbr"]),
+                                              ((2.0, -1.0), ["preload = -1", "0 N.m or more"]), ((2.0, "1 N"), ["preload", "unit 'N'"])])
+def test_a_wrong_bias_ratio_or_preload_is_refused(arguments, words, fmu):
+    refused(lambda: Clutch.from_bias_ratio(*arguments, fmu=fmu), "Clutch.from_bias_ratio: ", *words)
+
+
+# torques of the FMU
+
+def slipping(fmu, values, torque, difference):
+    """Outputs in a bench with the carrier's torque and an imposed difference of the wheel speeds. Lumped gears have no friction."""
+    scene = {"scene.gear_contact": "lumped", "scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed",
+             "carrier.torque_command": torque, "carrier.speed_command": 30.0, "left.speed_command": 30.0 + 0.5 * difference,
+             "right.speed_command": 30.0 - 0.5 * difference}
+    with Differential(scene | values, fmu=fmu) as axle:
+        # shafts with more damping than usual, so that the swings of the start decay within the run
+        axle.set({f"half_shaft.{side}_damping": 0.01 * fmu.variable(f"half_shaft.{side}_stiffness").start for side in ("left", "right")})
+        return axle.final(["left.shaft_torque", "right.shaft_torque", "torque_bias_ratio"], stop=1.0)
+
+
+@pytest.mark.parametrize("difference", [4.0, -4.0])
+@pytest.mark.parametrize("torque, ratio", [(1600.0, 1.0), (-1600.0, COAST)])
+def test_wheel_torques_differ_as_the_drawing_says_in_drive_and_in_coast(plates, fmu, torque, ratio, difference):
+    found = slipping(fmu, plates(), torque, difference)
+    left, right = found["left.shaft_torque"], found["right.shaft_torque"]
+    # each pack has the preload and, by its ring, n μ r_m T/(2 r tan β); both packs move torque from the fast wheel to the slow one
+    moved = 2.0 * PRELOAD + ratio * KAPPA * abs(torque)
+    assert left + right == pytest.approx(torque, rel=1e-5)
+    assert (right - left) * (1.0 if difference > 0.0 else -1.0) == pytest.approx(moved, rel=1e-5)
+
+
+@pytest.mark.parametrize("tbr", [1.0, 1.5, 3.0])
+def test_the_fmu_has_the_given_bias_ratio(fmu, tbr):
+    values = Clutch.from_bias_ratio(tbr, fmu=fmu).values
+    # by hand: (3 − 1)/(3 + 1) = 1/2 and (1.5 − 1)/(1.5 + 1) = 1/5
+    assert values["limited_slip.torque_coefficient"] == pytest.approx({1.0: 0.0, 1.5: 0.2, 3.0: 0.5}[tbr], rel=1e-12)
+    assert values["limited_slip.preload"] == 0.0
+    found = slipping(fmu, values, 1600.0, 4.0)
+    assert found["torque_bias_ratio"] == pytest.approx(tbr, rel=1e-5)
+    assert found["right.shaft_torque"] / found["left.shaft_torque"] == pytest.approx(tbr, rel=1e-5)
+
+
+def test_preload_adds_to_a_bias_ratio(fmu):
+    found = slipping(fmu, Clutch.from_bias_ratio(3.0, "40 N.m", fmu=fmu).values, 1600.0, 4.0)
+    # T/2 ± (T/4 + 40 N·m)
+    assert [found["left.shaft_torque"], found["right.shaft_torque"]] == pytest.approx([360.0, 1240.0], rel=1e-5)
