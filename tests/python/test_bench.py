@@ -72,6 +72,7 @@ def test_ramps_shift_their_fraction_of_the_carrier_torque(fmu_file, tmp_path, pr
         if left * right > 0.0:
             assert ratio == pytest.approx((abs(torque) / 2.0 + clutch) / (abs(torque) / 2.0 - clutch), rel=1e-6)
             assert effect == pytest.approx(200.0 * clutch / abs(torque), rel=1e-6, abs=1e-6)
+    assert ("preload remains" in says) == (preload > 0.0)
     # at 1600 N·m: 0.4 T, and of it a quarter in coast
     shares = [0.4, 0.4, 0.1, 0.0]
     assert [numbers(says)[1], *numbers(says)[2:8:2]] == pytest.approx([share * 1600.0 + 2.0 * preload for share in shares], abs=1e-2)

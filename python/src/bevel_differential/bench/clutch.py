@@ -46,12 +46,13 @@ def ramps(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     found = means(scene, [inputs((torque, SPEED, DIFFERENCE, scene.value("oil.temperature"))) | {COAST: ratio}
                           for ratio, torque in points], farm)
     rows = [(*point, left, right, right - left, *ratio_of(left, right)) for point, (left, right, *_) in zip(points, found)]
-    coast, drive = ({row[0]: row[4] for row in rows if row[1] == torque} for torque in (torques[0], torques[-1]))
     largest, (coast, drive) = torques[-1], ({row[0]: row[4] for row in rows if row[1] == torque} for torque in (torques[0], torques[-1]))
     shifted = words.listed(f"{of_torque.text(round(shift, 3), 3)} ({ramp(ratio)})" for ratio, shift in coast.items())
     says = (f"at {of_torque.text(largest)} in drive, the slower wheel has {of_torque.text(max(drive.values()), 3)} more than the faster "
-            f"wheel with each ramp; in coast, this difference is {shifted}. At small torque only the preload remains, so the ratio of the "
-            "torques grows there; it has no value where they oppose each other")
+            f"wheel with each ramp; in coast, this difference is {shifted}")
+    if scene.value("limited_slip.preload") > 0.0:
+        says += (". At small torque only the preload remains, so the ratio of the torques grows there; it has no value where they oppose "
+                 "each other")
     write(out.with_suffix(".csv"), RAMP_HEAD, [["" if cell is None else cell for cell in row] for row in rows], says)
     _draw_ramps(scene, out, rows, of_torque, says)
     return says
