@@ -2,6 +2,7 @@
 
 Each question is a dict with the key "ask"; the repository has all questions in crates/answers/src/ask."""
 
+import json
 import os
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -56,7 +57,7 @@ def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: S
 
 def assignments(values: Mapping[str, Any] | None) -> list[str]:
     """Values by name as texts "name=value"."""
-    return [f"{name}={_written(value)}" for name, value in (values or {}).items()]
+    return [f"{name}={written(value)}" for name, value in (values or {}).items()]
 
 
 def scenes() -> Path:
@@ -67,11 +68,28 @@ def scenes() -> Path:
     return shipped if shipped.is_dir() else shipped.parents[3] / "scenes"
 
 
-def _written(value):
+def written(value: Any) -> str:
     """Text of a value for the reader of scenes; numbers are read back to the same bits."""
     if isinstance(value, (bool, np.bool_)):
         return str(bool(value)).lower()
-    if isinstance(value, tuple):
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, list) or isinstance(value, tuple) and value and isinstance(value[0], (list, tuple)):
+        return f"[{', '.join(map(_point, value))}]"
+    if isinstance(value, tuple) and len(value) == 2:
         number, unit = value
         return f"{number} {unit or ''}".strip()
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
     return value if isinstance(value, str) else repr(value.item() if isinstance(value, np.generic) else value)
+
+
+def _point(point):
+    """Text of an entry of a list, which is itself a list of quantities."""
+    return f"[{', '.join(map(_quantity, point))}]" if isinstance(point, (list, tuple, np.ndarray)) else _quantity(point)
+
+
+def _quantity(value):
+    """Text of a number, or of a text or a pair (number, unit), in quotes."""
+    has_unit = isinstance(value, str) or isinstance(value, tuple) and value[-1] is not None
+    return json.dumps(written(value)) if has_unit else written(value)

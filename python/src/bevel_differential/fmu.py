@@ -15,6 +15,7 @@ from zipfile import BadZipFile
 from fmpy import extract, read_model_description
 
 from .answers import about, ask
+from .curve import expanded
 from .former_names import present
 from .instance import Instance
 from .values import DifferentialError, FileName, Number, Value, Variable, variable_suggestion
@@ -163,7 +164,7 @@ class Fmu:
         """Pairs (variable, number) of parameters and inputs in the form of the FMU; values as in `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
         pairs = []
-        for name, value in {**(values or {}), **named}.items():
+        for name, value in expanded({**(values or {}), **named}).items():
             variable = self.settable(name)
             number = variable.checked(value)
             if any(variable is known for known, _ in pairs):

@@ -208,7 +208,7 @@ class Scene(Runner):
     def _initialise(self, instance, values):
         self.check_settable(values or ())
         at_start = self._signals.start(self._signals.steps(0.0, self.step))
-        start = {**self.values, **by_present_names(values or {}), **{variable.name: value for variable, value in at_start}}
+        start = {**self.values, **{variable.name: value for variable, value in (*self.fmu.numbers(values), *at_start)}}
         instance.initialise(start, self.stop)
 
     def _named(self, outputs):

@@ -16,9 +16,11 @@ if TYPE_CHECKING:
 
 # value in the form of the FMU: SI, number of a literal, bool
 Number: TypeAlias = float | int | bool
-# value in the form that users write: SI, text with a unit or a literal's name, or a pair (number, unit), in SI without a unit
-Value: TypeAlias = float | int | bool | np.bool_ | str | tuple[float | str, str | None]
 FileName: TypeAlias = str | os.PathLike[str]
+# number in SI, text with a unit, or a pair (number, unit), in SI without a unit
+_Quantity: TypeAlias = float | str | tuple[float | str, str | None]
+# value in the form that users write: also a bool, a literal's name, or, for limited_slip.curve, a file or pairs of slip and torque
+Value: TypeAlias = _Quantity | int | bool | np.bool_ | os.PathLike[str] | Sequence[Sequence[_Quantity]] | np.ndarray
 # text in warnings about values that have no effect in the scene
 UNFELT = " changes nothing in this scene. "
 # prefix of the line that lists values which take effect and which nobody set; groups with "; " between them follow

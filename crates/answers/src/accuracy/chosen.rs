@@ -13,6 +13,7 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, TableLike, Value};
 use super::answer::Answer;
 use super::words::{percent, setting};
 use crate::scene::acting::{acting, acts};
+use crate::scene::curve::{self, CURVE};
 use crate::scene::set::{Setting, SettingValue};
 use crate::scene::{Scene, former_names, load};
 use crate::text::shown;
@@ -31,8 +32,15 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     let outputs: Array = answer.scene.outputs.iter().map(|row| row.name).collect();
     document["outputs"] = Item::Value(Value::Array(outputs));
     take_out_idle(&mut document, &chosen.scene);
-    let written = load::parse(&answer.scene.name, &answer.scene.file, &document.to_string())?;
-    let Scene { parameters: wanted, inputs, .. } = acting(&chosen.scene);
+    let parsed = |text: &str| load::parse(&answer.scene.name, &answer.scene.file, text);
+    let (mut written, wanted) = (parsed(&document.to_string())?, acting(&chosen.scene));
+    if differing(&written, &wanted).iter().any(|(row, _)| curve::is_point(row.name)) {
+        // a scene with a curve cannot set single points
+        if let Some(set) = document.get_mut("set").and_then(Item::as_table_like_mut) {
+            take_out(set, "", &|name| name == CURVE);
+        }
+        written = parsed(&document.to_string())?;
+    }
     for (key, before, after) in
         [("stop_time", written.stop_time, answer.scene.stop_time), ("step", written.step, answer.scene.step)]
     {
@@ -41,14 +49,9 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         }
     }
     let set = document.entry("set").or_insert_with(|| Item::Table(Table::new()));
-    for row in &table().rows {
-        let values = [(written.parameters, written.inputs), (wanted, inputs)].map(|(p, i)| value(row, &p, &i));
-        if let [Some(before), Some(after)] = values
-            && before.to_string() != after.to_string()
-        {
-            let former = former_names::of(row.name).filter(|former| contains(set, former));
-            put(set, former.as_deref().unwrap_or(row.name), after)?;
-        }
+    for (row, value) in differing(&written, &wanted) {
+        let former = former_names::of(row.name).filter(|former| contains(set, former));
+        put(set, former.as_deref().unwrap_or(row.name), value)?;
     }
     let head = format!(
         "# Made from scene {}: {}.\n# Error {} relative to the richest model; {} % is allowed.\n\n",
@@ -58,9 +61,19 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
         100.0 * answer.within
     );
     let text = format!("{head}{document}");
-    let again = load::parse(&answer.scene.name, &answer.scene.file, &text).context("the chosen scene")?;
-    ensure!(again.parameters == wanted, "the written scene differs from the scene that was run");
+    let again = parsed(&text).context("the chosen scene")?;
+    ensure!(again.parameters == wanted.parameters, "the written scene differs from the scene that was run");
     Ok(text)
+}
+
+/// Variables whose values differ between the scenes `written` and `wanted`, with the values in `wanted`.
+fn differing(written: &Scene, wanted: &Scene) -> Vec<(&'static Variable, Value)> {
+    let differing = |row| {
+        let [before, after] = [written, wanted].map(|scene| value(row, &scene.parameters, &scene.inputs));
+        let (before, after) = (before?, after?);
+        (before.to_string() != after.to_string()).then_some((row, after))
+    };
+    table().rows.iter().filter_map(differing).collect()
 }
 
 /// Removes values from a scene file that have no influence in `scene`.
@@ -151,10 +164,25 @@ fn put(set: &mut Item, name: &str, value: Value) -> Result<()> {
     }
     let item = table.entry(key).or_insert_with(|| Item::Value(value.clone()));
     let old = item.as_value_mut().with_context(|| format!("{name} has no value"))?;
+    replace(old, value);
+    Ok(())
+}
+
+/// Replaces a value and keeps its blanks and comments.
+fn replace(old: &mut Value, value: Value) {
     let decor = old.decor().clone();
     *old = value;
     *old.decor_mut() = decor;
-    Ok(())
+}
+
+/// Existing value of a variable.
+fn existing<'a>(set: &'a mut Item, name: &str) -> Option<&'a mut Value> {
+    let table = set.as_table_like_mut()?;
+    if table.contains_key(name) {
+        return table.get_mut(name)?.as_value_mut();
+    }
+    let (group, last) = name.split_once('.')?;
+    table.get_mut(group)?.as_table_like_mut()?.get_mut(last)?.as_value_mut()
 }
 
 /// Creates a table for keys with dots.
@@ -172,17 +200,22 @@ fn dotted(inline: bool) -> Item {
 /// Rewrites the scene in `from` for the position `to`, so that its relative paths still lead to the same files.
 pub fn moved(text: String, from: &Path, to: &Path) -> Result<String> {
     let mut document: DocumentMut = text.parse().context("the scene's file")?;
-    if !document.contains_key("inputs") {
-        return Ok(text);
-    }
     let folder = |file: &Path| absolute(file).map(|file| file.parent().unwrap_or(&file).to_path_buf());
     let (old, new) = (folder(from)?, folder(to)?);
-    for table in tables(document.get_mut("inputs")) {
-        let Some(file) = table.get("file").and_then(|file| file.as_str()) else { continue };
+    let moved = |file: &str| {
         let file = old.join(file);
         // Windows has no relative path from one drive to another
         let path = pathdiff::diff_paths(&file, &new).unwrap_or(file);
-        table.insert("file", toml_edit::value(path.to_string_lossy().replace('\\', "/")));
+        path.to_string_lossy().replace('\\', "/")
+    };
+    for table in tables(document.get_mut("inputs")) {
+        let Some(file) = table.get("file").and_then(Item::as_str).map(moved) else { continue };
+        table.insert("file", toml_edit::value(file));
+    }
+    if let Some(curve) = document.get_mut("set").and_then(|set| existing(set, CURVE))
+        && let Some(file) = curve.as_str().filter(|text| !curve::is_list(text)).map(moved)
+    {
+        replace(curve, file.into());
     }
     Ok(document.to_string())
 }
@@ -194,11 +227,19 @@ mod tests {
     #[test]
     fn a_moved_scene_finds_the_same_files() -> Result<()> {
         let [from, to] = [Path::new("scenes").join("a.toml"), Path::new("scenes").join("reduced").join("a.toml")];
-        for text in ["[[inputs]]\nfile = \"data/cycle.csv\"\n", "inputs = [{ file = \"data/cycle.csv\" }]\n"] {
+        for text in [
+            "[[inputs]]\nfile = \"data/cycle.csv\"\n",
+            "inputs = [{ file = \"data/cycle.csv\" }]\n",
+            "[set]\nlimited_slip.curve = \"data/cycle.csv\"\n",
+            "[set.limited_slip]\ncurve = \"data/cycle.csv\"\n",
+            "set = { \"limited_slip.curve\" = \"data/cycle.csv\" }\n",
+        ] {
             let written = moved(text.into(), &from, &to)?;
             assert!(written.contains("\"../data/cycle.csv\""), "{written}");
         }
-        assert_eq!(moved("step = 1 # a\n".into(), &from, &to)?, "step = 1 # a\n");
+        for text in ["step = 1 # a\n", "[set]\nlimited_slip.curve = [[0, 50]] # a\n"] {
+            assert_eq!(moved(text.into(), &from, &to)?, text);
+        }
         Ok(())
     }
 }

@@ -30,6 +30,8 @@ pub enum Question {
     Scenes(scenes::ScenesQuestion),
     /// The former names of variables.
     FormerNames,
+    /// Settings of all points of a measured clutch curve.
+    Curve(scenes::CurveQuestion),
     /// Values of a scene: settings at the start, later and over time, and outputs.
     Scene(scenes::SceneQuestion),
     /// Variables that have an influence in a scene.
@@ -66,6 +68,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
     let answer = match question {
         Question::Scenes(question) => question.answer(),
         Question::FormerNames => Ok(scenes::former_names()),
+        Question::Curve(question) => question.answer(),
         Question::Scene(question) => question.values(progress),
         Question::Acting(question) => question.acting(progress),
         Question::Plan(question) => question.plan(progress),

@@ -13,9 +13,8 @@ use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
 use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
-use crate::scene::set::Setting;
-use crate::scene::set::changed_values;
-use crate::scene::{self, InputTable, Scene, acting, former_names, loads, plan, script, ssv};
+use crate::scene::set::{Setting, changed_values, value};
+use crate::scene::{self, InputTable, Scene, acting, curve, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// Request for all scenes of a folder.
@@ -23,6 +22,14 @@ use crate::text::{shown, whole_file};
 #[serde(deny_unknown_fields)]
 pub struct ScenesQuestion {
     scenes: PathBuf,
+}
+
+/// Request about a measured clutch curve.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CurveQuestion {
+    /// Path of a CSV file, relative to the working folder, or a list of points, as on a command line.
+    value: String,
 }
 
 /// Request about one scene.
@@ -89,6 +96,13 @@ impl ScenesQuestion {
         let scene_json =
             |scene: &Scene| json!({"name": scene.name, "description": scene.description, "file": scene.file});
         Ok(json!({"scenes": scenes.iter().map(scene_json).collect::<Vec<_>>()}))
+    }
+}
+
+impl CurveQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        let settings = curve::settings(curve::CURVE, &value(&self.value), Path::new(""))?;
+        Ok(json!({"set": values(&settings)}))
     }
 }
 

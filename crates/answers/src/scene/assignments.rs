@@ -1,8 +1,10 @@
 //! Changes of a scene on the command line, each `name=value`, with the same checks as the values in a file.
 
-use super::set::{Setting, value, variable};
+use std::path::Path;
+
+use super::set::{value, variable};
 use super::times::{check_step, duration, span};
-use super::{Scene, former_names};
+use super::{Scene, curve, former_names};
 use crate::problem::{Problem, Problems};
 use crate::text::near;
 
@@ -22,12 +24,12 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
         let (name, text) = (name.trim(), text.trim());
         scene.notes.extend(former_names::notes([name]));
         let name = former_names::present(name);
-        if named.contains(&name) {
-            problems.push(format!("{name} is set twice; leave one out"));
+        if let Some(problem) = curve::set_twice(name, &named) {
+            problems.push(problem);
             continue;
         }
         named.push(name);
-        problems.extend(assign(scene, name, text).err());
+        problems.extend(assign(scene, name, text).err().into_iter().flat_map(|of_value| of_value.0));
     }
     if problems.0.is_empty() && named.iter().any(|name| TIMES.contains(name)) {
         problems.extend(check_step(scene.step, scene.stop_time).err());
@@ -39,24 +41,27 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
     Ok(())
 }
 
-fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problem> {
+fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problems> {
     let value = value(text);
     match name {
-        "stop_time" => scene.stop_time = duration(name, &value)?,
-        "step" => scene.step = span(name, &value)?,
+        "stop_time" => scene.stop_time = duration(name, &value).map_err(Problem::from)?,
+        "step" => scene.step = span(name, &value).map_err(Problem::from)?,
         _ => {
             let time = near::hint(name, TIMES);
             if variable(name).is_err() && !time.is_empty() {
-                return Err(format!("there is no variable \"{name}\"{time}").into());
+                return Err(Problem::from(format!("there is no variable \"{name}\"{time}")).into());
             }
-            let setting = Setting::new(name, &value)?;
+            // paths on a command line are relative to the working folder
+            let settings = curve::settings(name, &value, Path::new(""))?;
             if scene.input_tables.iter().any(|table| table.row.name == name) {
                 let message = "follows a table in the scene, which overrides a value; change the table";
-                return Err(Problem::of(name, text, format!("{name} {message}")));
+                return Err(Problem::of(name, text, format!("{name} {message}")).into());
             }
-            setting.apply(&mut scene.parameters, &mut scene.inputs);
-            scene.settings.retain(|known| known.row.name != name);
-            scene.settings.push(setting);
+            for setting in settings {
+                setting.apply(&mut scene.parameters, &mut scene.inputs);
+                scene.settings.retain(|known| known.row.name != setting.row.name);
+                scene.settings.push(setting);
+            }
         }
     }
     Ok(())

@@ -147,7 +147,7 @@ fn input(name: &str, unit: &str) -> Result<&'static Variable, String> {
 }
 
 /// Splits `name [unit]`. The unit is empty if it is missing.
-fn split_header_cell(header_cell: &str) -> (&str, &str) {
+pub(super) fn split_header_cell(header_cell: &str) -> (&str, &str) {
     let parts = header_cell.strip_suffix(']').and_then(|rest| rest.rsplit_once('['));
     parts.map_or((header_cell, ""), |(name, unit)| (name.trim(), unit.trim()))
 }
@@ -164,6 +164,12 @@ fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
         }
         _ => Ok(time),
     }
+}
+
+/// Value of a cell in the column's unit, as in a scene. Fails if it is not a number.
+pub(super) fn cell_value(cell: &str, unit: &str) -> Result<Value, String> {
+    let number: f64 = cell.parse().map_err(|_| not_a_number())?;
+    Ok(if unit.is_empty() { Value::Float(number) } else { Value::String(format!("{cell} {unit}")) })
 }
 
 fn not_a_number() -> String {
@@ -185,10 +191,7 @@ impl Column {
 
     /// Parses a cell into the variable's own unit.
     fn value(&self, cell: &str) -> Result<f64, String> {
-        let number: f64 = cell.parse().map_err(|_| not_a_number())?;
-        let value =
-            if self.unit.is_empty() { Value::Float(number) } else { Value::String(format!("{cell} {}", self.unit)) };
-        real(self.row, &value)
+        real(self.row, &cell_value(cell, &self.unit)?)
     }
 
     fn problem(&self) -> Option<String> {

@@ -11,6 +11,7 @@
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
 //! scene.start = "rolling"                # literal of an enumeration
+//! limited_slip.curve = "clutch.csv"      # all points of the curve, from a file or a list, see `curve`
 //!
 //! [[at]]                                 # change of inputs and tunable parameters at a time
 //! time = 0.1
@@ -36,13 +37,17 @@ use schedule::{MOST, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::curve::{self, CURVE};
 use super::display_units::DisplayUnits;
 use super::set::{Setting, output, real, variable, written};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::{Event, InputTable, Scene, former_names, input_file};
-use crate::problem::{Problems, question_error};
+use crate::problem::{Problem, Problems, question_error};
 use crate::text::{not_text, shown};
+
+/// Problem of a later change of a fixed parameter.
+const FIXED: &str = "is fixed: only inputs and tunable parameters change during a run";
 
 /// Contents of a scene file.
 #[derive(Clone, Deserialize)]
@@ -103,7 +108,7 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
 pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let mut problems = Problems::default();
     let (stop_time, step) = times(entry, &mut problems);
-    let settings = settings("[set]", &entry.set, &mut problems);
+    let settings = settings("[set]", &entry.set, Some(folder(file)), &mut problems);
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
     let mut events: Vec<Event> = entry.at.iter().filter_map(|at| event(at.clone(), stop_time, &mut problems)).collect();
@@ -190,18 +195,34 @@ fn input_slopes(entry: &File, problems: &mut Problems) -> bool {
     }
 }
 
-/// Settings of a table with dotted or nested keys. Messages begin with `place`.
-fn settings(place: &str, table: &Table, problems: &mut Problems) -> Vec<Setting> {
+/// Folder of a scene's file.
+fn folder(file: &Path) -> &Path {
+    file.parent().unwrap_or(Path::new(""))
+}
+
+/// Settings of a table with dotted or nested keys. Paths are relative to `folder`, which later changes do not have.
+/// Messages begin with `place`.
+fn settings(place: &str, table: &Table, folder: Option<&Path>, problems: &mut Problems) -> Vec<Setting> {
     let mut found = Vec::new();
     let mut flat = Vec::new();
     flatten("", table, &mut flat);
-    for (name, value) in flat {
-        match Setting::new(&name, value) {
-            Ok(setting) if found.iter().any(|known: &Setting| known.row.name == setting.row.name) => {
-                problems.push(format!("{place} {} is set twice; leave one out", setting.row.name));
+    let mut names: Vec<&str> = Vec::new();
+    for (name, value) in &flat {
+        let present = former_names::present(name);
+        if let Some(problem) = curve::set_twice(present, &names) {
+            problems.push(format!("{place} {problem}"));
+            continue;
+        }
+        names.push(present);
+        let read = match folder {
+            None if name == CURVE => Err(Problem::from(format!("{CURVE} {FIXED}")).into()),
+            folder => curve::settings(name, value, folder.unwrap_or(Path::new(""))),
+        };
+        match read {
+            Ok(settings) => found.extend(settings),
+            Err(of_value) => {
+                problems.extend(of_value.0.into_iter().map(|problem| problem.prefixed(&format!("{place} "))))
             }
-            Ok(setting) => found.push(setting),
-            Err(problem) => problems.push(problem.prefixed(&format!("{place} "))),
         }
     }
     found
@@ -227,10 +248,9 @@ fn event(mut table: Table, stop_time: f64, problems: &mut Problems) -> Option<Ev
         problems.push(format!("[[at]] time = {time} s is outside the scene's [0, {stop_time}] s"));
     }
     let place = format!("[[at]] time = {} s:", six_digits(time));
-    let settings = settings(&place, &table, problems);
+    let settings = settings(&place, &table, None, problems);
     for setting in settings.iter().filter(|setting| !setting.may_come_later()) {
-        let name = setting.row.name;
-        problems.push(format!("{place} {name} is fixed: only inputs and tunable parameters change during a run"));
+        problems.push(format!("{place} {} {FIXED}", setting.row.name));
     }
     Some(Event { time, settings })
 }
@@ -298,7 +318,7 @@ fn add_input_file(
             return Vec::new();
         }
     };
-    let file = scene.parent().unwrap_or(Path::new("")).join(&entry.file);
+    let file = folder(scene).join(&entry.file);
     match input_file::read(&file, period) {
         Ok((read, notes)) => {
             for table in read {

@@ -1,6 +1,7 @@
 //! Answers to questions about scenes and gears.
 
 mod accuracy;
+mod clutch_curve;
 mod geometry;
 mod header;
 mod interference;

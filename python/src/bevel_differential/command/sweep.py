@@ -75,6 +75,7 @@ def _merged(arguments):
 
 
 def _read(file):
+    from ..curve import beside
     from ..scene_file import flat, read_toml
     from ..values import DifferentialError, suggestion
 
@@ -90,4 +91,5 @@ def _read(file):
     for key in ("want", "condition"):
         if not all(isinstance(entry, str) for entry in found.get(key, [])):
             raise DifferentialError(f"{file}: {key} is a list of texts, such as \"left.speed:mean\"")
-    return {KEYS[key]: flat(value) if key in ("set", "vary") else value for key, value in found.items()}
+    read = {"set": lambda values: beside(flat(values), Path(file)), "vary": flat}
+    return {KEYS[key]: read[key](value) if key in read else value for key, value in found.items()}

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from ..curve import beside
 from ..designs.space import Space
 from ..fmu import Fmu
 from ..scene import Scene
@@ -211,7 +212,7 @@ class _Reader:
     def scene(self):
         """Scene of the file, with its changes. It is also searched for next to the file."""
         scene = Scene.load(find_beside(self.file, self.found.get("scene", "")), self.fmu, self.stop)
-        return scene.set(flat(self.found.get("set", {})))
+        return scene.set(beside(flat(self.found.get("set", {})), self.file))
 
     def dimension(self, name, given):
         found = Space.parse(self.fmu, {name: given}).dimensions[0]

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..curve import expanded
 from ..differential import Differential
 from ..fmu import Fmu
 from ..former_names import by_present_names
@@ -185,7 +186,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     that evaluates events; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    parameters = by_present_names(parameters or {})
+    parameters = expanded(by_present_names(parameters or {}))
     # events start in their steady state, unlike the scene
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}
     of_scene.pop("scene.start", None)

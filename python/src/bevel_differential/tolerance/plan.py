@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..curve import beside
 from ..designs import Farm, Task
 from ..fmu import Fmu
 from ..points import seconds
@@ -54,7 +55,7 @@ class Plan:
             raise DifferentialError("\n".join(f"{file}: {problem}" for problem in problems))
         scene = Scene.load(find_beside(file, str(found["scene"])), fmu, stop)
         try:
-            scene.set(flat(found.get("set", {})))
+            scene.set(beside(flat(found.get("set", {})), file))
             scene.check_settable(flat(found["factors"]))
             study = _study(_Reading(scene, found), found, runs, seed, indices)
             task = Task(scene, study.wants, study.limits, seconds("from", found.get("from", 0.0)))

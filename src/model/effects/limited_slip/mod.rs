@@ -184,7 +184,8 @@ impl LimitedSlipSpec {
         let first = names.first().filter(|_| !self.is_pressed())?;
         Some(problem!(
             first,
-            "nothing depends on {}, because preload and torque_coefficient are 0: viscous and measured torques do not              change with them",
+            "nothing depends on {}, because preload and torque_coefficient are 0: viscous and measured torques do not \
+             change with them",
             names.join(", ")
         ))
     }
@@ -211,7 +212,8 @@ impl LimitedSlipSpec {
         (self.torque_coefficient.max(coast) >= 1.0).then(|| {
             problem!(
                 "limited_slip.torque_coefficient",
-                "{largest}{which} is 1 or more, so the clutches lock themselves: as soon as torque flows, no difference of                  the wheels' torques makes them slip"
+                "{largest}{which} is 1 or more, so the clutches lock themselves: as soon as torque flows, no difference of \
+                 the wheels' torques makes them slip"
             )
         })
     }

@@ -6,7 +6,7 @@
 //! ```
 //!
 //! with the slip s of a side gear relative to the carrier. For n < 1, regularisation bounds the derivative by
-//! T_v/s_v εⁿ⁻¹. It changes the torque by the fraction (n − 1)/2 (ε/y)², which is below 0.004 % from y = 0.1. A measured
+//! T_v/s_v εⁿ⁻¹. It changes the torque by the fraction (n − 1)/2 (ε/y)², which is at most 0.005 % from y = 0.1. A measured
 //! curve is an odd function of slip.
 //!
 //! Source of the power law: the shear of silicone oil between the plates of a viscous coupling; H. Naunheimer et al.,
