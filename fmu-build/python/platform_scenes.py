@@ -12,6 +12,11 @@ LONGEST = 0.5
 DRAG = {"bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4,
         "bearing_drag.side_torque": 0.2, "bearing_drag.side_viscous": 1e-3}
 CLUTCHES = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1}
+# ramps, sheared oil and a measured curve with a breakaway torque, which the study's turn makes slide
+KINDS = {"effects.limited_slip": True, "limited_slip.torque_coefficient": 0.1, "limited_slip.pressed_by": "both_sides",
+         "limited_slip.coast_ratio": 0.25, "limited_slip.viscous_torque": 20.0, "limited_slip.viscous_speed": 3.0,
+         "limited_slip.viscous_exponent": 0.6, "limited_slip.curve[1].torque": 30.0, "limited_slip.curve[2].slip": 1.0,
+         "limited_slip.curve[2].torque": 25.0, "limited_slip.curve[3].slip": 5.0, "limited_slip.curve[3].torque": 40.0}
 # a small car that launches, brakes to a stop, waits, reverses and stops again: inputs over time, and the duration [s]
 CAR = {"scene.carrier_drive": "torque", "scene.start": "rest", "effects.wheel_brake": True, "effects.bearing_drag": True, **DRAG,
        "inertia.left_end": 12.0, "inertia.right_end": 12.0, "inertia.carrier": 0.1, "left.load_torque": 0.0, "right.load_torque": 0.0,
@@ -40,6 +45,8 @@ def all_scenes(folder, effects):
     for law in ["coulomb_stribeck", "benedict_kelley", "iso_14179", "xu_kahraman"]:
         friction = {"effects.tooth_friction": True, "tooth_friction.law": law}
         yield f"turn, friction {law}", TURN | friction, [], [], 0.05
+    yield "turn, clutches in drive", TURN | KINDS, [], [], 0.05
+    yield "turn, clutches in coast", TURN | KINDS | {"left.load_torque": -400.0, "right.load_torque": -300.0}, [], [], 0.05
     for name, gears in [("ideal", {"scene.gear_contact": "ideal"}), ("tooth", {"contact.law": "line", "effects.thrust_friction": True})]:
         tables = [{"input": each, "time": time, "value": value} for each, (time, value) in COURSE.items()]
         yield f"drive, {name}", CAR | gears, [], tables, DRIVE

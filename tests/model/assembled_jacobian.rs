@@ -37,6 +37,13 @@ fn braked((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
     (p, inputs)
 }
 
+/// Scene whose loads and carrier torque act in the other direction.
+fn backward((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
+    inputs.carrier_torque *= -1.0;
+    inputs.load_torque = inputs.load_torque.map(|torque| -torque);
+    (p, inputs)
+}
+
 /// Friction that decreases or increases with the sliding speed, on washers, pins, plates and linings.
 fn by_speed(p: &mut Parameters) {
     (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
@@ -48,6 +55,25 @@ fn by_speed(p: &mut Parameters) {
         (&mut specs.wheel_brake.sliding, 0.0, -0.05),
     ] {
         (sliding.stribeck_speed, sliding.slip_slope) = (speed, slope);
+    }
+}
+
+/// Clutch packs with ramps, pressed by the meshes of `side` as numbered by `limited_slip.pressed_by`.
+fn ramps(p: &mut Parameters, pressed_by: i32) {
+    let Access::Enumeration(_, _, set) = named("limited_slip.pressed_by").unwrap().access else { panic!("no choice") };
+    set(p, pressed_by);
+    (p.effects.limited_slip, p.specs.limited_slip.coast_ratio) = (true, 0.25);
+}
+
+/// Torques of clutch packs over slip: of sheared oil, and of a measured curve that starts at `breakaway` [N·m].
+fn slip_torques(p: &mut Parameters, breakaway: f64) {
+    let clutch = &mut p.specs.limited_slip;
+    (p.effects.limited_slip, clutch.preload, clutch.torque_coefficient) = (true, 0.0, 0.0);
+    (clutch.viscous_torque, clutch.viscous_speed, clutch.viscous_exponent) = (40.0, 3.0, 0.6);
+    let points = [(0.0, breakaway), (0.5, 45.0), (2.0, 60.0), (8.0, 50.0)];
+    let given = points.into_iter().filter(|&(slip, torque)| slip > 0.0 || torque > 0.0);
+    for (point, (slip, torque)) in clutch.curve.iter_mut().zip(given) {
+        (point.slip, point.torque) = (slip, torque);
     }
 }
 
@@ -84,6 +110,11 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         ("bodies, errors, friction, pins", turn(|p| (bodies(p), errors(p), friction(p), pins(p)).0)),
         ("shafts and drag", turn(|p| (p.effects.half_shaft, p.effects.bearing_drag) = (true, true))),
         ("drag by size and load", turn(dragged)),
+        ("ramps", turn(|p| (ramps(p, 1), p.scene.gear_contact = GearContact::Lumped).0)),
+        ("ramps of both sides", turn(|p| ramps(p, 2))),
+        ("ramps in coast", backward(turn(|p| ramps(p, 2)))),
+        ("torque over slip", turn(|p| slip_torques(p, 0.0))),
+        ("torque over slip with breakaway", turn(|p| slip_torques(p, 30.0))),
     ]
 }
 

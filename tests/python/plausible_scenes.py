@@ -13,13 +13,15 @@ from sampling import spread
 EXPLICIT, IMPACT, LINE, IDEAL, LUMPED, TOOTH, TORQUE_CARRIER = 4, 1, 2, 1, 2, 3, 2
 ADAPTIVE, FIXED_STEP, RADAU = 1, 2, 3
 MODULE = 4.5e-3
+# number of points of a measured clutch curve
+CURVE_POINTS = 8
 # kinds of start
 EQUILIBRIUM, STEADY_HEAT = 1, 4
 
 # typical values of parameters whose start value is zero
 TYPICAL = {"limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1, "bearing_drag.carrier_torque": 0.5,
            "bearing_drag.carrier_viscous": 5e-3, "bearing_drag.carrier_churning": 1e-4, "bearing_drag.side_torque": 0.2,
-           "bearing_drag.side_viscous": 1e-3}
+           "bearing_drag.side_viscous": 1e-3, "limited_slip.viscous_torque": 30.0}
 
 # factors above and below the start value, within which values are drawn by logarithm
 FACTORS = {
@@ -33,12 +35,13 @@ FACTORS = {
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
     "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
     "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
-    "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
+    "limited_slip.viscous_speed": 3.0, "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
     "warm_up.gear_specific_heat": 2.0, "warm_up.clutch_capacity": 30.0, "warm_up.washer_capacity": 30.0, "warm_up.case_capacity": 30.0}
 # values from zero (a tenth of the draws) up to this multiple of the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
-    "limited_slip.preload": 10.0, "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
+    "limited_slip.preload": 10.0, "limited_slip.coast_ratio": 3.0, "limited_slip.viscous_torque": 10.0, "lock.damping_time": 10.0,
+    "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
     "bearing_drag.carrier_viscous": 30.0, "bearing_drag.carrier_churning": 30.0, "bearing_drag.side_torque": 30.0,
     "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0,
     **{f"warm_up.{name}": 10.0 for name in ("gears_to_oil", "gears_to_oil_per_speed", "clutch_to_oil", "washers_to_oil", "oil_to_case",
@@ -47,7 +50,7 @@ MULTIPLES = {
 BANDS = {
     "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5),
     "contact.exponent": (1.0, 2.0), "limited_slip.torque_coefficient": (0.0, 0.5),
-    "limited_slip.static_ratio": (1.0, 2.0), "tooth_friction.static_ratio": (1.0, 2.0),
+    "limited_slip.static_ratio": (1.0, 2.0), "limited_slip.viscous_exponent": (0.3, 2.0), "tooth_friction.static_ratio": (1.0, 2.0),
     "tooth_friction.coefficient": (0.0, 0.15), "thrust_friction.coefficient": (0.0, 0.2),
     "thrust_friction.pin_coefficient": (0.0, 0.2), "tooth_errors.shaft_angle_error": (-1e-3, 1e-3),
     "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
@@ -195,6 +198,7 @@ def effects(scene, u):
         scene["scene.start"] = EQUILIBRIUM
     if gear_contact == IDEAL:
         scene["limited_slip.torque_coefficient"] = 0.0
+    clutches(scene, u)
     grade = int(u["tooth_errors.accuracy_grade"] * 10)
     scene["tooth_errors.accuracy_grade"] = grade + 1 if grade else 0
     scene["tooth_errors.runout_by_grade"] = bool(grade and scene["tooth_errors.runout_by_grade"])
@@ -203,3 +207,15 @@ def effects(scene, u):
     if scene["contact.law"] == IMPACT:
         scene["effects.body_compliance"] = False
         scene["tooth_fault.missing_fraction"] = 0.55 + 0.45 * u["tooth_fault.missing_fraction"]
+
+
+def clutches(scene, u):
+    """Sets sheared oil in half of the clutches, and a measured curve in half of them, with slips that rise from point to point."""
+    if u["limited_slip.viscous_torque"] < 0.5:
+        scene["limited_slip.viscous_torque"] = 0.0
+    # number of points, from 0 to all; half of the curves start with a breakaway torque
+    points, slip = max(0, int(18 * u["limited_slip.curve[1].torque"]) - 9), 0.0
+    for i in range(1, CURVE_POINTS + 1):
+        name = f"limited_slip.curve[{i}]"
+        slip += 0.0 if i == 1 and u[f"{name}.slip"] < 0.5 else 10.0 * 0.1 ** (1.0 - u[f"{name}.slip"])
+        scene[f"{name}.slip"], scene[f"{name}.torque"] = (slip, 80.0 * u[f"{name}.torque"]) if i <= points else (0.0, 0.0)

@@ -9,7 +9,9 @@ from bevel_differential import Scene
 from bevel_differential.bench import TESTS, bench, scene_file
 from bevel_differential.command import main
 from bevel_differential.scene_file import read_toml
+from bevel_differential.values import DifferentialError
 from PIL import Image
+from scipy.interpolate import PchipInterpolator
 
 PRELOAD, RATIO, COLD = 60.0, 1.3, 1.5
 # gears without teeth, and only friction of the packs
@@ -55,6 +57,72 @@ def test_breakaway_is_reported_separately_from_bias(fmu_file, tmp_path):
         clutch = RATIO * PRELOAD * (1.0 + (COLD - 1.0) * max(0.0, (353.15 - temperature) / 100.0))
         assert left == pytest.approx(torque / 2.0 - direction * clutch, abs=0.1) and effect == pytest.approx(200.0 * clutch / torque, abs=0.1)
     assert "1.30 to 1.30 times" in says
+
+
+@pytest.mark.parametrize("preload", [0.0, 15.0])
+def test_ramps_shift_their_fraction_of_the_carrier_torque(fmu_file, tmp_path, preload):
+    says = bench("ramps", tmp_path, values={"limited_slip.preload": preload}, fmu=fmu_file, workers=0)
+    rows = table(tmp_path / "ramps.csv")
+    assert sorted(set(rows["coast_ratio_[1]"])) == [0.0, 0.25, 1.0] and len(rows) == 3 * 39
+    for coast, torque, left, right, difference, ratio, effect in rows.tolist():
+        clutch = preload + 0.4 * (coast if torque < 0.0 else 1.0) * abs(torque) / 2.0
+        # the left wheel is the faster one, so the packs take torque from it
+        assert [left, right] == pytest.approx([torque / 2.0 - clutch, torque / 2.0 + clutch], rel=1e-6, abs=0.05 if torque == 0.0 else 1e-6)
+        assert difference == pytest.approx(right - left, abs=1e-9)
+        if left * right > 0.0:
+            assert ratio == pytest.approx((abs(torque) / 2.0 + clutch) / (abs(torque) / 2.0 - clutch), rel=1e-6)
+            assert effect == pytest.approx(200.0 * clutch / abs(torque), rel=1e-6, abs=1e-6)
+    assert ("preload remains" in says) == (preload > 0.0)
+    # at 1600 N·m: 0.4 T, and of it a quarter in coast
+    shares = [0.4, 0.4, 0.1, 0.0]
+    assert [numbers(says)[1], *numbers(says)[2:8:2]] == pytest.approx([share * 1600.0 + 2.0 * preload for share in shares], abs=1e-2)
+
+
+def test_ramps_of_both_sides_shift_the_same_torque_while_both_meshes_have_the_same(fmu_file, tmp_path):
+    # without friction of the gears, both side gears have half the torque of the carrier
+    for name in ("own_side", "both_sides"):
+        (tmp_path / name).mkdir()
+        bench("ramps", tmp_path / name, values={"limited_slip.pressed_by": name}, fmu=fmu_file, workers=0)
+    own, both = (table(tmp_path / name / "ramps.csv") for name in ("own_side", "both_sides"))
+    assert both["torque_difference_[N.m]"] == pytest.approx(own["torque_difference_[N.m]"], rel=1e-6, abs=0.05)
+
+
+@pytest.mark.parametrize("exponent", [0.5, 1.0, 1.6])
+def test_torque_over_slip_is_a_power_law_or_the_measured_curve(fmu_file, tmp_path, exponent):
+    says = bench("clutch_curve", tmp_path, values={"limited_slip.viscous_exponent": exponent}, fmu=fmu_file, workers=0)
+    rows = np.genfromtxt(tmp_path / "clutch_curve.csv", delimiter=",", names=True, deletechars="", skip_header=1, dtype=None,
+                         encoding="utf-8")
+    seen = {name: rows[rows["clutch"] == name] for name in dict.fromkeys(rows["clutch"])}
+    viscous, curve, holding = seen.values()
+    rpm = np.pi / 30.0
+    law = 80.0 * (viscous["slip_[rad/s]"] / (100.0 * rpm)) ** exponent
+    # below a tenth of its reference slip, the law is regularised
+    apart = viscous["slip_[rad/s]"] > 10.0 * rpm
+    assert sum(apart) > 40 and viscous["clutch_torque_[N.m]"][apart] == pytest.approx(law[apart], rel=1e-4)
+    slips, torques = np.array([0.0, 30.0, 100.0, 250.0]) * rpm, np.array([90.0, 75.0, 110.0, 150.0])
+    for found, first in ((curve, 0.0), (holding, 90.0)):
+        between = PchipInterpolator(slips, [first, *torques[1:]])(np.minimum(found["slip_[rad/s]"], slips[-1]))
+        assert found["clutch_torque_[N.m]"] == pytest.approx(between, rel=1e-4, abs=0.1)
+        points = np.isin(found["slip_[rad/s]"].round(9), slips.round(9))
+        assert found["clutch_torque_[N.m]"][points] == pytest.approx(torques[0 if first else 1:], rel=1e-3)
+    # only the pack with a breakaway torque is measured without slip
+    assert [found["slip_[rad/s]"][0] == 0.0 for found in seen.values()] == [False, False, True]
+    assert "breaks loose at 90 N·m" in says and "within 0.001 N·m" in says
+
+
+def test_the_bench_of_clutches_shows_what_the_scene_has(fmu_file, tmp_path):
+    def shown(values):
+        bench("clutch_curve", tmp_path, values=values, fmu=fmu_file, workers=0)
+        return {row.split(",")[0] for row in (tmp_path / "clutch_curve.csv").read_text(encoding="utf-8").splitlines()[2:]}
+
+    dry = {"limited_slip.viscous_torque": 0.0, "limited_slip.preload": 40.0}
+    assert shown(dry | {"limited_slip.curve[1].torque": 0.0}) == {"measured curve"}
+    unset = {f"limited_slip.curve[{i}].{of}": 0.0 for i in range(1, 5) for of in ("slip", "torque")}
+    assert shown(unset) == {"viscous torque"}
+    with pytest.raises(DifferentialError, match="needs limited_slip.viscous_torque, or points"):
+        shown(unset | dry)
+    with pytest.raises(DifferentialError, match="limited_slip.torque_coefficient = 0"):
+        bench("ramps", tmp_path, values={"limited_slip.torque_coefficient": 0.0}, fmu=fmu_file, workers=0)
 
 
 def test_judder_ends_where_linear_theory_excludes_it(fmu_file, tmp_path):

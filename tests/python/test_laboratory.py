@@ -18,6 +18,7 @@ import drives  # noqa: E402
 import fuzz  # noqa: E402
 import hosts  # noqa: E402
 import ladder  # noqa: E402
+import platform_scenes  # noqa: E402
 import precision  # noqa: E402
 import solids_errors  # noqa: E402
 import survey_scenes  # noqa: E402
@@ -167,6 +168,33 @@ def test_a_scene_of_the_survey_is_known_by_its_number():
     assert survey_scenes.drawn(3, 7).contents() == survey_scenes.drawn(3, 7).contents() != survey_scenes.drawn(3, 8).contents()
     # scene files contain plain numbers
     assert all(type(value) in (bool, int, float, str) for k in range(20) for value in survey_scenes.drawn(1, k).values.values())
+
+
+def test_the_survey_draws_all_kinds_of_clutches_and_the_unit_accepts_them(fmu):
+    scenes = [survey_scenes.drawn(1, index) for index in range(400)]
+    kinds = ["limited_slip.coast_ratio", "limited_slip.viscous_torque", "limited_slip.curve[1].slip"]
+    for kind in kinds:
+        drawn = [scene for scene in scenes if kind in scene.values]
+        assert drawn and all(scene.values["effects.limited_slip"] for scene in drawn)
+        with fmu.open() as instance:
+            instance.initialise(drawn[0].values)
+            instance.step(1e-4)
+    curves = [scene.values for scene in scenes if kinds[2] in scene.values]
+    assert {values[kinds[2]] == 0.0 for values in curves} == {False, True}
+
+
+def test_scenes_of_all_platforms_have_clutches_whose_values_act(fmu):
+    scenes = {name: values for name, values, *_ in platform_scenes.all_scenes(Path("scenes"), []) if "clutches" in name}
+    torques = []
+    for values in scenes.values():
+        with fmu.open() as instance:
+            instance.initialise(values)
+            instance.step(0.05)
+            assert not instance.unfelt
+            torques.append(instance.read(["carrier.torque", "heat.clutch"]))
+    (drive, hot), (coast, warm) = torques
+    # in drive, ramps press the packs by four times as much torque per torque
+    assert drive > 0.0 > coast and hot > warm > 0.0
 
 
 def test_tallies_of_processes_add_up():

@@ -10,6 +10,7 @@ import plausible_scenes
 import pytest
 import random_scenes
 import scene_runs
+from bevel_differential import DifferentialError
 from sampling import latin, spread
 
 SEED = 1
@@ -97,3 +98,23 @@ def test_an_attempt_fails_that_is_out_of_balance_or_not_refused_by_name(fmu, mon
     monkeypatch.setattr(scene_runs.StatusInstance, "names_a_variable", lambda *_: False)
     nameless = scene_runs.Attempt(fmu, scene)
     assert nameless.verdict == "failed" and "refused with 3" in nameless.problems[0]
+
+
+def test_plausible_clutches_have_all_kinds_of_torque_and_are_accepted(fmu):
+    clutched = [scene["start"] for _, scene in random_scenes.scenes(fmu, "plausible", 150, SEED) if scene["start"]["effects.limited_slip"]]
+    curve = "limited_slip.curve[1]"
+    kinds = {"both sides": lambda start: start["limited_slip.pressed_by"] == 2,
+             "coast": lambda start: start["limited_slip.coast_ratio"] != 1.0,
+             "viscous": lambda start: start["limited_slip.viscous_torque"] > 0.0, "curve": lambda start: start[f"{curve}.slip"] > 0.0,
+             "breakaway": lambda start: start[f"{curve}.slip"] == 0.0 and start[f"{curve}.torque"] > 0.0,
+             "dry": lambda start: start["limited_slip.viscous_torque"] == start[f"{curve}.torque"] == 0.0}
+    for name, is_kind in kinds.items():
+        drawn = [start for start in clutched if is_kind(start)]
+        assert drawn and (name == "coast" or len(drawn) < len(clutched)), name
+    # gears may be refused, but never the clutches
+    for start in clutched:
+        with fmu.open() as instance:
+            try:
+                instance.initialise(start)
+            except DifferentialError as refused:
+                assert "limited_slip" not in str(refused)

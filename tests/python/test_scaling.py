@@ -65,7 +65,6 @@ CARRIERS = {
                  "kW, mm2/s, 1/min and mm under powers (ISO/TR 14179-1)"),
     "thrust_friction": (WHEELS | {"effects.thrust_friction": True}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "limited_slip": (WHEELS | {**theory.CLUTCHES}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
-    "lock": (WHEELS | {"lock.command": 1.0}, UNEQUAL, NO_TIME, OUTPUTS, SPRING),
     "wheel_brake": (HELD, STEADY, NO_TIME, OUTPUTS, SPRING),
     "solver": (BLOWS | {"solver.relative_tolerance": 1e-6}, STEPS, NO_TIME, COUNTS, "error control resolves speeds to 1 rad/s, and the first step is 1 us"),
 }
@@ -73,11 +72,16 @@ CARRIERS = {
 SOLID = {"scene.gear_contact": "solid", "tooth_errors.accuracy_grade": 0, "tooth_errors.planet_tip_relief": 0.0}
 ERRORS = {"effects.tooth_errors": True, "tooth_errors.crowning": 2e-5, "tooth_errors.axis_offset": 2e-5,
           "tooth_errors.shaft_angle_error": 1e-3, "tooth_errors.planet_axial_offset": 3e-5}
+SLIPPING = {"effects.limited_slip": True, "limited_slip.preload": 0.0}
 EFFECTS = {effect.name: effect.on for effect in effects(os.environ["FMU"]) if effect.name not in CARRIERS}
 HOMOGENEOUS = {
     **{contact: {"scene.gear_contact": contact} for contact in ("ideal", "lumped", "tooth", "solid")},
     **{law: {"contact.law": law, **ERRORS, "tooth_errors.planet_tip_relief": 2e-5} for law in ("impact", "line", "line_weber")},
     "misaligned solids": SOLID | ERRORS | {"solid.facets": 8},
+    "viscous clutches": SLIPPING | {"limited_slip.viscous_torque": 60.0, "limited_slip.viscous_speed": 3.0,
+                                    "limited_slip.viscous_exponent": 0.6},
+    "measured clutches": SLIPPING | {"limited_slip.curve[1].slip": 1.0, "limited_slip.curve[1].torque": 40.0,
+                                     "limited_slip.curve[2].slip": 4.0, "limited_slip.curve[2].torque": 90.0},
     **EFFECTS, "tooth_errors": EFFECTS["tooth_errors"] | {"tooth_errors.accuracy_grade": 0},
 }
 

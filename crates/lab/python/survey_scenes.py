@@ -9,6 +9,12 @@ import numpy as np
 STEPS, CYCLES = 240.0, 2.6
 # load of a wheel [N·m] per cube of the outer cone distance [m³], around which loads are drawn, from the study
 LOAD = 835.0 / 0.04245**3
+# added to the seed of kinds of clutches
+CLUTCHES = 1
+# clutch packs without dry friction
+NOT_PRESSED = {"limited_slip.preload": 0.0, "limited_slip.torque_coefficient": 0.0}
+# slips of measured clutch torques [rad/s]
+SLIPS = (2.0, 6.0, 15.0)
 # possible quantities, of which three are wanted of a scene
 WANTS = ["left.speed:mean", "left.speed:peak_to_peak", "right.speed:rms", "carrier.torque:mean", "left.shaft_torque:max",
          "planet[1].left_normal_force:mean", "planet[1].left_normal_force:max", "planet[1].left_transmission_error:mean",
@@ -48,6 +54,9 @@ def drawn(seed, index):
     load, spin, carrier = LOAD * cone**3 * d.uniform(0.1, 1.2), d.uniform(400.0, 1500.0), d.uniform(500.0, 2500.0)
     values |= {"carrier.speed_command": f"{carrier:.1f} deg/s", **_drive(d, load, spin, carrier, planet / side)}
     values |= _effects(d, module, load)
+    if values.get("effects.limited_slip"):
+        # a separate generator, because all other values were drawn before there were kinds of clutches
+        values |= _clutches(np.random.default_rng([seed, index, CLUTCHES]), load)
     first = int(d.integers(len(WANTS)))
     stop = CYCLES * 360.0 / (planet * spin)
     # quantities of different kinds
@@ -88,3 +97,18 @@ def _effects(d, module, load):
     if d.random() < 0.3:
         values["effects.pin_compliance"] = True
     return values
+
+
+def _clutches(d, load):
+    """Changes plain clutch packs: not at all, to ramps, to sheared oil, or to a measured curve, half of them with a breakaway torque."""
+    kind = int(d.integers(4))
+    torque = load * d.uniform(0.03, 0.1)
+    if kind == 1:
+        return {"limited_slip.pressed_by": str(d.choice(["own_side", "both_sides"])), "limited_slip.coast_ratio": d.uniform(0.0, 1.0)}
+    if kind == 2:
+        return NOT_PRESSED | {"limited_slip.viscous_torque": torque, "limited_slip.viscous_exponent": d.uniform(0.4, 1.0)}
+    if kind == 3:
+        points = [(0.0, torque * d.uniform(0.5, 1.0))] * int(d.integers(2)) + [(slip, torque * d.uniform(0.5, 1.5)) for slip in SLIPS]
+        return NOT_PRESSED | {f"limited_slip.curve[{i}].{name}": value for i, point in enumerate(points, 1)
+                              for name, value in zip(("slip", "torque"), point)}
+    return {}

@@ -1,6 +1,6 @@
 //! Torque bias and locking value of a differential with friction, for all directions of drive.
 
-use bevel_differential::model::{CarrierDrive, Inputs, Parameters, SideDrive};
+use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, SideDrive};
 
 use super::scene::{Course, Scene, Step, output};
 use super::teeth::View;
@@ -55,6 +55,25 @@ fn the_means_of_a_mesh_cycle_are_the_same_forward_backward_and_with_swapped_side
             for (k, (a, b)) in one.iter().zip(&other).enumerate() {
                 assert!((a - b).abs() < 1e-9, "{view:?} {name} at {} s: {a} and {b}", forward.times[k]);
             }
+        }
+    }
+}
+
+#[test]
+fn ramps_lock_by_their_ratio_and_a_reversed_differential_has_them_exchanged() {
+    for (torque, locking) in [(1670.0, 0.4), (-1670.0, 0.1)] {
+        let mut scene = held_apart(torque, 50.0, 2.5);
+        let p = &mut scene.parameters;
+        (p.scene.gear_contact, p.effects.thrust_friction, p.effects.tooth_friction) =
+            (GearContact::Lumped, false, false);
+        p.effects.limited_slip = true;
+        (p.specs.limited_slip.torque_coefficient, p.specs.limited_slip.coast_ratio) = (0.4, 0.25);
+        let image = scene.image(View::Reversed);
+        assert_eq!(image.parameters.specs.limited_slip.torque_coefficient, 0.1);
+        for scene in [scene, image] {
+            let course = scene.run().expect("a scene that starts");
+            let last = *readings(&course, "locking_value").last().expect("a value");
+            assert!((last.abs() - locking).abs() < 1e-6, "{torque}: {last}");
         }
     }
 }

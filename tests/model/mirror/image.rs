@@ -48,6 +48,12 @@ impl Scene {
                 _ => {}
             }
         }
+        if view == View::Reversed {
+            // drive and coast ramps change places
+            let clutch = &mut to.specs.limited_slip;
+            clutch.torque_coefficient *= clutch.coast_ratio;
+            clutch.coast_ratio = clutch.coast_ratio.recip();
+        }
         let spec = &self.parameters.geometry;
         let fault = &mut image.parameters.specs.tooth_fault;
         let (first, teeth) = match fault.gear {

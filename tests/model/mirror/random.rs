@@ -7,6 +7,7 @@ use bevel_differential::geometry::AddendumSystem;
 use bevel_differential::model::{
     CarrierDrive, GearContact, InputDerivatives, Inputs, Method, Parameters, PlanetSpin, SideDrive, Start,
 };
+use bevel_differential::variables::{Access, named};
 
 use fastrand::Rng;
 
@@ -179,6 +180,27 @@ fn bodies(d: &mut Rng, p: &mut Parameters) {
 /// unchanged.
 fn later(d: &mut Rng, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
+    clutches(d, p);
+}
+
+/// Sets ramps, sheared oil and measured torques of clutches. Powers of two as coast ratios make the product with the
+/// torque coefficient exact, which the reversed image needs.
+fn clutches(d: &mut Rng, p: &mut Parameters) {
+    if let Some(Access::Enumeration(literals, _, set)) = named("limited_slip.pressed_by").map(|row| row.access) {
+        set(p, d.pick(&(1..=literals.choices.len() as i32).collect::<Vec<_>>()));
+    }
+    let clutch = &mut p.specs.limited_slip;
+    clutch.coast_ratio = d.pick(&[0.25, 0.5, 1.0, 2.0]);
+    clutch.viscous_torque = if d.share(0.3) { d.about(30.0, 3.0) } else { 0.0 };
+    clutch.viscous_speed = d.about(10.0, 3.0);
+    clutch.viscous_exponent = d.between(0.3, 2.0);
+    let (points, mut slip) = (if d.share(0.4) { d.below(clutch.curve.len()) + 1 } else { 0 }, 0.0);
+    for (i, point) in clutch.curve.iter_mut().take(points).enumerate() {
+        // half of the curves have a breakaway torque
+        slip += if i == 0 && d.share(0.5) { 0.0 } else { d.about(3.0, 3.0) };
+        (point.slip, point.torque) = (slip, d.about(40.0, 2.0));
+    }
+    p.specs.lock.damping_time = d.pick(&[0.0, 1e-4, 1e-3]);
 }
 
 /// Sets small nodes, which warm up quickly, and friction that depends on speed, temperature and p·v.

@@ -17,6 +17,8 @@ pub enum Parity {
     Wave,
     /// Gears and teeth are renumbered.
     Teeth,
+    /// Ramps of clutch packs for drive and coast change places.
+    Ramp,
 }
 
 /// Line of the table.
@@ -35,6 +37,7 @@ fn parity(text: &str) -> Parity {
         "lash" => Parity::Lash,
         "wave" => Parity::Wave,
         "teeth" => Parity::Teeth,
+        "ramp" => Parity::Ramp,
         other => panic!("{other} is not a parity"),
     }
 }

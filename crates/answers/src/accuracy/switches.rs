@@ -2,9 +2,11 @@
 
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
 use bevel_differential::problem::Problem;
+use bevel_differential::variables::effective::Situation;
 use bevel_differential::variables::{Access, Variable, named, table, value_of};
 
 use crate::scene::Scene;
+use crate::scene::acting::acts;
 use crate::scene::run::SceneRun;
 
 /// Common prefix of all switches.
@@ -113,9 +115,20 @@ impl Switch {
     }
 
     /// Typical values through which the effect would act, with their variables, for those that are zero in the scene.
+    /// Empty if the effect acts through other values, such as a clutch without preload that has viscous torque.
     pub fn typical(&self, scene: &Scene) -> Vec<(&'static Variable, f64)> {
+        if self.acts_otherwise(scene) {
+            return Vec::new();
+        }
         let is_shown = |&(row, value): &(&Variable, f64)| is_zero(row, scene) && value != 0.0;
         self.showing(scene).into_iter().filter(is_shown).collect()
+    }
+
+    /// True if a value of the effect that is zero at the start of the FMU is not zero in the scene, and takes effect.
+    fn acts_otherwise(&self, scene: &Scene) -> bool {
+        let own = table().rows.iter().filter(|row| group(row.name) == self.name());
+        own.filter(|row| number(row, &Parameters::default(), &Inputs::default()) == Some(0.0))
+            .any(|row| !is_zero(row, scene) && acts(row, scene, Situation::START))
     }
 
     /// True if all values through which the effect would act are zero in the scene.

@@ -345,3 +345,43 @@ fn a_scene_with_radau_gets_the_same_answer_as_with_the_adaptive_method() {
     );
     assert_eq!(parsed(&chosen::text(&radau, &text).expect("a file")).parameters.solver.method, Method::Adaptive);
 }
+
+/// Clutch packs with ramps, sheared oil and a measured curve, and a lock with damping.
+const CLUTCH: &str = "effects.limited_slip = true\nlimited_slip.torque_coefficient = 0.2\n\
+    limited_slip.pressed_by = \"both_sides\"\nlimited_slip.coast_ratio = 0.25\n\
+    limited_slip.viscous_torque = 20.0\nlimited_slip.viscous_speed = 5.0\nlimited_slip.viscous_exponent = 0.6\n\
+    \"limited_slip.curve[1].slip\" = 1.0\n\"limited_slip.curve[1].torque\" = 30.0\n\
+    \"limited_slip.curve[2].slip\" = 8.0\n\"limited_slip.curve[2].torque\" = 40.0\n\
+    lock.damping_time = 2e-3\nlock.command = 0.1\n";
+
+#[test]
+fn the_search_never_changes_what_the_clutches_are() {
+    let text = format!("{TEETH}{CLUTCH}");
+    let given = parsed(&text).parameters.specs;
+    let found = asked(&text, &["heat.clutch:max"], 0.05);
+    let choice = found.choice().expect("a setting");
+    for specs in [found.reference.scene.parameters.specs, choice.scene.parameters.specs] {
+        assert_eq!((specs.limited_slip, specs.lock), (given.limited_slip, given.lock));
+    }
+    // without clutches, there would be no heat
+    assert!(choice.scene.parameters.effects.limited_slip);
+    let written = chosen::text(&found, &text).expect("a file");
+    assert_eq!(parsed(&written).parameters.specs.limited_slip, given.limited_slip, "{written}");
+}
+
+#[test]
+fn a_clutch_without_preload_that_does_not_slip_is_not_said_to_be_zero() {
+    // equal loads and no spin: nothing slips, and nothing of the clutch acts
+    for set in [
+        "limited_slip.viscous_torque = 20.0\n",
+        "\"limited_slip.curve[1].slip\" = 3.0\n\"limited_slip.curve[1].torque\" = 30.0\n",
+    ] {
+        let text = format!("{IDEAL}effects.limited_slip = true\n{set}");
+        let found = asked(&text, &["carrier.torque:mean"], 0.01);
+        let Role::Acts { by, chosen } = role(&found, "limited_slip") else { panic!("{}", report::text(&found)) };
+        assert!(*by < 1e-9 && !chosen, "{by}");
+    }
+    // with values that are zero, the answer proposes one
+    let found = asked(&format!("{IDEAL}effects.limited_slip = true\n"), &["carrier.torque:mean"], 0.01);
+    assert!(matches!(role(&found, "limited_slip"), Role::Neutral { .. }));
+}

@@ -1,6 +1,6 @@
 """Steady tests: torque bias and breakaway over torque, at three temperatures, in both directions."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ from ..losses.point import FIGURES, PointTask, benched
 from ..losses.tables import bias as ratio_of
 from ..records import write
 from ..scene import Scene
-from ..values import DifferentialError
+from ..values import DifferentialError, Number
 
 # fractions of the scene's torque; temperatures, K; carrier speed and difference of wheel speeds, rad/s
 SHARES = np.array([0.15, 0.25, 0.4, 0.6, 0.8, 1.0])
@@ -26,7 +26,7 @@ HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]
 
 def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     """Measures TBR over torque while the differential differentiates."""
-    torques, (of_torque, *_) = _torques(scene), axes(scene)
+    torques, (of_torque, *_) = SHARES * largest_torque(scene), axes(scene)
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
     says = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
@@ -37,7 +37,7 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
 
 def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     """Measures LE at breakaway over torque."""
-    torques, (of_torque, _, of_slip, _) = _torques(scene), axes(scene)
+    torques, (of_torque, _, of_slip, _) = SHARES * largest_torque(scene), axes(scene)
     found = _measured(scene, torques, (0.0, DIFFERENCE), farm)
     rows, over = [], []
     for (torque, speed, difference, temperature), figures in found.items():
@@ -57,22 +57,28 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     return _written(scene, out, rows, says, "breaking loose", 6)
 
 
-def _torques(scene):
-    command = scene.value("carrier.torque_command")
+def largest_torque(scene: Scene) -> float:
+    """Largest carrier torque of the bench [N·m], from the scene."""
+    command = float(scene.value("carrier.torque_command"))
     if command <= 0.0:
         raise DifferentialError(f"carrier.torque_command = {command:g} N.m: the bench needs its largest torque here, above 0")
-    return SHARES * command
+    return command
+
+
+def means(scene: Scene, runs: Sequence[Mapping[str, Number]], farm: Mapping[str, Any]) -> list[list[float]]:
+    """FIGURES of each run of the scene on the bench; `runs`: values of a point, and others that differ from the scene."""
+    with Farm(**farm) as workers:
+        rows = workers.evaluate(PointTask(benched(scene)), list(enumerate(runs)))
+    for row in rows:
+        if row.message:
+            raise DifferentialError(row.message, kind=row.kind)
+    return [[float(row.figures[name]) for name in FIGURES] for row in rows]
 
 
 def _measured(scene, torques, differences, farm):
     """Figures by point: {(torque, speed, difference, temperature): figures}."""
     points = list(product(torques.tolist(), (SPEED,), differences, TEMPERATURES))
-    with Farm(**farm) as workers:
-        rows = workers.evaluate(PointTask(benched(scene)), [(run, inputs(point)) for run, point in enumerate(points)])
-    for row in rows:
-        if row.message:
-            raise DifferentialError(row.message, kind=row.kind)
-    return {point: [float(row.figures[name]) for name in FIGURES] for point, row in zip(points, rows)}
+    return dict(zip(points, means(scene, [inputs(point) for point in points], farm)))
 
 
 def _range(rows, torque):
