@@ -6,7 +6,7 @@
 //! test = NAME " = " VALUES | NAME " != " VALUES | NAME " > " NUMBER | "co-simulation" | "initialisation"
 //! ```
 //!
-//! NAME is a fixed parameter. VALUES are literals, true, false or numbers, separated by `|`. The test `co-simulation`
+//! NAME is a parameter; a tunable one counts with its present value. VALUES are literals, true, false or numbers, separated by `|`. The test `co-simulation`
 //! is true if the FMU integrates. The test `initialisation` is true for values that are set before the first step.
 
 use std::fmt;
@@ -299,15 +299,15 @@ pub fn values_without_effect(parameters: &Parameters, inputs: &Inputs, situation
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declaration::Variability;
+    use crate::declaration::Causality;
 
     #[test]
-    fn every_condition_can_be_parsed_and_depends_only_on_fixed_parameters() {
+    fn every_condition_can_be_parsed_and_depends_only_on_parameters() {
         fn check(condition: &Condition) {
             match condition {
                 Condition::Any(parts) | Condition::All(parts) => parts.iter().for_each(check),
                 Condition::OneOf(index, _) | Condition::NoneOf(index, _) | Condition::Above(index, _) => {
-                    assert_eq!(table().rows[*index].variability, Variability::Fixed, "{}", table().rows[*index].name);
+                    assert_eq!(table().rows[*index].causality, Causality::Parameter, "{}", table().rows[*index].name);
                 }
                 Condition::OwnSteps | Condition::FromStart => {}
             }
@@ -346,7 +346,7 @@ mod tests {
                 && found[0].ends_with(". Here, only outputs repeat it"),
             "{found:?}"
         );
-        p.effects.limited_slip = true;
+        (p.effects.limited_slip, p.specs.limited_slip.preload) = (true, 50.0);
         assert_eq!(said(&p, Situation::START).len(), 1);
         p.specs.limited_slip.sliding.cold_factor = 1.2;
         assert!(said(&p, Situation::START).is_empty() && said(&p, Situation::RUNNING).is_empty());

@@ -189,7 +189,7 @@ mod tests {
     fn active_effects_list_their_constants_and_a_lock_does_so_when_commanded() {
         let mut p = Parameters::default();
         p.effects.half_shaft = true;
-        p.effects.limited_slip = true;
+        (p.effects.limited_slip, p.specs.limited_slip.preload) = (true, 50.0);
         let all = |p: &Parameters, inputs: &Inputs, set: &[&str]| unset(p, inputs, &set_of(set));
         let of = |found: &[Unset], group: &str| {
             found.iter().find(|one| one.group == group).map_or(String::new(), |one| one.values.join(", "))

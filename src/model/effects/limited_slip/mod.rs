@@ -100,14 +100,14 @@ impl Declare for LimitedSlipSpec {
             .tunable()
             .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
             row("limited_slip.pressed_by", "Mesh torque that presses each clutch pack")
-                .when(PRESSABLE)
+                .when(BY_TORQUE)
                 .choice(|p: &mut Self| &mut p.pressed_by),
             row(
                 "limited_slip.coast_ratio",
                 "Torque coefficient under negative mesh torque, relative to torque_coefficient; 0 = one-way",
             )
             .tunable()
-            .when(PRESSABLE)
+            .when(BY_TORQUE)
             .real(units::ONE, (0.0, 10.0), |p| &mut p.coast_ratio),
             row("limited_slip.viscous_torque", "Viscous torque of each clutch at the slip viscous_speed").real(
                 units::NEWTON_METRE,
@@ -120,35 +120,43 @@ impl Declare for LimitedSlipSpec {
             row("limited_slip.viscous_exponent", "Exponent of the slip in the viscous torque")
                 .when("limited_slip.viscous_torque > 0")
                 .real(units::ONE, (0.3, 2.0), |p| &mut p.viscous_exponent),
-            row("limited_slip.static_ratio", "Ratio of breakaway torque to sliding torque").real(
+            row("limited_slip.static_ratio", "Ratio of breakaway torque to sliding torque").when(PRESSED).real(
                 units::ONE,
                 (1.0, 10.0),
                 |p| &mut p.static_ratio,
             ),
-            row("limited_slip.stiffness", "Stiffness of a sticking clutch")
-                .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
+            row("limited_slip.stiffness", "Stiffness of a sticking clutch").when(HOLDS).real(
+                units::NM_PER_RAD,
+                (1.0, 1e9),
+                |p| &mut p.stiffness,
+            ),
             row("limited_slip.mean_radius", "Mean radius of the plates, for sliding speed")
                 .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
                 .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("limited_slip.friction_area", "Total friction area of a clutch pack").real(
+            row("limited_slip.friction_area", "Total friction area of a clutch pack").when(PRESSED).real(
                 (units::SQUARE_METRE, CM2),
                 (1e-8, 10.0),
                 |p| &mut p.friction_area,
             ),
-            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates").real(
+            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates").when(PRESSED).real(
                 units::ONE,
                 (0.01, 1.0),
                 |p| &mut p.plate_coefficient,
             ),
         ];
-        rows.extend(slip_rows!("limited_slip", sliding));
+        rows.extend(slip_rows!("limited_slip", sliding).map(|row| Row { when: row.when.or(Some(PRESSED)), ..row }));
         rows.extend(curve::rows());
         rows
     }
 }
 
-/// Condition under which mesh torque can press the packs.
-const PRESSABLE: &str = "scene.gear_contact = lumped|tooth";
+/// Condition under which ramps have an effect.
+const BY_TORQUE: &str = "limited_slip.torque_coefficient > 0";
+/// Condition under which dry plates slide.
+const PRESSED: &str = "limited_slip.preload > 0 or limited_slip.torque_coefficient > 0";
+/// Condition under which the packs hold.
+const HOLDS: &str = "limited_slip.preload > 0 or limited_slip.torque_coefficient > 0 or limited_slip.curve[1].slip = 0 \
+                     and limited_slip.curve[1].torque > 0";
 
 impl LimitedSlipSpec {
     /// True if preload or mesh torque presses the plates.
@@ -167,38 +175,6 @@ impl LimitedSlipSpec {
         let viscous = (torque > 0.0).then_some(Viscous { torque, speed, exponent });
         let curve = curve::curve(&self.curve).filter(|curve| curve.breakaway() == 0.0);
         (viscous.is_some() || curve.is_some()).then_some(SlipTorque { viscous, curve, heat_index })
-    }
-
-    /// Warning about values that act only on the torque of pressed plates, if nothing presses them.
-    fn unpressed(&self) -> Option<Problem> {
-        let start = Self::default();
-        let differing = [
-            ("limited_slip.static_ratio", self.static_ratio != start.static_ratio),
-            ("limited_slip.slip_slope", self.sliding.slip_slope != start.sliding.slip_slope),
-            ("limited_slip.cold_factor", self.sliding.cold_factor != start.sliding.cold_factor),
-            ("limited_slip.hot_factor", self.sliding.hot_factor != start.sliding.hot_factor),
-            ("limited_slip.pv_limit", self.sliding.pv_limit != start.sliding.pv_limit),
-        ];
-        let names: Vec<&'static str> =
-            differing.iter().filter(|(_, differs)| *differs).map(|(name, _)| *name).collect();
-        let first = names.first().filter(|_| !self.is_pressed())?;
-        Some(problem!(
-            first,
-            "nothing depends on {}, because preload and torque_coefficient are 0: viscous and measured torques do not \
-             change with them",
-            names.join(", ")
-        ))
-    }
-
-    /// Warning about settings of the ramps if no mesh torque acts on them.
-    fn idle_ramps(&self) -> Option<Problem> {
-        let name = match (self.coast_ratio != 1.0, self.pressed_by != PressedBy::OwnSide) {
-            (true, _) => "limited_slip.coast_ratio",
-            (_, true) => "limited_slip.pressed_by",
-            _ => return None,
-        };
-        (self.torque_coefficient == 0.0)
-            .then(|| Problem::new(name, "it changes nothing while limited_slip.torque_coefficient is 0"))
     }
 
     /// Warning about clutches that lock themselves.
@@ -246,7 +222,7 @@ impl Effect for LimitedSlipSpec {
                         points of curve, or switch the effect off";
             return vec![Problem::new("effects.limited_slip", said)];
         }
-        [self.unpressed(), self.idle_ramps(), self.self_locking()].into_iter().flatten().collect()
+        self.self_locking().into_iter().collect()
     }
 
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
