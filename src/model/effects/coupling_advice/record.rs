@@ -1,0 +1,157 @@
+//! Record of all ports: sums that decay, and the ratio and the advice that follow from them.
+
+use serde::{Deserialize, Serialize};
+
+use super::port::{Port, PortStep, energy_difference, lag};
+use crate::numeric::{Finite, finite, sqrt};
+
+/// Number of ports: carrier, left side, right side.
+pub const PORTS: usize = 3;
+/// Signs of the energy that the cut creates if the host exchanges more than the unit. Torque drives the carrier and
+/// loads the sides.
+const SIGNS: [f64; PORTS] = [-1.0, 1.0, 1.0];
+/// Number of steps that sums remember at least, and before which nothing is reported.
+const LEAST_STEPS: f64 = 20.0;
+/// Ratio above which a warning is reported.
+const HIGH: f64 = 0.1;
+/// Number of successive half-periods of growth after which a warning is reported.
+const GROWTHS: u32 = 8;
+
+/// Position and its rate of each port at a communication point: angle and speed, or twist and torque of the half-shaft.
+pub type Places = [[f64; 2]; PORTS];
+
+/// Record of the exchange between host and unit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Coupling {
+    /// Time [s], positions and their rates at the last communication point.
+    pub last: Option<(f64, Places)>,
+    /// Last four steps of each port, the oldest first, and their lengths [s].
+    steps: [[PortStep; 4]; PORTS],
+    sizes: [f64; 4],
+    /// Number of steps.
+    count: u64,
+    /// Sum of the weights of all steps in the sums.
+    weight: f64,
+    /// Decaying sum of the energy that passed through the ports [J].
+    passed: f64,
+    /// Decaying sum of the magnitudes of the energy errors of order 1, each divided by its step [J/s].
+    first_order: f64,
+    /// Decaying sum of the magnitudes of the energy errors of order 2, each divided by the square of its step [J/s²].
+    second_order: f64,
+    /// Sums of each port.
+    ports: [Port; PORTS],
+}
+
+finite!(Coupling {
+    last, steps, sizes, weight, passed, first_order, second_order, ports; count
+});
+
+/// Cause of a warning.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Growth {
+    /// Port with the largest error.
+    pub port: usize,
+    /// True if the energy error grows from period to period; otherwise, the ratio is high.
+    pub grows: bool,
+}
+
+impl Coupling {
+    /// Adds a step of `h` [s] of all ports, of a host with `delay`. Ports without an input have empty steps.
+    pub fn add(&mut self, h: f64, steps: &[PortStep; PORTS], delay: f64) {
+        if !(h > 0.0 && steps.iter().all(PortStep::is_moderate)) {
+            return;
+        }
+        for (steps, step) in self.steps.iter_mut().zip(steps) {
+            let [_, second, third, last] = *steps;
+            *steps = [second, third, last, *step];
+        }
+        let [_, second, third, last] = self.sizes;
+        self.sizes = [second, third, last, h];
+        self.count += 1;
+        let lag = lag(delay);
+        if self.count > lag as u64 {
+            self.evaluate(lag, delay);
+        }
+    }
+
+    /// Adds the step that is followed by `lag` steps to the sums.
+    fn evaluate(&mut self, lag: usize, delay: f64) {
+        let has_earlier = self.count > lag as u64 + 1;
+        // the evaluated step is the second of four; without an earlier step, the first repeats it
+        let windows = self.steps.map(|steps| {
+            let here = 3 - lag;
+            let earlier = if has_earlier { steps[here - 1] } else { steps[here] };
+            [earlier, steps[here], steps[here + 1], steps[3]]
+        });
+        let h = self.sizes[3 - lag];
+        let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
+        let keep = memory / (memory + h);
+        self.weight = keep * self.weight + 1.0;
+        let weights = [keep, 1.0 / self.weight];
+        let (mut passed, mut first, mut second) = (0.0, 0.0, 0.0);
+        for ((port, window), sign) in self.ports.iter_mut().zip(&windows).zip(SIGNS) {
+            let error = sign * energy_difference(window, delay, has_earlier);
+            passed += window[1].passed().abs();
+            if window[1].is_line && delay == 0.0 {
+                second += error.abs();
+            } else {
+                first += error.abs();
+            }
+            port.add(window, error, (h, delay), weights);
+        }
+        self.passed = keep * self.passed + passed;
+        self.first_order = keep * self.first_order + first / h;
+        self.second_order = keep * self.second_order + second / (h * h);
+    }
+
+    /// Energy that the cut at each port has created since the start [J].
+    pub fn errors(&self) -> [f64; PORTS] {
+        self.ports.map(|port| port.error)
+    }
+
+    /// Length of the last step [s].
+    pub fn step(&self) -> f64 {
+        self.sizes[3]
+    }
+
+    /// Magnitude of the energy errors divided by the energy that passed.
+    pub fn ratio(&self) -> f64 {
+        let errors: f64 = self.ports.iter().map(|port| port.errors).sum();
+        if self.passed > 0.0 { errors / self.passed } else { 0.0 }
+    }
+
+    /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It
+    /// is 0 if nothing moves, if no host reacts, or if there is no error.
+    pub fn advice(&self, wanted: f64) -> f64 {
+        let moves = self.ports.iter().any(|port| port.moves(self.weight));
+        let reacts = self.ports.iter().any(|port| port.reacts(self.weight));
+        let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed);
+        if !(moves && reacts && c > 0.0 && a + b > 0.0) {
+            return 0.0;
+        }
+        let advice = 2.0 * c / (a + sqrt(a * a + 4.0 * b * c));
+        if advice.is_finite() { advice } else { 0.0 }
+    }
+
+    /// Cause of a warning, if there is one: ports at which the host reacts cause a high ratio, or their energy errors
+    /// grow.
+    #[inline]
+    pub fn growth(&self) -> Option<Growth> {
+        let is_high = |errors: f64| errors > HIGH * self.passed;
+        let any_grows = self.ports.iter().any(|port| port.growths >= GROWTHS);
+        let all: f64 = self.ports.iter().map(|port| port.errors).sum();
+        if self.weight < 0.5 * LEAST_STEPS || self.count < LEAST_STEPS as u64 || !(any_grows || is_high(all)) {
+            return None;
+        }
+        let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(self.weight));
+        let of = |port: usize| self.ports[port].errors;
+        let port = reacting().max_by(|&a, &b| of(a).total_cmp(&of(b)))?;
+        let grows = reacting().any(|port| self.ports[port].growths >= GROWTHS);
+        (grows || is_high(reacting().map(of).sum())).then_some(Growth { port, grows })
+    }
+
+    /// True if a simulation can continue from these numbers.
+    pub fn is_valid(&self) -> bool {
+        Finite::is_finite(self) && self.weight >= 0.0
+    }
+}
