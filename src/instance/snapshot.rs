@@ -160,9 +160,11 @@ impl Snapshot {
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         // same layout as `Running`
         let simulation = self.simulation.as_ref();
-        let running =
-            (simulation.map(|s| ((s.state(), s.watched()), s.inputs())), simulation.and_then(Simulation::accepted));
-        let running = (running.0, running.1, simulation.and_then(Simulation::coupling));
+        let running = (
+            simulation.map(|s| ((s.state(), s.watched()), s.inputs())),
+            simulation.and_then(Simulation::accepted),
+            simulation.and_then(Simulation::coupling),
+        );
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());

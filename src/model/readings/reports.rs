@@ -104,7 +104,6 @@ impl Simulation {
         let coupling = self.coupling.as_ref()?;
         let growth = coupling.growth()?;
         let port = ["carrier", "left side", "right side"][growth.port];
-        let percent = six_digits(1e2 * coupling.ratio());
         let what = if growth.grows {
             "energy that the cut creates grows from period to period"
         } else {
@@ -118,8 +117,9 @@ impl Simulation {
         };
         Some(problem!(
             "coupling.energy_ratio",
-            "the {what} at the {port}: the ratio is {percent} % with steps of {} s at t = {:.6} s; {advised}; shorter steps, \
+            "the {what} at the {port}: coupling.energy_ratio is {} with steps of {} s at t = {:.6} s; {advised}; shorter steps, \
              input derivatives, or moving the cut inside help (docs/coupling.md); reported once",
+            six_digits(coupling.ratio()),
             six_digits(coupling.step()),
             self.state.time()
         ))

@@ -48,7 +48,7 @@ impl Simulation {
             let after = given(&self.inputs, self.model.ideal.plan.side_imposed);
             let h = time - begin;
             for (port, step) in steps.iter_mut().enumerate() {
-                *step = PortStep { given: before[port], mean: before[port], ..PortStep::default() };
+                *step = PortStep { given: before[port], mean: before[port], h: time - start.0, ..PortStep::default() };
                 if let Some([first, second]) = rates.map(|rates| rates.map(|rate| rate[port])) {
                     step.mean += h * (0.5 * first + h * second / 6.0);
                     step.is_line = first != 0.0 || second != 0.0;
@@ -57,29 +57,29 @@ impl Simulation {
                 if self.ramps_inputs() {
                     (step.given, step.is_line) = (after[port], false);
                 }
-                self.exchange(port, [start.1[port], end[port]], time - start.0, step);
+                self.exchange(port, [start.1[port], end[port]], step);
             }
         }
         let delay = self.model.parameters.specs.coupling_advice.host_delay;
         if let Some(coupling) = &mut self.coupling {
             coupling.last = last;
             if !options.is_part {
-                coupling.add(time - start.0, &steps, delay);
+                coupling.add(&steps, delay);
             }
         }
         Ok(())
     }
 
-    /// Sets the movement of `port` between two `places` that are `h` [s] apart. A carrier driven by speed has no port.
-    fn exchange(&self, port: usize, [start, end]: [[f64; 2]; 2], h: f64, step: &mut PortStep) {
+    /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
+    fn exchange(&self, port: usize, [start, end]: [[f64; 2]; 2], step: &mut PortStep) {
         let plan = &self.model.ideal.plan;
         let moved = end[0] - start[0];
         match port.checked_sub(1) {
-            None if plan.carrier_imposed => *step = PortStep::default(),
+            None if plan.carrier_imposed => *step = PortStep { h: step.h, ..PortStep::default() },
             Some(s) if plan.side_imposed[s] => {
                 // the position is the twist of the half-shaft, and the rate its torque
                 let shaft = &self.model.parameters.specs.half_shaft;
-                step.moved = 0.5 * h * shaft.stiffness[s] * (start[0] + end[0]) + shaft.damping[s] * moved;
+                step.moved = 0.5 * step.h * shaft.stiffness[s] * (start[0] + end[0]) + shaft.damping[s] * moved;
                 step.changed = end[1] - start[1];
             }
             _ => (step.moved, step.changed) = (moved, end[1] - start[1]),

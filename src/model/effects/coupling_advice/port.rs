@@ -31,16 +31,18 @@ pub struct PortStep {
     pub moved: f64,
     /// Change of the rate of x over the step [rad/s or N·m].
     pub changed: f64,
+    /// Length of the step [s].
+    pub h: f64,
     /// True if the input follows derivatives that the host has set.
     pub is_line: bool,
 }
 
-finite!(PortStep { given, mean, moved, changed; is_line });
+finite!(PortStep { given, mean, moved, changed, h; is_line });
 
 impl PortStep {
     /// True if the step belongs to a motion that has not diverged.
     pub fn is_moderate(&self) -> bool {
-        [self.given, self.mean, self.moved, self.changed].iter().all(|x| x.abs() < LARGEST)
+        self.h > 0.0 && [self.given, self.mean, self.moved, self.changed].iter().all(|x| x.abs() < LARGEST)
     }
 
     /// Energy that passed [J].
@@ -49,11 +51,13 @@ impl PortStep {
     }
 }
 
+/// Number of later steps that the result of a step needs.
+pub const LAG: usize = 2;
+
 /// Energy that a host with `delay` would exchange minus the energy of the unit, over the second of four `steps` [J].
-/// `steps` must contain as many later steps as [`lag`] requires. Without an earlier step, `has_earlier` is false.
+/// `has_earlier` is false if the first step is missing.
 ///
-/// For lines, both integrals use the mean of u times x. The mean of the host's curve is that of a parabola, because
-/// the error of a line is of the order of its curvature.
+/// For lines, the host's curve is a cubic, because the error of a line is of the order of its curvature.
 pub fn energy_difference(steps: &[PortStep; 4], delay: f64, has_earlier: bool) -> f64 {
     let [before, here, next, after] = steps;
     let ahead = delay + 0.5;
@@ -61,14 +65,13 @@ pub fn energy_difference(steps: &[PortStep; 4], delay: f64, has_earlier: bool) -
     let mut mean = if ahead <= 1.0 { ahead * first } else { first + (ahead - 1.0) * (after.given - next.given) };
     mean += here.given - here.mean;
     if here.is_line {
-        let curvature = if lag(delay) > 1 {
-            (after.given - next.given) - first
-        } else if has_earlier {
-            first - (here.given - before.given)
-        } else {
-            0.0
-        };
+        let second = after.given - next.given;
+        let is_centred = has_earlier && delay <= 0.5;
+        let curvature = if is_centred { 0.5 * (second - (here.given - before.given)) } else { second - first };
         mean -= curvature / 12.0;
+        // both values change at different rates while the rate of x changes
+        let change = 2.0 * (here.mean - here.given);
+        return mean * here.moved + (answer(steps, delay) - change) * here.changed * here.h / 12.0;
     }
     mean * here.moved
 }
@@ -81,11 +84,6 @@ fn answer(steps: &[PortStep; 4], delay: f64) -> f64 {
     } else {
         (1.0 - delay) * (next - here) + delay * (after - next)
     }
-}
-
-/// Number of later steps that the result of a step needs.
-pub fn lag(delay: f64) -> usize {
-    if delay > 0.0 { 2 } else { 1 }
 }
 
 /// Sums of one port.
@@ -114,12 +112,12 @@ pub struct Port {
 finite!(Port { error, errors, means, products, magnitude, moved, oscillation, half_period; growths });
 
 impl Port {
-    /// Adds the second of four `steps` with the energy `error` [J] and the length `h` [s]. `weights` are the factor on
+    /// Adds the second of four `steps` with the energy `error` [J]. `weights` are the factor on
     /// old terms and the share of the new one in all weights.
     #[inline]
-    pub fn add(&mut self, steps: &[PortStep; 4], error: f64, (h, delay): (f64, f64), weights: [f64; 2]) {
+    pub fn add(&mut self, steps: &[PortStep; 4], error: f64, delay: f64, weights: [f64; 2]) {
         let [keep, share] = weights;
-        let PortStep { given, moved, changed, .. } = steps[1];
+        let PortStep { given, moved, changed, h, .. } = steps[1];
         self.error += error;
         self.errors = keep * self.errors + error.abs();
         self.magnitude += share * (given.abs() - self.magnitude);
@@ -171,7 +169,7 @@ mod tests {
     use super::*;
 
     fn steps(given: [f64; 4], mean: f64, moved: f64, is_line: bool) -> [PortStep; 4] {
-        given.map(|given| PortStep { given, mean, moved, changed: 0.0, is_line })
+        given.map(|given| PortStep { given, mean, moved, changed: 0.0, h: 1.0, is_line })
     }
 
     #[test]

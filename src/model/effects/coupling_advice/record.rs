@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::port::{Port, PortStep, energy_difference, lag};
+use super::port::{LAG, Port, PortStep, energy_difference};
 use crate::numeric::{Finite, finite, sqrt};
 
 /// Number of ports: carrier, left side, right side.
@@ -25,9 +25,8 @@ pub type Places = [[f64; 2]; PORTS];
 pub struct Coupling {
     /// Time [s], positions and their rates at the last communication point.
     pub last: Option<(f64, Places)>,
-    /// Last four steps of each port, the oldest first, and their lengths [s].
+    /// Last four steps of each port, the oldest first.
     steps: [[PortStep; 4]; PORTS],
-    sizes: [f64; 4],
     /// Number of steps.
     count: u64,
     /// Sum of the weights of all steps in the sums.
@@ -43,7 +42,7 @@ pub struct Coupling {
 }
 
 finite!(Coupling {
-    last, steps, sizes, weight, passed, first_order, second_order, ports; count
+    last, steps, weight, passed, first_order, second_order, ports; count
 });
 
 /// Cause of a warning.
@@ -56,48 +55,39 @@ pub struct Growth {
 }
 
 impl Coupling {
-    /// Adds a step of `h` [s] of all ports, of a host with `delay`. Ports without an input have empty steps.
-    pub fn add(&mut self, h: f64, steps: &[PortStep; PORTS], delay: f64) {
-        if !(h > 0.0 && steps.iter().all(PortStep::is_moderate)) {
+    /// Adds a step of all ports, of a host with `delay`. Ports without an input do not move.
+    pub fn add(&mut self, steps: &[PortStep; PORTS], delay: f64) {
+        if !steps.iter().all(PortStep::is_moderate) {
             return;
         }
         for (steps, step) in self.steps.iter_mut().zip(steps) {
             let [_, second, third, last] = *steps;
             *steps = [second, third, last, *step];
         }
-        let [_, second, third, last] = self.sizes;
-        self.sizes = [second, third, last, h];
         self.count += 1;
-        let lag = lag(delay);
-        if self.count > lag as u64 {
-            self.evaluate(lag, delay);
+        if self.count > LAG as u64 {
+            self.evaluate(delay);
         }
     }
 
-    /// Adds the step that is followed by `lag` steps to the sums.
-    fn evaluate(&mut self, lag: usize, delay: f64) {
-        let has_earlier = self.count > lag as u64 + 1;
-        // the evaluated step is the second of four; without an earlier step, the first repeats it
-        let windows = self.steps.map(|steps| {
-            let here = 3 - lag;
-            let earlier = if has_earlier { steps[here - 1] } else { steps[here] };
-            [earlier, steps[here], steps[here + 1], steps[3]]
-        });
-        let h = self.sizes[3 - lag];
+    /// Adds the second of the last four steps to the sums.
+    fn evaluate(&mut self, delay: f64) {
+        let has_earlier = self.count > LAG as u64 + 1;
+        let h = self.steps[0][3 - LAG].h;
         let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
         let keep = memory / (memory + h);
         self.weight = keep * self.weight + 1.0;
         let weights = [keep, 1.0 / self.weight];
         let (mut passed, mut first, mut second) = (0.0, 0.0, 0.0);
-        for ((port, window), sign) in self.ports.iter_mut().zip(&windows).zip(SIGNS) {
-            let error = sign * energy_difference(window, delay, has_earlier);
-            passed += window[1].passed().abs();
-            if window[1].is_line && delay == 0.0 {
+        for ((port, steps), sign) in self.ports.iter_mut().zip(&self.steps).zip(SIGNS) {
+            let error = sign * energy_difference(steps, delay, has_earlier);
+            passed += steps[1].passed().abs();
+            if steps[1].is_line && delay == 0.0 {
                 second += error.abs();
             } else {
                 first += error.abs();
             }
-            port.add(window, error, (h, delay), weights);
+            port.add(steps, error, delay, weights);
         }
         self.passed = keep * self.passed + passed;
         self.first_order = keep * self.first_order + first / h;
@@ -111,7 +101,7 @@ impl Coupling {
 
     /// Length of the last step [s].
     pub fn step(&self) -> f64 {
-        self.sizes[3]
+        self.steps[0][3].h
     }
 
     /// Magnitude of the energy errors divided by the energy that passed.
