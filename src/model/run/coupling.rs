@@ -75,7 +75,7 @@ impl Simulation {
         let plan = &self.model.ideal.plan;
         let moved = end[0] - start[0];
         match port.checked_sub(1) {
-            None if plan.carrier_imposed => *step = PortStep { h: step.h, ..PortStep::default() },
+            None if plan.carrier_imposed => *step = PortStep::default(),
             Some(s) if plan.side_imposed[s] => {
                 // the position is the twist of the half-shaft, and the rate its torque
                 let shaft = &self.model.parameters.specs.half_shaft;
@@ -93,15 +93,16 @@ impl Simulation {
         let position = |i: usize| state.position(i, &model.periods);
         let carrier = position(CARRIER);
         let side = |s: usize| {
+            if !plan.shafts[s] {
+                return [carrier + position(s), state.v[s]];
+            }
             let end = layout.end(s);
             if plan.side_imposed[s] {
                 let (twist, shaft) = (position(end), &model.parameters.specs.half_shaft);
                 let rate = state.v[s] - state.v[end];
                 [twist, shaft.stiffness[s] * twist + shaft.damping[s] * rate]
-            } else if plan.shafts[s] {
-                [carrier + position(s) - position(end), state.v[end]]
             } else {
-                [carrier + position(s), state.v[s]]
+                [carrier + position(s) - position(end), state.v[end]]
             }
         };
         [[carrier, state.v[CARRIER]], side(0), side(1)]

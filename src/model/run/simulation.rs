@@ -181,7 +181,6 @@ impl Simulation {
     }
 
     /// Advances as [`Self::advance_by`] does, without a record of the exchange with the host.
-    #[inline]
     pub(super) fn advance_unrecorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();

@@ -8,7 +8,9 @@ use crate::numeric::finite;
 /// Magnitude up to which values count. Larger ones belong to a motion that has diverged.
 const LARGEST: f64 = 1e12;
 /// Fraction of the changes of u that the motion must explain if the host reacts.
-const EXPLAINED: f64 = 0.5;
+pub const EXPLAINED: f64 = 0.5;
+/// Fraction above which the host certainly reacts. If u is noise, the response of the unit to u explains one half.
+pub const CERTAINLY_EXPLAINED: f64 = 0.8;
 /// Weight of steps below which the regression shows nothing, because three coefficients need more data.
 const LEAST_WEIGHT: f64 = 10.0;
 /// Changes below this fraction of the value are rounding errors of the host.
@@ -31,7 +33,7 @@ pub struct PortStep {
     pub moved: f64,
     /// Change of the rate of x over the step [rad/s or N·m].
     pub changed: f64,
-    /// Length of the step [s].
+    /// Length of the step [s]; 0 if the host sets no value here.
     pub h: f64,
     /// True if the input follows derivatives that the host has set.
     pub is_line: bool,
@@ -42,7 +44,7 @@ finite!(PortStep { given, mean, moved, changed, h; is_line });
 impl PortStep {
     /// True if the step belongs to a motion that has not diverged.
     pub fn is_moderate(&self) -> bool {
-        self.h > 0.0 && [self.given, self.mean, self.moved, self.changed].iter().all(|x| x.abs() < LARGEST)
+        self.given.abs() + self.mean.abs() + self.moved.abs() + self.changed.abs() < LARGEST
     }
 
     /// Energy that passed [J].
@@ -58,7 +60,8 @@ pub const LAG: usize = 2;
 /// `has_earlier` is false if the first step is missing.
 ///
 /// For lines, the host's curve is a cubic, because the error of a line is of the order of its curvature.
-pub fn energy_difference(steps: &[PortStep; 4], delay: f64, has_earlier: bool) -> f64 {
+#[inline]
+pub fn energy_difference(steps: [&PortStep; 4], delay: f64, has_earlier: bool) -> f64 {
     let [before, here, next, after] = steps;
     let ahead = delay + 0.5;
     let first = next.given - here.given;
@@ -77,7 +80,8 @@ pub fn energy_difference(steps: &[PortStep; 4], delay: f64, has_earlier: bool) -
 }
 
 /// Change of u that belongs to the second of four `steps`, for a host with `delay`.
-fn answer(steps: &[PortStep; 4], delay: f64) -> f64 {
+#[inline]
+fn answer(steps: [&PortStep; 4], delay: f64) -> f64 {
     let [before, here, next, after] = steps.map(|step| step.given);
     if delay < 0.0 {
         (1.0 + delay) * (next - here) - delay * (here - before)
@@ -115,9 +119,9 @@ impl Port {
     /// Adds the second of four `steps` with the energy `error` [J]. `weights` are the factor on
     /// old terms and the share of the new one in all weights.
     #[inline]
-    pub fn add(&mut self, steps: &[PortStep; 4], error: f64, delay: f64, weights: [f64; 2]) {
+    pub fn add(&mut self, steps: [&PortStep; 4], error: f64, delay: f64, weights: [f64; 2]) {
         let [keep, share] = weights;
-        let PortStep { given, moved, changed, h, .. } = steps[1];
+        let PortStep { given, moved, changed, h, .. } = *steps[1];
         self.error += error;
         self.errors = keep * self.errors + error.abs();
         self.magnitude += share * (given.abs() - self.magnitude);
@@ -139,9 +143,9 @@ impl Port {
         }
     }
 
-    /// True if the host reacts: the motion explains at least half of the changes of u. `weight` is the sum of the
-    /// weights of all steps.
-    pub fn reacts(&self, weight: f64) -> bool {
+    /// True if the host reacts: the motion explains at least the `fraction` of the changes of u. `weight` is the sum of
+    /// the weights of all steps.
+    pub fn reacts(&self, weight: f64, fraction: f64) -> bool {
         let [uu, ux, uy, xx, xy, yy] = self.products;
         let rounding = ROUNDING * self.magnitude;
         if weight < LEAST_WEIGHT || uu <= weight * rounding * rounding {
@@ -154,7 +158,7 @@ impl Port {
             let alone = |product: f64, square: f64| if square > 0.0 { product * product / square } else { 0.0 };
             alone(ux, xx).max(alone(uy, yy))
         };
-        explained >= EXPLAINED * uu
+        explained >= fraction * uu
     }
 
     /// True if the port moved in the last step. `weight` is the sum of the weights of all steps.
@@ -168,14 +172,15 @@ impl Port {
 mod tests {
     use super::*;
 
-    fn steps(given: [f64; 4], mean: f64, moved: f64, is_line: bool) -> [PortStep; 4] {
-        given.map(|given| PortStep { given, mean, moved, changed: 0.0, h: 1.0, is_line })
+    fn difference(given: [f64; 4], mean: f64, (moved, is_line): (f64, bool), delay: f64) -> f64 {
+        let steps = given.map(|given| PortStep { given, mean, moved, changed: 0.0, h: 1.0, is_line });
+        energy_difference(steps.each_ref(), delay, true)
     }
 
     #[test]
     fn held_torques_give_the_means_of_the_ends_and_of_later_steps() {
         let (u, x) = ([3.0, 5.0, 9.0, 17.0], 0.25);
-        let difference = |delay: f64| energy_difference(&steps(u, u[1], x, false), delay, true);
+        let difference = |delay: f64| difference(u, u[1], (x, false), delay);
         // without delay, the mean of both ends; one step later, the mean of the next two values
         assert_eq!(difference(0.0), (0.5 * (5.0 + 9.0) - 5.0) * x);
         assert_eq!(difference(1.0), (0.5 * (9.0 + 17.0) - 5.0) * x);
@@ -189,7 +194,7 @@ mod tests {
         // u = t² and steps of 1: ∫ (u − line) dt = ∫ (t² − 4 − 3 (t − 2)) dt from 2 to 3
         let line_mean = 4.0 + 0.5 * 3.0;
         let exact = 19.0 / 3.0 - line_mean;
-        let found = energy_difference(&steps([1.0, 4.0, 9.0, 16.0], line_mean, 1.0, true), 0.0, true);
+        let found = difference([1.0, 4.0, 9.0, 16.0], line_mean, (1.0, true), 0.0);
         assert!((found - exact).abs() < 1e-14, "{found} {exact}");
     }
 }

@@ -2,16 +2,20 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::port::{LAG, Port, PortStep, energy_difference};
+use super::port::{CERTAINLY_EXPLAINED, EXPLAINED, LAG, Port, PortStep, energy_difference};
 use crate::numeric::{Finite, finite, sqrt};
 
 /// Number of ports: carrier, left side, right side.
 pub const PORTS: usize = 3;
+/// Index of the left side, which always has a port.
+const LEFT: usize = 1;
 /// Signs of the energy that the cut creates if the host exchanges more than the unit. Torque drives the carrier and
 /// loads the sides.
 const SIGNS: [f64; PORTS] = [-1.0, 1.0, 1.0];
-/// Number of steps that sums remember at least, and before which nothing is reported.
-const LEAST_STEPS: f64 = 20.0;
+/// Number of steps that sums remember at least.
+const LEAST_STEPS: f64 = 50.0;
+/// Weight of steps below which nothing is reported.
+const LEAST_WEIGHT: f64 = 30.0;
 /// Ratio above which a warning is reported.
 const HIGH: f64 = 0.1;
 /// Number of successive half-periods of growth after which a warning is reported.
@@ -25,7 +29,7 @@ pub type Places = [[f64; 2]; PORTS];
 pub struct Coupling {
     /// Time [s], positions and their rates at the last communication point.
     pub last: Option<(f64, Places)>,
-    /// Last four steps of each port, the oldest first.
+    /// Last four steps of each port; the step with number n has the index n modulo 4.
     steps: [[PortStep; 4]; PORTS],
     /// Number of steps.
     count: u64,
@@ -55,16 +59,18 @@ pub struct Growth {
 }
 
 impl Coupling {
-    /// Adds a step of all ports, of a host with `delay`. Ports without an input do not move.
+    /// Adds a step of all ports, of a host with `delay`. A carrier driven by speed has an empty step.
     pub fn add(&mut self, steps: &[PortStep; PORTS], delay: f64) {
-        if !steps.iter().all(PortStep::is_moderate) {
+        if !(steps[LEFT].h > 0.0 && steps.iter().all(PortStep::is_moderate)) {
             return;
         }
         for (steps, step) in self.steps.iter_mut().zip(steps) {
-            let [_, second, third, last] = *steps;
-            *steps = [second, third, last, *step];
+            if self.count == 0 {
+                *steps = [*step; 4];
+            }
+            steps[(self.count & 3) as usize] = *step;
         }
-        self.count += 1;
+        self.count = self.count.wrapping_add(1);
         if self.count > LAG as u64 {
             self.evaluate(delay);
         }
@@ -73,13 +79,19 @@ impl Coupling {
     /// Adds the second of the last four steps to the sums.
     fn evaluate(&mut self, delay: f64) {
         let has_earlier = self.count > LAG as u64 + 1;
-        let h = self.steps[0][3 - LAG].h;
+        // the oldest of the four steps is the one that the next step replaces
+        let places: [usize; 4] = std::array::from_fn(|k| (self.count as usize + k) & 3);
+        let h = self.steps[LEFT][places[3 - LAG]].h;
         let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
         let keep = memory / (memory + h);
         self.weight = keep * self.weight + 1.0;
         let weights = [keep, 1.0 / self.weight];
         let (mut passed, mut first, mut second) = (0.0, 0.0, 0.0);
         for ((port, steps), sign) in self.ports.iter_mut().zip(&self.steps).zip(SIGNS) {
+            let steps = places.map(|place| &steps[place]);
+            if steps[1].h == 0.0 {
+                continue;
+            }
             let error = sign * energy_difference(steps, delay, has_earlier);
             passed += steps[1].passed().abs();
             if steps[1].is_line && delay == 0.0 {
@@ -101,7 +113,7 @@ impl Coupling {
 
     /// Length of the last step [s].
     pub fn step(&self) -> f64 {
-        self.steps[0][3].h
+        self.steps[LEFT][(self.count.wrapping_sub(1) & 3) as usize].h
     }
 
     /// Magnitude of the energy errors divided by the energy that passed.
@@ -114,7 +126,7 @@ impl Coupling {
     /// is 0 if nothing moves, if no host reacts, or if there is no error.
     pub fn advice(&self, wanted: f64) -> f64 {
         let moves = self.ports.iter().any(|port| port.moves(self.weight));
-        let reacts = self.ports.iter().any(|port| port.reacts(self.weight));
+        let reacts = self.ports.iter().any(|port| port.reacts(self.weight, EXPLAINED));
         let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed);
         if !(moves && reacts && c > 0.0 && a + b > 0.0) {
             return 0.0;
@@ -130,10 +142,10 @@ impl Coupling {
         let is_high = |errors: f64| errors > HIGH * self.passed;
         let any_grows = self.ports.iter().any(|port| port.growths >= GROWTHS);
         let all: f64 = self.ports.iter().map(|port| port.errors).sum();
-        if self.weight < 0.5 * LEAST_STEPS || self.count < LEAST_STEPS as u64 || !(any_grows || is_high(all)) {
+        if self.weight < LEAST_WEIGHT || !(any_grows || is_high(all)) {
             return None;
         }
-        let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(self.weight));
+        let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(self.weight, CERTAINLY_EXPLAINED));
         let of = |port: usize| self.ports[port].errors;
         let port = reacting().max_by(|&a, &b| of(a).total_cmp(&of(b)))?;
         let grows = reacting().any(|port| self.ports[port].growths >= GROWTHS);

@@ -33,7 +33,7 @@ macro_rules! energy {
 impl Declare for CouplingAdviceSpec {
     const WHEN: Option<&'static str> = Some("co-simulation");
     const DESCRIPTION: &'static str =
-        "Advice about the communication step, and the energy error of the cut; changes no force; co-simulation only";
+        "Advice about the communication step, from the energy error of the cut; co-simulation only";
     const READINGS: &'static [Reading] = &[
         energy!("carrier", "at a carrier driven by torque"),
         energy!("left", "at the left wheel"),
