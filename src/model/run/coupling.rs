@@ -31,58 +31,67 @@ impl Simulation {
     #[cold]
     #[inline(never)]
     pub(super) fn advance_recorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
-        let before = given(&self.inputs, self.model.ideal.plan.side_imposed);
-        let rates = self.state.input_derivatives.as_ref().map(|input_derivatives| {
-            input_derivatives.rates.each_ref().map(|rates| given(rates, self.model.ideal.plan.side_imposed))
-        });
-        let begin = self.time();
-        let start = match self.coupling.as_ref().and_then(|coupling| coupling.last) {
-            Some(last) => last,
-            None => (begin, self.places()),
-        };
-        self.advance_unrecorded(until, options)?;
-        let (time, end) = (self.time(), self.places());
-        let last = Some(if options.is_part { start } else { (time, end) });
-        let mut steps = [PortStep::default(); PORTS];
-        if !options.is_part {
-            let after = given(&self.inputs, self.model.ideal.plan.side_imposed);
-            let h = time - begin;
-            for (port, step) in steps.iter_mut().enumerate() {
-                *step = PortStep { given: before[port], mean: before[port], h: time - start.0, ..PortStep::default() };
-                if let Some([first, second]) = rates.map(|rates| rates.map(|rate| rate[port])) {
-                    step.mean += h * (0.5 * first + h * second / 6.0);
-                    step.is_line = first != 0.0 || second != 0.0;
-                }
-                // a ramp reaches the host's value at the end of the step
-                if self.ramps_inputs() {
-                    (step.given, step.is_line) = (after[port], false);
-                }
-                self.exchange(port, [start.1[port], end[port]], step);
-            }
+        let side_imposed = self.model.ideal.plan.side_imposed;
+        let before = given(&self.inputs, side_imposed);
+        let derivatives = self.state.input_derivatives.as_ref();
+        let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
+        if let Some(coupling) = &self.coupling
+            && coupling.last.is_none()
+        {
+            let last = Some((self.time(), self.places()));
+            self.coupling.iter_mut().for_each(|coupling| coupling.last = last);
         }
-        let delay = self.model.parameters.specs.coupling_advice.host_delay;
-        if let Some(coupling) = &mut self.coupling {
-            coupling.last = last;
-            if !options.is_part {
-                coupling.add(&steps, delay);
-            }
+        let begin = self.time();
+        self.advance_unrecorded(until, options)?;
+        // a part of a communication step belongs to the record of the whole step
+        if !options.is_part
+            && let Some(mut coupling) = self.coupling.take()
+        {
+            self.record(&mut coupling, before, (begin, rates));
+            self.coupling = Some(coupling);
         }
         Ok(())
     }
 
+    /// Adds the step that ends now to `coupling`. The host's values were `before` at `begin` [s], with the first and
+    /// second `rates` of the inputs.
+    #[inline]
+    fn record(&self, coupling: &mut Coupling, before: [f64; PORTS], (begin, rates): (f64, Option<[[f64; PORTS]; 2]>)) {
+        let (time, end) = (self.time(), self.places());
+        let Some((last, start)) = coupling.last.replace((time, end)) else { return };
+        let mut steps = before.map(|given| PortStep { given, mean: given, h: time - last, ..PortStep::default() });
+        if let Some([first, second]) = rates {
+            let h = time - begin;
+            for (port, step) in steps.iter_mut().enumerate() {
+                step.mean += h * (0.5 * first[port] + h * second[port] / 6.0);
+                step.is_line = first[port] != 0.0 || second[port] != 0.0;
+            }
+        }
+        // a ramp reaches the host's value at the end of the step
+        if self.ramps_inputs() {
+            let after = given(&self.inputs, self.model.ideal.plan.side_imposed);
+            steps.iter_mut().zip(after).for_each(|(step, given)| (step.given, step.is_line) = (given, false));
+        }
+        for (port, step) in steps.iter_mut().enumerate() {
+            self.exchange(port, [start[port], end[port]], step);
+        }
+        coupling.add(&steps, self.model.parameters.specs.coupling_advice.host_delay);
+    }
+
     /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
+    #[inline]
     fn exchange(&self, port: usize, [start, end]: [[f64; 2]; 2], step: &mut PortStep) {
         let plan = &self.model.ideal.plan;
         let moved = end[0] - start[0];
+        (step.moved, step.changed) = (moved, end[1] - start[1]);
         match port.checked_sub(1) {
             None if plan.carrier_imposed => *step = PortStep::default(),
+            // the position is the twist of the half-shaft, and the rate its torque
             Some(s) if plan.side_imposed[s] => {
-                // the position is the twist of the half-shaft, and the rate its torque
                 let shaft = &self.model.parameters.specs.half_shaft;
                 step.moved = 0.5 * step.h * shaft.stiffness[s] * (start[0] + end[0]) + shaft.damping[s] * moved;
-                step.changed = end[1] - start[1];
             }
-            _ => (step.moved, step.changed) = (moved, end[1] - start[1]),
+            _ => {}
         }
     }
 

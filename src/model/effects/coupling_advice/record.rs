@@ -64,12 +64,11 @@ impl Coupling {
         if !(steps[LEFT].h > 0.0 && steps.iter().all(PortStep::is_moderate)) {
             return;
         }
-        for (steps, step) in self.steps.iter_mut().zip(steps) {
-            if self.count == 0 {
-                *steps = [*step; 4];
-            }
-            steps[(self.count & 3) as usize] = *step;
+        if self.count == 0 {
+            self.steps = steps.map(|step| [step; 4]);
         }
+        let place = (self.count & 3) as usize;
+        self.steps.iter_mut().zip(steps).for_each(|(steps, step)| steps[place] = *step);
         self.count = self.count.wrapping_add(1);
         if self.count > LAG as u64 {
             self.evaluate(delay);
@@ -102,8 +101,12 @@ impl Coupling {
             port.add(steps, error, delay, weights);
         }
         self.passed = keep * self.passed + passed;
-        self.first_order = keep * self.first_order + first / h;
-        self.second_order = keep * self.second_order + second / (h * h);
+        self.first_order *= keep;
+        self.second_order *= keep;
+        if first + second > 0.0 {
+            self.first_order += first / h;
+            self.second_order += second / (h * h);
+        }
     }
 
     /// Energy that the cut at each port has created since the start [J].
