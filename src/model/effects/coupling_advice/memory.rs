@@ -33,10 +33,15 @@ impl Oscillation {
     #[inline]
     pub fn add(&mut self, value: f64, h: f64, [keep, share]: [f64; 2]) -> bool {
         let deviation = value - self.mean;
+        // a constant value
+        if deviation == 0.0 && self.deviations == 0.0 {
+            self.since += h;
+            return false;
+        }
         self.mean += share * deviation;
         self.deviations = keep * self.deviations + (1.0 - share) * deviation * deviation;
         self.since += h;
-        let is_far = deviation * deviation > SIDE * share * self.deviations;
+        let is_far = self.deviations > 0.0 && deviation * deviation > SIDE * share * self.deviations;
         if !is_far || deviation * self.side > 0.0 {
             return false;
         }

@@ -130,8 +130,16 @@ impl Port {
         let [u, x, y]: [f64; 3] = std::array::from_fn(|i| values[i] - self.means[i]);
         self.means = [self.means[0] + share * u, self.means[1] + share * x, self.means[2] + share * y];
         let rest = 1.0 - share;
-        for (sum, product) in self.products.iter_mut().zip([u * u, u * x, u * y, x * x, x * y, y * y]) {
-            *sum = keep * *sum + rest * product;
+        let [uu, ux, uy, xx, xy, yy] = &mut self.products;
+        let add = |sum: &mut f64, product: f64| *sum = keep * *sum + rest * product;
+        add(xx, x * x);
+        add(xy, x * y);
+        add(yy, y * y);
+        // sums of a constant u stay zero
+        if u != 0.0 || *uu != 0.0 {
+            add(uu, u * u);
+            add(ux, u * x);
+            add(uy, u * y);
         }
         self.half_period[0] += error.abs();
         self.half_period[1] += error;

@@ -160,3 +160,44 @@ impl Coupling {
         Finite::is_finite(self) && self.weight >= 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Record of a spring at the left side, of torque `sign` · 4 φ, which turns to and fro in steps of 1 ms.
+    fn spring(sign: f64, is_line: bool) -> Coupling {
+        let (mut coupling, mut angle) = (Coupling::default(), 0.0);
+        for step in 0..200 {
+            let moved = sign * (0.3 * f64::from(step)).sin();
+            let left =
+                PortStep { given: 4.0 * angle, mean: 4.0 * angle, moved, changed: 0.5 * moved, h: 1e-3, is_line };
+            let right = PortStep { h: 1e-3, ..PortStep::default() };
+            coupling.add(&[PortStep::default(), left, right], 0.0);
+            angle += moved;
+        }
+        coupling
+    }
+
+    #[test]
+    fn the_advice_scales_the_step_by_the_order_of_the_exchange() {
+        let wanted = 1e-3;
+        let held = spring(1.0, false);
+        assert!((held.advice(wanted) - 1e-3 * wanted / held.ratio()).abs() < 1e-15);
+        let lines = spring(1.0, true);
+        assert!((lines.advice(wanted) - 1e-3 * sqrt(wanted / lines.ratio())).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_mirror_image_has_the_same_bits() {
+        let [image, mirrored] = [1.0, -1.0].map(|sign| spring(sign, false));
+        assert_eq!(image.errors(), mirrored.errors());
+        assert_eq!([image.ratio(), image.advice(0.01)], [mirrored.ratio(), mirrored.advice(0.01)]);
+    }
+
+    #[test]
+    fn values_that_are_not_finite_make_a_record_invalid() {
+        assert!(spring(1.0, false).is_valid());
+        assert!(!Coupling { passed: f64::NAN, ..spring(1.0, false) }.is_valid());
+    }
+}
