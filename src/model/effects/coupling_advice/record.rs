@@ -33,6 +33,8 @@ pub struct Coupling {
     steps: [[PortStep; 4]; PORTS],
     /// Number of steps.
     count: u64,
+    /// True if any value of the host has changed. Until then, there is no error, and no sum is needed.
+    has_changed: bool,
     /// Sum of the weights of all steps in the sums.
     weight: f64,
     /// Decaying sum of the energy that passed through the ports [J].
@@ -46,7 +48,7 @@ pub struct Coupling {
 }
 
 finite!(Coupling {
-    last, steps, weight, passed, first_order, second_order, ports; count
+    last, steps, weight, passed, first_order, second_order, ports; count, has_changed
 });
 
 /// Cause of a warning.
@@ -67,10 +69,12 @@ impl Coupling {
         if self.count == 0 {
             self.steps = steps.map(|step| [step; 4]);
         }
-        let place = (self.count & 3) as usize;
+        let (before, place) = ((self.count.wrapping_sub(1) & 3) as usize, (self.count & 3) as usize);
+        self.has_changed |=
+            self.steps.iter().zip(steps).any(|(steps, step)| step.given != steps[before].given || step.is_line);
         self.steps.iter_mut().zip(steps).for_each(|(steps, step)| steps[place] = *step);
         self.count = self.count.wrapping_add(1);
-        if self.count > LAG as u64 {
+        if self.has_changed && self.count > LAG as u64 {
             self.evaluate(delay);
         }
     }
