@@ -311,6 +311,11 @@ struct Case {
 /// only the trigger breaks it. Cases for other rows have `None`.
 type Fault = Option<bool>;
 
+/// True if some requirement switches on advice to the host, which needs more than a few steps.
+fn needs_history(requirements: &[Requirement]) -> bool {
+    requirements.iter().any(|requirement| requirement.row.name == "effects.coupling_advice")
+}
+
 /// Cases by attempt, level, fault and requirements. They are cached, because many rows need the same cases.
 #[derive(Default)]
 struct Cases(HashMap<String, Option<Case>>);
@@ -343,7 +348,7 @@ impl Cases {
         if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
             (fault.at_onset, fault.onset, fault.tooth) = (breaks, 1e-6, 0);
-        } else {
+        } else if !needs_history(requirements) {
             run.steps.truncate(6);
         }
         on_level(&mut run, level);
