@@ -3,6 +3,8 @@
 //! Positions do not jump at communication points, so the end of a step is also the start of the next one. Between
 //! them, the input is constant or follows its derivatives, so its mean is exact.
 
+use std::sync::Arc;
+
 use super::{Simulation, StepFailure};
 use crate::model::dynamics::event::AdvanceOptions;
 use crate::model::effect_kinds::{BUILT, Changes};
@@ -15,8 +17,8 @@ use crate::model::setup::{Parameters, STEP_READINGS};
 type Places = [[f64; 2]; PORTS];
 
 /// Record of a new simulation with `parameters`, if its scene has the effect.
-pub fn new_record(parameters: &Parameters) -> Option<Box<Coupling>> {
-    (BUILT && parameters.effects.coupling_advice).then(Box::default)
+pub fn new_record(parameters: &Parameters) -> Option<Arc<Coupling>> {
+    (BUILT && parameters.effects.coupling_advice).then(Arc::default)
 }
 
 /// Value of `inputs` at each port: torques, or the speeds of sides driven by speed.
@@ -39,7 +41,7 @@ impl Simulation {
             && coupling.last.is_none()
         {
             let last = Some((self.time(), self.places()));
-            self.coupling.iter_mut().for_each(|coupling| coupling.last = last);
+            self.coupling.iter_mut().for_each(|coupling| Arc::make_mut(coupling).last = last);
         }
         let begin = self.time();
         self.advance_unrecorded(until, options)?;
@@ -47,7 +49,7 @@ impl Simulation {
         if !options.is_part
             && let Some(mut coupling) = self.coupling.take()
         {
-            self.record(&mut coupling, before, (begin, rates));
+            self.record(Arc::make_mut(&mut coupling), before, (begin, rates));
             self.coupling = Some(coupling);
         }
         Ok(())
@@ -134,7 +136,7 @@ impl Simulation {
     /// Returns the simulation with `coupling` as the record of its exchange with the host, if its scene has one.
     pub fn with_coupling(mut self, coupling: Option<Box<Coupling>>) -> Self {
         if self.coupling.is_some() && coupling.is_some() {
-            self.coupling = coupling;
+            self.coupling = coupling.map(|coupling| Arc::new(*coupling));
         }
         self
     }

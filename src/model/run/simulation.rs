@@ -34,8 +34,9 @@ pub struct Simulation {
     pub(in crate::model) forces: Option<Forces>,
     /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
-    /// Record of the exchange with the host, in scenes with advice about the communication step.
-    pub(in crate::model) coupling: Option<Box<Coupling>>,
+    /// Record of the exchange with the host, in scenes with advice about the communication step. Copies of the
+    /// simulation share it until one of them steps.
+    pub(in crate::model) coupling: Option<Arc<Coupling>>,
 }
 
 /// Effect of the inputs on the integration at the start of a step.
