@@ -15,8 +15,10 @@ SPEED = 10.0
 STEPS = 3000
 # first disturbance, and the size at which a run counts as unstable, as fractions of the torque of a wheel
 PUSH, LARGE = 2e-3, 0.3
-# disturbances below this fraction of the first one have died away
-GONE = 1e-5
+# disturbances below this fraction of the first one have died away; a tooth pair that comes into contact adds smaller ones
+GONE = 1e-2
+# ratio of successive steps of the search
+FINER = 1.02
 
 
 @dataclass
@@ -135,16 +137,23 @@ def grows(instance, scene, hosts, master, lines, size):
         earlier, later = run(instance, scene, hosts, master, lines, size)
     except DifferentialError:
         return True
-    return later == inf or later > max(earlier, GONE * PUSH * scene["left.load_torque"])
+    push = PUSH * scene["left.load_torque"]
+    # loaded teeth may limit the growth by leaving each other
+    return later > 5.0 * push or later > max(earlier, GONE * push)
 
 
-def bisected(instance, scene, hosts, master, lines, guess, within=1.004):
-    """Longest stable step, by bisection between half and twice `guess`."""
-    low, high = 0.5 * guess, 2.0 * guess
-    while high / low > within:
-        middle = sqrt(low * high)
-        low, high = (low, middle) if grows(instance, scene, hosts, master, lines, middle) else (middle, high)
-    return sqrt(low * high)
+def found(grows_at, guess):
+    """Shortest step at which a disturbance grows, from half to twice `guess`: a search upward, and bisection. Infinite if none grows."""
+    good = 0.5 * guess
+    while not grows_at(good * FINER):
+        good *= FINER
+        if good > 2.0 * guess:
+            return inf
+    bad = good * FINER
+    while bad / good > 1.002:
+        middle = sqrt(good * bad)
+        good, bad = (good, middle) if grows_at(middle) else (middle, bad)
+    return sqrt(good * bad)
 
 
 def drawn(seed):

@@ -19,7 +19,7 @@ from .masters import GAUSS_SEIDEL, HELD, INPUTS, JACOBI, LINES, MASTERS, ROLLBAC
 from .unit import at_ports, linearised
 
 __all__ = ["GAUSS_SEIDEL", "HELD", "JACOBI", "LINES", "ROLLBACK", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode", "coupling",
-           "growth", "linearised", "longest"]
+           "growth", "linearised", "longest", "stability"]
 
 # step at which the port's answer is given if no step is too long [s]
 USUAL = 1e-3
@@ -36,17 +36,12 @@ class Apparent:
 
 @dataclass(frozen=True)
 class Coupling:
-    """Stability of a coupling. `unit`: the linearised differential; `exchange`: the coupling under the requested master."""
+    """Stability of a coupling. `unit`: the linearised differential; `exchange`: the coupling under the requested master; `limit`: the
+    longest step [s] up to which all steps are stable, 0 if none is, infinite if all are."""
 
-    scene: Scene
     unit: Linear
     exchange: Exchange
-    inputs: str
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "limit", longest(self.growth))
-
-    limit: float = 0.0
+    limit: float
 
     def growth(self, step: float) -> float:
         """Factor by which a disturbance grows in each step of `step` [s]; above 1, the coupling is unstable."""
@@ -78,14 +73,13 @@ class Coupling:
         found = {}
         for master in MASTERS:
             for inputs in INPUTS:
-                exchange = Exchange(self.unit, self.exchange.hosts, master, inputs, self.exchange.first)
-                found[master, inputs] = longest(lambda step, exchange=exchange: growth(exchange, step))
+                found[master, inputs] = stability(self.unit, self.exchange.hosts, master, inputs, self.exchange.first).limit
         return found
 
 
 def coupling(scene: Scene | FileName, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, *, first: str = UNIT,
              at: TimeValue = 0.0) -> Coupling:
-    """Longest stable communication step of a scene whose ports `hosts` drive.
+    """Stability of a scene whose ports `hosts` drive, over its communication step.
 
     `master`: `jacobi`, `gauss-seidel` or `rollback`; `inputs`: `held` or on `lines`; `first`: `unit` or `host`, whichever steps first
     under Gauss-Seidel. The operating point is the scene at the time `at` (s, or text such as "10 ms"), by default its start. Other
@@ -95,9 +89,16 @@ def coupling(scene: Scene | FileName, hosts: Sequence[Host], master: str = JACOB
     twice = next((port for port in ports if ports.count(port) > 1), None)
     if twice or not hosts:
         raise DifferentialError(f"{twice}: it has two hosts; give each port one" if twice else "no port has a host; give at least one")
-    unit, loaded = at_ports(scene, hosts, duration("at", at))
+    time = duration("at", at)
+    unit, loaded = at_ports(scene, hosts, time)
     warn(scene.warnings)
     if not loaded:
-        warn([f"the teeth are not loaded at {at} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name another "
+        warn([f"the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name another "
               "time"])
-    return Coupling(scene, unit, Exchange(unit, hosts, master, inputs, first), inputs)
+    return stability(unit, hosts, master, inputs, first)
+
+
+def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, first: str = UNIT) -> Coupling:
+    """Stability of a linear unit with hosts; see `coupling`."""
+    exchange = Exchange(unit, hosts, master, inputs, first)
+    return Coupling(unit, exchange, longest(lambda step: growth(exchange, step)))

@@ -48,7 +48,8 @@ class Exchange:
         for name, given, known in (("master", master, MASTERS), ("inputs", inputs, INPUTS), ("first", first, FIRST)):
             if given not in known:
                 raise DifferentialError(f"{name} = {given!r}: it is one of {', '.join(known)}")
-        self.unit, self.hosts, self.master, self.lines, self.first = unit, hosts, master, inputs == LINES, first
+        self.unit, self.hosts, self.master, self.inputs, self.first = unit, hosts, master, inputs, first
+        self.lines = inputs == LINES
         # rows of y that each host reads
         ends = np.cumsum([len(host.outputs) for host in hosts])
         self.rows = [slice(end - len(host.outputs), end) for host, end in zip(hosts, ends)]
