@@ -16,7 +16,7 @@ STEPS = 3000
 # first disturbance, and the size at which a run counts as unstable, as fractions of the torque of a wheel
 PUSH, LARGE = 2e-3, 0.3
 # disturbances below this fraction of the first one have died away; a tooth pair that comes into contact adds smaller ones
-GONE = 1e-2
+GONE = 0.05
 # ratio of successive steps of the search
 FINER = 1.02
 

@@ -15,10 +15,10 @@ from ..warned import warn
 from .host import TORQUE, Host
 from .limit import Mode, growth, longest, mode
 from .linear import Linear
-from .masters import GAUSS_SEIDEL, HELD, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
+from .masters import GAUSS_SEIDEL, HELD, HOST, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
 from .unit import at_ports, linearised
 
-__all__ = ["GAUSS_SEIDEL", "HELD", "JACOBI", "LINES", "ROLLBACK", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode", "coupling",
+__all__ = ["GAUSS_SEIDEL", "HELD", "HOST", "JACOBI", "LINES", "ROLLBACK", "UNIT", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode", "coupling",
            "growth", "linearised", "longest", "stability"]
 
 # step at which the port's answer is given if no step is too long [s]
@@ -63,8 +63,8 @@ class Coupling:
         answers = self.unit.transfer(rate)
         for i, (host, rows) in enumerate(zip(self.exchange.hosts, self.exchange.rows)):
             answer = answers[rows, i][-1]
-            # the host's torque resists the motion
-            stiffness = answer * rate if host.reads == TORQUE else -rate / answer
+            # both the host's torque and that of a port driven by speed resist the motion
+            stiffness = -answer * rate if host.reads == TORQUE else -rate / answer
             found[host.port] = Apparent(float(stiffness / rate**2), float(stiffness))
         return found
 

@@ -10,8 +10,8 @@ from .masters import ROLLBACK, Exchange
 
 # range of the search [s], and its points per decade
 SHORTEST, LONGEST, PER_DECADE = 1e-7, 1.0, 40
-# a radius above this grows; rounding is far below
-GROWS = 1.0 + 1e-9
+# a radius above this grows; rounding of motions other than rigid rotation is below
+GROWS = 1.0 + 1e-11
 # radius from which a maximum between points of the search is looked at more closely, and number of points for this
 NEAR, CLOSER = 0.97, 16
 # bisections: a step to 2e-10 of itself
