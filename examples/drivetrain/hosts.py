@@ -1,4 +1,4 @@
-"""Runs the SSP archive in hosts written by others, which step all parts at the same time with held inputs."""
+"""Runs the SSP archives in hosts written by others, which step all parts at the same time with held inputs."""
 
 import zipfile
 
@@ -6,6 +6,8 @@ import numpy as np
 from fmpy import read_model_description
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import ParameterSet, read_ssd
+
+from parameters import PARTS
 
 NANO = 1_000_000_000
 
@@ -47,10 +49,10 @@ def libcosim(ssp, signals, size, times):
 
 def reference(ssp, part, output):
     """Value reference of a part's output."""
-    component = next(each for each in read_ssd(ssp).system.elements if each.name == part)
-    with zipfile.ZipFile(ssp) as archive, archive.open(component.source) as fmu:
+    with zipfile.ZipFile(ssp) as archive, archive.open(f"resources/{PARTS[part]}.fmu") as fmu:
         variables = read_model_description(fmu).modelVariables
     return next(variable.valueReference for variable in variables if variable.name == output)
 
 
-HOSTS = {"FMPy": fmpy, "libcosim": libcosim}
+# hosts by label, each with the version of its archive. FMPy 0.3.32 refuses SSP 2.0
+HOSTS = {"FMPy": (fmpy, "1.0"), "libcosim": (libcosim, "1.0"), "libcosim, SSP 2.0": (libcosim, "2.0")}

@@ -15,6 +15,7 @@ from hosts import HOSTS
 from parameters import END, STEP
 from reference import Teeth, reference
 from slaves import System
+from system import archive_file
 
 # distance of the points at which errors are evaluated [s]: a multiple of all communication steps
 GRID = 0.01
@@ -56,9 +57,9 @@ def hosts(folder, fmus, quick):
             signals = system.signals
             own = masters.run(system, masters.Jacobi(), STEP, round(end / STEP), round(GRID / STEP))[1:]
         rows = {}
-        for name, run in HOSTS.items():
+        for name, (run, version) in HOSTS.items():
             progress(0.02, f"{contact}: {name}")
-            rows[name] = run(folder / f"drivetrain_{contact}.ssp", signals, STEP, times)
+            rows[name] = run(archive_file(folder, contact, version), signals, STEP, times)
         rows["this example's Jacobi"] = own
         first = rows["FMPy"]
         found[contact] = {name: max(difference(signals, values, first).values()) for name, values in rows.items()}

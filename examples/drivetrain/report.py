@@ -19,7 +19,8 @@ def markdown(found):
 def hosts(found):
     names = list(found["ideal"])
     rows = [[name, *(f"{found[contact][name]:.1e}" if name != "FMPy" else "0" for contact in found)] for name in names]
-    return (f"Same archive, steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, over its largest value.\n\n"
+    return (f"Same archive (SSP 1.0 unless stated), steps of {STEP * 1e3:g} ms: largest difference from FMPy in any quantity, over its\n"
+            "largest value.\n\n"
             + table([["host", *(f"`{contact}`" for contact in found)], *rows]))
 
 

@@ -2,8 +2,9 @@
 
     python run.py FMU LIBRARY FOLDER [--quick]
 
-FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes drivetrain.ssp, errors.csv and pictures
-to FOLDER and prints the tables. Fails if hosts disagree, or if errors, orders or limits contradict theory.
+FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes SSP archives, errors.csv and pictures
+to FOLDER and prints the tables. Fails if an archive does not conform to its version of SSP, if archives or hosts disagree, or if
+errors, orders or limits contradict theory.
 `cargo run -p lab --release -- drivetrain` creates the environment and runs this script.
 """
 
@@ -18,9 +19,11 @@ import checks  # noqa: E402
 import figures  # noqa: E402
 import measure  # noqa: E402
 import report  # noqa: E402
+import validation  # noqa: E402
+from fmus import make_parts  # noqa: E402
 from library import Library  # noqa: E402
 from measure import progress  # noqa: E402
-from system import make_parts, write_ssp  # noqa: E402
+from system import VERSIONS, archive_file, write_ssp  # noqa: E402
 
 
 def main():
@@ -40,8 +43,11 @@ def everything(fmu, library_path, folder, quick):
     library, contacts = Library(library_path), ("ideal",) if quick else ("ideal", "tooth")
     progress(0.0, "making the parts")
     fmus = make_parts(fmu, folder / "parts")
+    wrong = []
     for contact in ("ideal", "tooth"):
-        write_ssp(folder / f"drivetrain_{contact}.ssp", fmus, contact)
+        for version in VERSIONS:
+            write_ssp(archive_file(folder, contact, version), fmus, contact, version)
+        wrong += validation.wrong(folder, contact)
     hosts = measure.hosts(folder, fmus, quick)
     progress(0.1, "the whole as one set of equations")
     references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}
@@ -54,7 +60,7 @@ def everything(fmu, library_path, folder, quick):
     figures.launch(folder / "drivetrain_launch.png", references[contact].dense, measure.coupled(fmus, contact), contact)
     figures.errors(folder / "drivetrain_errors.png", errors, limits)
     figures.signals(folder / "drivetrain_signals.png")
-    return report.markdown(found), checks.wrong(found)
+    return report.markdown(found), wrong + checks.wrong(found)
 
 
 if __name__ == "__main__":

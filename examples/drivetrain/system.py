@@ -1,41 +1,26 @@
-"""Builds the other parts with pythonfmu and packs all parts into one archive by the standard SSP 1.0."""
+"""Packs all parts into one archive by the standard SSP, 1.0 or 2.0. Both versions have the same elements in the same namespaces."""
 
-import shutil
-import sys
 import zipfile
-from pathlib import Path
 from xml.sax.saxutils import quoteattr
-
-from pythonfmu.builder import FmuBuilder
 
 from parameters import CONNECTIONS, END, PARTS, settings
 
-HERE = Path(__file__).parent
-# files in each of these FMUs: the base class of the parts, and the package's equations of tyre, motor and body
-SHARED = [HERE / "parts" / "part.py", HERE.parents[1] / "python/src/bevel_differential/vehicle/equations.py"]
-# pythonfmu imports a part to describe it. The folder is last on the path because it also contains a part.py
-sys.path.append(str(SHARED[1].parent))
-# file of each class that pythonfmu builds
-SOURCES = {"Engine": "engine.py", "FinalDrive": "final_drive.py", "Wheel": "wheel.py", "Vehicle": "vehicle.py"}
+# versions of the standard. Most hosts read only the first one
+VERSIONS = ("1.0", "2.0")
 SPACES = ('xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription" '
           'xmlns:ssv="http://ssp-standard.org/SSP1/SystemStructureParameterValues" '
           'xmlns:ssc="http://ssp-standard.org/SSP1/SystemStructureCommon"')
 HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
 
 
-def make_parts(differential, folder):
-    """FMUs by class, in `folder`; `differential` is the FMU of this program."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
-    for source in SOURCES.values():
-        FmuBuilder.build_FMU(str(HERE / "parts" / source), dest=str(folder), project_files=SHARED,
-                             canGetAndSetFMUstate="true")
-    shutil.copyfile(differential, folder / "BevelDifferential.fmu")
-    return {name: folder / f"{name}.fmu" for name in set(PARTS.values())}
+def archive_file(folder, contact, version):
+    """Path of the archive. Archives of SSP 1.0 have no version in their name."""
+    return folder / f"drivetrain_{contact}{'' if version == VERSIONS[0] else f'_ssp{version}'}.ssp"
 
 
-def write_ssp(file, fmus, contact):
-    """Writes the archive: the FMUs in resources, connectors, connections, and the values of each part."""
+def write_ssp(file, fmus, contact, version):
+    """Writes the archive: the FMUs in resources, connectors, connections, and the values of each part. The description and the
+    values state `version`."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, fmu in sorted(fmus.items()):
             archive.write(fmu, f"resources/{name}.fmu")
@@ -43,15 +28,15 @@ def write_ssp(file, fmus, contact):
         for part in PARTS:
             values = {variable: value for (owner, variable), value in settings(contact).items() if owner == part}
             if values:
-                archive.writestr(f"resources/{part}.ssv", parameter_set(part, values))
+                archive.writestr(f"resources/{part}.ssv", parameter_set(part, values, version))
                 bound.append(part)
-        archive.writestr("SystemStructure.ssd", structure(bound))
+        archive.writestr("SystemStructure.ssd", structure(bound, version))
 
 
-def parameter_set(part, values):
+def parameter_set(part, values, version):
     rows = "".join(f"    <ssv:Parameter name={quoteattr(name)}><ssv:{kind(value)} value=\"{value!r}\"/></ssv:Parameter>\n"
                    for name, value in values.items())
-    return (f'{HEAD}<ssv:ParameterSet {SPACES} version="1.0" name="initialValues">\n  <ssv:Parameters>\n{rows}'
+    return (f'{HEAD}<ssv:ParameterSet {SPACES} version="{version}" name="initialValues">\n  <ssv:Parameters>\n{rows}'
             "  </ssv:Parameters>\n</ssv:ParameterSet>\n")
 
 
@@ -59,13 +44,13 @@ def kind(value):
     return "Integer" if isinstance(value, int) else "Real"
 
 
-def structure(bound):
+def structure(bound, version):
     parts = "".join(component(part, part in bound) for part in PARTS)
     lines = "".join(
         f'      <ssd:Connection startElement="{source}" startConnector={quoteattr(output)} '
         f'endElement="{part}" endConnector={quoteattr(name)}/>\n'
         for (part, name), (source, output) in CONNECTIONS.items())
-    return (f'{HEAD}<ssd:SystemStructureDescription {SPACES} version="1.0" name="drivetrain">\n'
+    return (f'{HEAD}<ssd:SystemStructureDescription {SPACES} version="{version}" name="drivetrain">\n'
             '  <ssd:System name="drivetrain" description="Launch of a car with a differential on split friction">\n'
             f"    <ssd:Elements>\n{parts}    </ssd:Elements>\n    <ssd:Connections>\n{lines}    </ssd:Connections>\n"
             f'  </ssd:System>\n  <ssd:DefaultExperiment startTime="0.0" stopTime="{END}"/>\n'

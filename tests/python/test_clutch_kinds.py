@@ -244,10 +244,12 @@ def test_settings_without_effect_and_self_locking_clutches_are_reported_once(dri
     locking = "limited_slip.torque_coefficient"
     assert len(of({locking: 1.0}, locking)) == 1 and not of({locking: 0.99}, locking)
     assert len(of({locking: 0.5, "limited_slip.coast_ratio": 2.5}, locking)) == 1
-    idle = of({"limited_slip.preload": 5.0, "limited_slip.coast_ratio": 0.5}, "limited_slip.coast_ratio")
-    assert len(idle) == 1 and "torque_coefficient is 0" in idle[0]
-    unpressed = of({"limited_slip.viscous_torque": 5.0, "limited_slip.static_ratio": 1.2}, "limited_slip.static_ratio")
-    assert len(unpressed) == 1 and "viscous" in unpressed[0]
+    for name, value in (("coast_ratio", 0.5), ("pressed_by", "both_sides")):
+        idle = of({"limited_slip.preload": 5.0, f"limited_slip.{name}": value}, f"limited_slip.{name}")
+        assert len(idle) == 1 and "limited_slip.torque_coefficient > 0 (now: 0)" in idle[0]
+    for name in ("static_ratio", "hot_factor", "pv_limit", "friction_area"):
+        unpressed = of({"limited_slip.viscous_torque": 5.0, f"limited_slip.{name}": 1.2}, f"limited_slip.{name}")
+        assert len(unpressed) == 1 and "limited_slip.preload > 0 N.m (now: 0 N.m)" in unpressed[0]
     assert not warned(drive, base | {"limited_slip.viscous_torque": 5.0})
     assert not warned(drive, base | curve([(0.0, 5.0), (3.0, 9.0)]))
     nothing = of({}, "effects.limited_slip")

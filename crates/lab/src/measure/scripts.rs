@@ -101,7 +101,7 @@ pub const DRIVETRAIN: Script = Script {
             flag("write", "Also renew docs/inside/hosts.md"),
         ]
     },
-    needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim"]),
+    needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim, pyssp-standard"]),
     file: "examples/drivetrain/run.py",
     doing: "coupling",
     folder: Some("drivetrain"),
