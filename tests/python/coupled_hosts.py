@@ -13,9 +13,10 @@ INPUT = {"carrier": ("carrier.torque_command", -1.0), "left": ("left.load_torque
 # carrier and wheels turn together, so the same teeth stay in contact
 SPEED = 10.0
 STEPS = 3000
-# first disturbance, and the size at which a run counts as unstable, as fractions of the torque of a wheel
-PUSH, LARGE = 2e-3, 0.3
-# disturbances below this fraction of the first one have died away; a tooth pair that comes into contact adds smaller ones
+# first disturbance, and the size at which a run counts as unstable, as fractions of the torque of a wheel. A larger disturbance lets the
+# gears roll on, and each tooth pair that comes into contact is a further disturbance
+PUSH, LARGE = 2e-5, 0.3
+# disturbances below this fraction of the first one have died away
 GONE = 0.05
 # ratio of successive steps of the search
 FINER = 1.02

@@ -1,12 +1,10 @@
 """The longest stable communication step: against hand calculation, and against coupled runs of the unit with hosts of its own definition."""
 
-import runpy
 from math import inf, pi, sqrt
-from pathlib import Path
 
 import numpy as np
 import pytest
-from coupled_hosts import Spring, drawn, grows, run
+from coupled_hosts import Spring, drawn, grows
 from scipy.linalg import expm
 
 from bevel_differential import DifferentialError, DifferentialWarning, Scene
@@ -82,6 +80,17 @@ def test_the_limit_is_that_of_coupled_runs(seed, scene, fmu):
             assert not grows(instance, values, hosts, master, lines, part * limit), part
         # the range of growth may be narrow
         assert any(grows(instance, values, hosts, master, lines, part * limit) for part in (1.0 + WITHIN, 1.01))
+
+
+def test_a_ramp_halves_the_limit_without_delay(scene, fmu):
+    # docs/coupling.md: a torque on a ramp is twice as late
+    made = [stability(inertia(1.0), [Host.spring("left", 90.0, 0.12, reads="both")], GAUSS_SEIDEL, ramp=ramp).limit for ramp in (False, True)]
+    assert made[0] == pytest.approx(2.0 * 0.12 / 90.0, rel=1e-6) and made[1] == pytest.approx(0.12 / 90.0, rel=1e-3)
+    values, hosts, master, lines = drawn(118)
+    values = values | {"solver.input_ramp": True}
+    limit = predicted(scene(values), hosts, master, lines).limit
+    with fmu.open() as instance:
+        assert [grows(instance, values, hosts, master, lines, part * limit) for part in (1.0 - WITHIN, 1.0 + WITHIN)] == [False, True]
 
 
 def test_the_seeds_cover_all_kinds():

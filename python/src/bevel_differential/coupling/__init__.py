@@ -68,12 +68,16 @@ class Coupling:
             found[host.port] = Apparent(float(stiffness / rate**2), float(stiffness))
         return found
 
+    def under(self, master: str, inputs: str) -> "Coupling":
+        """Same coupling under another master."""
+        return stability(self.unit, self.exchange.hosts, master, inputs, self.exchange.first, self.exchange.ramp)
+
     def limits(self) -> dict[tuple[str, str], float]:
         """Longest stable step [s] of each master, with held inputs and with lines."""
         found = {}
         for master in MASTERS:
             for inputs in INPUTS:
-                found[master, inputs] = stability(self.unit, self.exchange.hosts, master, inputs, self.exchange.first).limit
+                found[master, inputs] = self.under(master, inputs).limit
         return found
 
 
@@ -95,10 +99,10 @@ def coupling(scene: Scene | FileName, hosts: Sequence[Host], master: str = JACOB
     if not loaded:
         warn([f"the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name another "
               "time"])
-    return stability(unit, hosts, master, inputs, first)
+    return stability(unit, hosts, master, inputs, first, bool(scene.value("solver.input_ramp")))
 
 
-def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, first: str = UNIT) -> Coupling:
-    """Stability of a linear unit with hosts; see `coupling`."""
-    exchange = Exchange(unit, hosts, master, inputs, first)
+def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, first: str = UNIT, ramp: bool = False) -> Coupling:
+    """Stability of a linear unit with hosts; see `coupling`. `ramp`: true if the unit spreads held inputs over the step."""
+    exchange = Exchange(unit, hosts, master, inputs, first, ramp)
     return Coupling(unit, exchange, longest(lambda step: growth(exchange, step)))

@@ -8,7 +8,8 @@ the unit. The masters:
   first, the unit uses their values at the end.
 - `rollback`: the step is repeated until all values at its end agree.
 
-Inputs on lines continue the line through the last two points. If the values at the end are known, the line connects both ends.
+Inputs on lines continue the line through the last two points. If the values at the end are known, the line connects both ends. With
+`solver.input_ramp`, the unit reaches a held input only at the end of the step, on a line from the one before.
 """
 
 from collections.abc import Sequence
@@ -42,14 +43,15 @@ class State:
 
 
 class Exchange:
-    """Unit and hosts under one master; `first`: which of them steps first under Gauss-Seidel."""
+    """Unit and hosts under one master. `first`: which of them steps first under Gauss-Seidel; `ramp`: true if the unit spreads a held
+    input over the step."""
 
-    def __init__(self, unit: Linear, hosts: Sequence[Host], master: str, inputs: str, first: str = UNIT):
+    def __init__(self, unit: Linear, hosts: Sequence[Host], master: str, inputs: str, first: str = UNIT, ramp: bool = False):
         for name, given, known in (("master", master, MASTERS), ("inputs", inputs, INPUTS), ("first", first, FIRST)):
             if given not in known:
                 raise DifferentialError(f"{name} = {given!r}: it is one of {', '.join(known)}")
         self.unit, self.hosts, self.master, self.inputs, self.first = unit, hosts, master, inputs, first
-        self.lines = inputs == LINES
+        self.lines, self.ramp = inputs == LINES, ramp
         # rows of y that each host reads
         ends = np.cumsum([len(host.outputs) for host in hosts])
         self.rows = [slice(end - len(host.outputs), end) for host, end in zip(hosts, ends)]
@@ -88,33 +90,30 @@ class Exchange:
             # the value that a repetition reproduces
             fixed = self._repeat(state, 0.0 * state.v, size).v
             return self._repeat(state, np.linalg.solve(np.eye(len(self.hosts)) - self.repetition(size), fixed), size)
-        slope = (state.v - state.v_before) / size
-        if self.master == GAUSS_SEIDEL and self.first == UNIT:
-            x, y = self._move_unit(state.x, state.v, slope, size)
-            z, v = self._move_hosts(state, y, size)
-        else:
+        if self.master == GAUSS_SEIDEL and self.first == HOST:
             z, v = self._move_hosts(state, None, size)
-            begin = state.v
-            if self.master == GAUSS_SEIDEL:
-                begin = self._answers(state, size) if self.lines else v
-                slope = (v - begin) / size
-            x, y = self._move_unit(state.x, begin, slope, size)
+            x, y = self._move_unit(state.x, self._answers(state, size) if self.lines else state.v, v, size)
+        else:
+            # a line continues beyond the last value, and a held input stays there
+            ahead = 2.0 * state.v - state.v_before if self.lines else state.v
+            x, y = self._move_unit(state.x, state.v if self.lines else state.v_before, ahead, size)
+            z, v = self._move_hosts(state, y if self.master == GAUSS_SEIDEL else None, size)
         return State(x, z, y, state.y, v, state.v)
 
     def _repeat(self, state, guess, size):
         """The step with assumed values of the hosts at its end."""
-        slope = (guess - state.v) / size
-        x, y = self._move_unit(state.x, state.v if self.lines else guess, slope, size)
+        x, y = self._move_unit(state.x, state.v, guess, size)
         z, v = self._move_hosts(state, y, size, guess)
         return State(x, z, y, state.y, v, state.v)
 
-    def _move_unit(self, x, v, slope, size):
-        """States and outputs of the unit at the end of the step, with the inputs `v`, held or with this slope."""
+    def _move_unit(self, x, begin, end, size):
+        """States and outputs of the unit at the end of the step. Its inputs are on the line from `begin` to `end`, or held at `end`."""
         free, held, line = self.unit.exact(size)
-        x = free @ x + held @ v
-        if self.lines:
-            x, v = x + line @ slope, v + size * slope
-        return x, self.unit.c @ x + self.unit.d @ v
+        if self.lines or self.ramp:
+            x = free @ x + held @ begin + line @ ((end - begin) / size)
+        else:
+            x = free @ x + held @ end
+        return x, self.unit.c @ x + self.unit.d @ end
 
     def _move_hosts(self, state, y, size, guess=None):
         """States and values of the hosts at the end of the step. `y`: outputs of the unit there, None if unknown; `guess`: values of the

@@ -7,8 +7,8 @@ import numpy as np
 
 from ..extras import require
 from ..values import FileName
-from . import MASTERS, Coupling, stability
-from .masters import INPUTS, LINES
+from . import Coupling
+from .masters import INPUTS, LINES, MASTERS
 
 # range of steps around the longest stable one, and number of points
 BELOW, ABOVE, POINTS = 0.1, 12.0, 300
@@ -27,7 +27,7 @@ def draw(made: Coupling, file: FileName) -> Path:
         axes.axhline(0.0, color=style.INK, lw=1.0)
         for master, color in zip(MASTERS, style.CYCLE):
             for inputs in INPUTS:
-                one = stability(made.unit, made.exchange.hosts, master, inputs, made.exchange.first)
+                one = made.under(master, inputs)
                 chosen = (master, inputs) == (made.exchange.master, made.exchange.inputs)
                 axes.plot(1e3 * sizes, [100.0 * (one.growth(size) - 1.0) for size in sizes], "--" if inputs == LINES else "-", color=color,
                           lw=3.0 if chosen else 1.2, label=f"{master}, {inputs}")
