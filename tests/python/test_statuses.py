@@ -48,7 +48,7 @@ FILES = {"scene.toml": SCENE, "light.toml": PROBLEM.format(diameter=95), "tiny.t
          "light.csv": CYCLE.format(count=1, torque=500), "heavy.csv": CYCLE.format(count=1000000, torque=3000), "there.toml": ""}
 SWEEP = "sweep --scene study_turning --stop 2ms --want left.speed --plan grid --workers 0 --vary"
 LOSSES = "losses torque_bias --speed 10,20 --difference 5,10 --temperature 20degC --unseen 3 --workers 0 --torque 100,200"
-COUPLING = "coupling one_wheel_on_ice --set scene.start=equilibrium --host"
+COUPLING = "coupling one_wheel_on_ice --set scene.gear_contact=ideal --host"
 ACCURACY = "accuracy study_turning --stop 5ms --want left.speed:mean --within"
 OPTIMISE = "optimise {problem} --workers 0 --out {out}"
 # command lines by command and status

@@ -18,8 +18,8 @@ from .linear import Linear
 from .masters import GAUSS_SEIDEL, HELD, HOST, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
 from .unit import at_ports, linearised
 
-__all__ = ["GAUSS_SEIDEL", "HELD", "HOST", "JACOBI", "LINES", "ROLLBACK", "UNIT", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode", "coupling",
-           "growth", "linearised", "longest", "stability"]
+__all__ = ["GAUSS_SEIDEL", "HELD", "HOST", "JACOBI", "LINES", "ROLLBACK", "UNIT", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode",
+           "coupling", "growth", "linearised", "longest", "stability"]
 
 # step at which the port's answer is given if no step is too long [s]
 USUAL = 1e-3
@@ -97,12 +97,13 @@ def coupling(scene: Scene | FileName, hosts: Sequence[Host], master: str = JACOB
     unit, loaded = at_ports(scene, hosts, time)
     warn(scene.warnings)
     if not loaded:
-        warn([f"the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name another "
-              "time"])
+        warn([f"the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name "
+              "another time"])
     return stability(unit, hosts, master, inputs, first, bool(scene.value("solver.input_ramp")))
 
 
-def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, first: str = UNIT, ramp: bool = False) -> Coupling:
+def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs: str = HELD, first: str = UNIT,
+              ramp: bool = False) -> Coupling:
     """Stability of a linear unit with hosts; see `coupling`. `ramp`: true if the unit spreads held inputs over the step."""
     exchange = Exchange(unit, hosts, master, inputs, first, ramp)
     return Coupling(unit, exchange, longest(lambda step: growth(exchange, step)))

@@ -14,8 +14,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
     parser.add_argument("--host", metavar="HOST", action="append", required=True,
-                        help="PORT:k=9000,c=12,J=1,reads=speed: spring, damper and the inertia behind them at the port carrier, left or right, "
-                             "in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1. May be repeated")
+                        help="PORT:k=9000,c=12,J=1,reads=speed: spring, damper and the inertia behind them at the port carrier, left or "
+                             "right, in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1. May be "
+                             "repeated")
     parser.add_argument("--master", choices=MASTERS, default=MASTERS[0],
                         help="jacobi: both sides step at the same time; gauss-seidel: the unit steps first (default: jacobi)")
     parser.add_argument("--input", choices=INPUTS, default=INPUTS[0], help="inputs held over a step, or on lines (default: held)")
@@ -37,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
         made = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)
     for host in hosts:
         print(f"{host.port}: {host.words}")
-    print(f"longest stable step: {step(made.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else arguments.input})")
+    print(f"longest stable step: {step(made.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")
     if lost := made.mode():
         print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}")
     print(f"\nas the hosts see the ports in steps of {step(made.step)}:")

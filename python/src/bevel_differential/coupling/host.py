@@ -39,8 +39,8 @@ class Host:
         if self.reads not in READS:
             raise DifferentialError(f"reads={self.reads}: it is one of {', '.join(READS)}")
         if self.law.b.shape[1] not in READS[self.reads] or self.law.c.shape[0] != 1:
-            raise DifferentialError(f"{self.port}: a host that reads {self.reads} has {' or '.join(map(str, READS[self.reads]))} inputs and one "
-                                    "output")
+            counts = " or ".join(map(str, READS[self.reads]))
+            raise DifferentialError(f"{self.port}: a host that reads {self.reads} has {counts} inputs and one output")
 
     @classmethod
     def of(cls, port: str, a: Any, b: Any, c: Any, d: Any, reads: str) -> Self:

@@ -65,8 +65,8 @@ def _fastest(exchange, size):
 
 @dataclass(frozen=True)
 class Mode:
-    """Motion that loses stability first. `frequency` [Hz] is half the rate of steps if it changes sign at each. `port`: the port through
-    which most of its power passes."""
+    """Motion that loses stability first. `frequency` [Hz] is half the rate of steps if it changes sign at each, and 0 if repetitions of a
+    step do not converge. `port`: the port through which most of its power passes."""
 
     frequency: float
     port: str
@@ -75,6 +75,11 @@ class Mode:
 def mode(exchange: Exchange, size: float) -> Mode:
     """Motion that grows fastest in steps of `size` [s]."""
     value, vector = _fastest(exchange, size)
+    if exchange.master == ROLLBACK:
+        factors, guesses = np.linalg.eig(exchange.repetition(size))
+        worst = np.argmax(np.abs(factors))
+        if abs(factors[worst]) > abs(value):
+            return Mode(0.0, exchange.hosts[int(np.argmax(np.abs(guesses[:, worst])))].port)
     state = exchange.state(vector[:, None])
     # the last output of a port is its speed, or the torque of a port driven by speed
     power = [abs(v * state.y[rows][-1, 0]) for v, rows in zip(state.v[:, 0], exchange.rows)]

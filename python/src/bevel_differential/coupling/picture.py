@@ -34,20 +34,21 @@ def draw(made: Coupling, file: FileName) -> Path:
                 if 0.0 < one.limit < math.inf:
                     axes.plot(1e3 * one.limit, 0.0, "o", color=color, ms=9.0 if chosen else 6.0)
         if made.limit == made.step:
-            axes.annotate(f"{made.limit * 1e3:.3g} ms", (made.limit * 1e3, 0.0), (-8, 8), textcoords="offset points", ha="right", color=style.TEXT)
+            axes.annotate(f"{made.limit * 1e3:.3g} ms", (made.limit * 1e3, 0.0), (-8, 8), textcoords="offset points", ha="right",
+                          color=style.TEXT)
         axes.set(xscale="log", xlabel="communication step, ms", ylabel="change of a disturbance in one step, %", ylim=(-END, END),
                  xlim=(1e3 * sizes[0], 1e3 * sizes[-1]))
         axes.set_yscale("symlog", linthresh=LINEAR)
-        ticks = [0.1, 1.0, 10.0, 100.0]
-        axes.set_yticks([-tick for tick in ticks[::-1]] + [0.0, *ticks], [f"−{tick:g}" for tick in ticks[::-1]] + ["0", *(f"+{tick:g}" for tick in ticks)])
+        ticks = [sign * tick for sign in (-1.0, 1.0) for tick in (0.1, 1.0, 10.0, 100.0)] + [0.0]
+        axes.set_yticks(ticks, [f"{tick:+g}".replace("-", "−") if tick else "0" for tick in ticks])
         axes.minorticks_off()
         style.plain_decades(axes.xaxis)
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         hosts = "; ".join(f"{host.port}: {host.words}" for host in made.exchange.hosts)
         for spelled, shown in (("N.m.s", "N·m·s"), ("N.m", "N·m"), ("kg.m2", "kg·m²")):
             hosts = hosts.replace(spelled, shown)
-        style.caption(figure, "Below 0, the largest disturbance decays from step to step (spectral radius less 1); above 0, it grows, and the "
-                      "coupling is unstable. Dots: longest stable step of each master. Thick: the requested master. Solid: inputs held over "
-                      f"a step; dashed: inputs on lines. {hosts}.")
+        style.caption(figure, "Below 0, the largest disturbance decays from step to step (spectral radius less 1). Above 0, it grows, and "
+                      "the coupling is unstable. Dots: longest stable step of each master. Thick: the requested master. Solid: inputs held "
+                      f"over a step; dashed: inputs on lines. {hosts}.")
         style.save(figure, file)
     return Path(file)

@@ -32,14 +32,18 @@ def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bo
     """The unit as its hosts see it at the time `at` [s] of a scene, and true if its teeth are loaded there. Inputs are the values that
     hosts return, outputs are those that they read, in the order of the hosts."""
     inputs, signs = [], []
+    ideal = scene.value("scene.gear_contact") == scene.fmu.variable("scene.gear_contact").literals["ideal"]
     for host in hosts:
         variable = scene.fmu.variable(f"scene.{host.port}_drive")
         literals = {number: name for name, number in (variable.literals or {}).items()}
         drive = literals[int(scene.value(variable.name))]
         if (drive == "speed") != (host.reads == TORQUE):
             host_of = "J" if drive == "speed" else "k, c and J"
-            raise DifferentialError(f"{host.port}: the scene drives it by {drive}, so its host has only {host_of}; set {variable.name}, or give "
-                                    "another host")
+            raise DifferentialError(f"{host.port}: the scene drives it by {drive}, so its host has only {host_of}; set {variable.name}, or "
+                                    "give another host")
+        if ideal and host.port == "carrier" and drive == "speed":
+            raise DifferentialError("carrier: gears without teeth follow its speed at once, so a jump of the speed has no finite torque; set "
+                                    "scene.gear_contact to lumped or tooth, or drive it by torque")
         name, sign = INPUTS[host.port, drive]
         inputs.append(name)
         signs.append(sign)
@@ -48,6 +52,5 @@ def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bo
     instance = scene._instance()
     unit = linearised(instance, inputs, outputs)
     read = np.array([SIGNS.get(name, 1.0) for name in outputs])
-    ideal = scene.value("scene.gear_contact") == scene.fmu.variable("scene.gear_contact").literals["ideal"]
     loaded = ideal or all(instance.read(["left.normal_force", "right.normal_force"]))
     return Linear(unit.a, unit.b * signs, read[:, None] * unit.c, read[:, None] * unit.d * signs), loaded
