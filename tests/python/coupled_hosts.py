@@ -1,13 +1,19 @@
-"""Runs of the unit with hosts at its ports, and the longest stable step that they show. Nothing of the package's own prediction is used:
-hosts are written here from the definitions of docs/coupling.md."""
+"""Runs of the unit with hosts at its ports, and the longest stable step that they show. Hosts are written here from the definitions of
+docs/coupling.md, without the package's own prediction.
 
+    python tests/python/coupled_hosts.py FROM TO     compares both for the random combinations FROM to TO - 1
+"""
+
+import sys
+import warnings
 from dataclasses import dataclass
 from math import exp, inf, log, sqrt
 
 import numpy as np
 from scipy.linalg import expm
 
-from bevel_differential import DifferentialError
+from bevel_differential import DifferentialError, Fmu, Scene
+from bevel_differential.coupling import HELD, LINES, Host, coupling
 
 INPUT = {"carrier": ("carrier.torque_command", -1.0), "left": ("left.load_torque", 1.0), "right": ("right.load_torque", 1.0)}
 # carrier and wheels turn together, so the same teeth stay in contact
@@ -179,3 +185,30 @@ def drawn(seed):
         c = 2.0 * between(0.05, 0.7) * sqrt(k * both)
         hosts.append(Spring(str(port), k, c, inertia, str(random.choice(["speed", "angle", "both"]))))
     return scene, hosts, str(random.choice(["jacobi", "gauss-seidel"])), bool(random.random() < 0.5)
+
+
+def predicted(scene, hosts, master, lines, fmu):
+    """The package's stability of a combination."""
+    springs = [Host.spring(host.port, host.k, host.c, host.inertia, host.reads) for host in hosts]
+    with Scene("coupled", stop=1.0, step=1e-3, outputs=["carrier.speed"], set=scene, fmu=fmu) as opened:
+        return coupling(opened, springs, master, LINES if lines else HELD)
+
+
+def main(begin, end):
+    fmu = Fmu.of()
+    with fmu.open() as instance:
+        for seed in range(begin, end):
+            scene, hosts, master, lines = drawn(seed)
+            limit = predicted(scene, hosts, master, lines, fmu).limit
+            words = ", ".join(f"{host.port} {host.reads}" for host in hosts)
+            head = f"{seed}: {scene['scene.gear_contact']}, {words}, {master}, {'lines' if lines else 'held'}: predicted {limit * 1e3:.4g} ms"
+            if limit == inf:
+                print(head, flush=True)
+                continue
+            seen = found(lambda step: grows(instance, scene, hosts, master, lines, step), limit)
+            print(f"{head}, found {seen * 1e3:.4g} ms, ratio {seen / limit:.4f}", flush=True)
+
+
+if __name__ == "__main__":
+    warnings.simplefilter("ignore")
+    main(*map(int, sys.argv[1:]))

@@ -2,10 +2,11 @@
 
 from itertools import product
 from math import inf, pi, sqrt
+from pathlib import Path
 
 import numpy as np
 import pytest
-from coupled_hosts import Spring, drawn, grows
+from coupled_hosts import Spring, drawn, grows, predicted
 from scipy.linalg import expm
 
 from bevel_differential import DifferentialError, DifferentialWarning, Scene
@@ -14,6 +15,7 @@ from bevel_differential.coupling import GAUSS_SEIDEL, HELD, JACOBI, LINES, ROLLB
 from bevel_differential.coupling.linear import exponential
 from bevel_differential.vehicle import Car, Tyre
 
+ROOT = Path(__file__).resolve().parents[2]
 # the accuracy that is promised
 WITHIN = 0.03
 # scene with loaded teeth whose carrier is driven by torque
@@ -32,11 +34,6 @@ def scene(fmu):
         return Scene("coupled", stop=1.0, step=1e-3, outputs=["carrier.speed"], set=values, fmu=fmu)
 
     return opened
-
-
-def predicted(scene, hosts, master, lines):
-    springs = [Host.spring(host.port, host.k, host.c, host.inertia, host.reads) for host in hosts]
-    return coupling(scene, springs, master, LINES if lines else HELD)
 
 
 @pytest.mark.parametrize("j, k, c", [(1.0, 9000.0, 12.0), (0.3, 500.0, 40.0), (2.0, 1e5, 900.0), (1.0, 9000.0, 1200.0)])
@@ -76,9 +73,9 @@ SEEDS = [101, 105, 106, 108, 112, 113, 115, 118]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_the_limit_is_that_of_coupled_runs(seed, scene, fmu):
+def test_the_limit_is_that_of_coupled_runs(seed, fmu):
     values, hosts, master, lines = drawn(seed)
-    limit = predicted(scene(values), hosts, master, lines).limit
+    limit = predicted(values, hosts, master, lines, fmu).limit
     with fmu.open() as instance:
         for part in (0.3, 0.7, 1.0 - WITHIN):
             assert not grows(instance, values, hosts, master, lines, part * limit), part
@@ -86,14 +83,14 @@ def test_the_limit_is_that_of_coupled_runs(seed, scene, fmu):
         assert any(grows(instance, values, hosts, master, lines, part * limit) for part in (1.0 + WITHIN, 1.01))
 
 
-def test_a_ramp_halves_the_limit_without_delay(scene, fmu):
+def test_a_ramp_halves_the_limit_without_delay(fmu):
     # docs/coupling.md: a torque on a ramp is twice as late
     host = Host.spring("left", 90.0, 0.12, reads="both")
     made = [stability(inertia(1.0), [host], GAUSS_SEIDEL, ramp=ramp).limit for ramp in (False, True)]
     assert made[0] == pytest.approx(2.0 * 0.12 / 90.0, rel=1e-6) and made[1] == pytest.approx(0.12 / 90.0, rel=1e-3)
     values, hosts, master, lines = drawn(118)
     values = values | {"solver.input_ramp": True}
-    limit = predicted(scene(values), hosts, master, lines).limit
+    limit = predicted(values, hosts, master, lines, fmu).limit
     with fmu.open() as instance:
         assert [grows(instance, values, hosts, master, lines, part * limit) for part in (1.0 - WITHIN, 1.0 + WITHIN)] == [False, True]
 
@@ -107,10 +104,10 @@ def test_the_seeds_cover_all_kinds():
     assert {len(hosts) for _, hosts, *_ in made} == {1, 2}
 
 
-def test_a_narrow_range_of_growth_counts(scene, fmu):
+def test_a_narrow_range_of_growth_counts(fmu):
     # above this range, which is 2 % wide, steps are stable again up to twice the limit
     values, hosts, master, lines = drawn(103)
-    made = predicted(scene(values), hosts, master, lines)
+    made = predicted(values, hosts, master, lines, fmu)
     with fmu.open() as instance:
         assert [grows(instance, values, hosts, master, lines, part * made.limit) for part in (0.97, 1.01, 1.1)] == [False, True, False]
     assert longest(lambda step: 1.1 if 1.0e-3 < step < 1.01e-3 else 0.99 + 0.009 * (step > 0.95e-3) - 0.009 * (step > 1.06e-3)) == (
@@ -263,6 +260,15 @@ def test_the_command_prints_what_python_returns_and_draws_it(scene, fmu_file, tm
         assert f"{made.limits()[master, HELD] * 1e3:.3g} ms" in next(line for line in said.splitlines() if line.startswith(f"{master} "))
     assert (tmp_path / "a.png").stat().st_size > 10_000
     assert main([*words, "right:k=0,c=12"]) == WRONG
+
+
+def test_the_page_s_limits_of_the_drivetrain_are_those_of_its_measurement():
+    shown, measured = ((ROOT / "docs" / name).read_text(encoding="utf-8").splitlines() for name in ("coupling.md", "inside/hosts.md"))
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in [*shown, *measured] if line.startswith("|")]
+    table = {row[0]: row[1:] for row in rows if row[0] in ("drivetrain, longest step, ms", "predicted", "found")}
+    limits = {row[0]: row[1:3] for row in rows if row[0] in table["drivetrain, longest step, ms"] and len(row) == 4}
+    assert len(limits) == 3
+    assert limits == {name: list(pair) for name, *pair in zip(table["drivetrain, longest step, ms"], table["predicted"], table["found"])}
 
 
 def test_without_a_damper_no_step_is_stable_one_step_later():
