@@ -1,7 +1,7 @@
 """The longest stable communication step: against hand calculation, and against coupled runs with hosts of its own definition."""
 
 from itertools import product
-from math import inf, pi, sqrt
+from math import exp, inf, log, pi, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,7 @@ from scipy.linalg import expm
 from bevel_differential import DifferentialError, DifferentialWarning, Scene
 from bevel_differential.command import DONE, WRONG, main
 from bevel_differential.coupling import GAUSS_SEIDEL, HELD, JACOBI, LINES, ROLLBACK, Host, Linear, coupling, linearised, longest, stability
-from bevel_differential.coupling.linear import exponential
+from bevel_differential.coupling.linear import balancing, exponential
 from bevel_differential.vehicle import Car, Tyre
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -104,14 +104,20 @@ def test_the_seeds_cover_all_kinds():
     assert {len(hosts) for _, hosts, *_ in made} == {1, 2}
 
 
-def test_a_narrow_range_of_growth_counts(fmu):
-    # above this range, which is 2 % wide, steps are stable again up to twice the limit
-    values, hosts, master, lines = drawn(103)
+# in 725, another motion decays more slowly on both sides of the range
+@pytest.mark.parametrize("seed", [103, 725])
+def test_a_narrow_range_of_growth_counts(seed, fmu):
+    # above this range, which is 2 % wide, steps are stable again
+    values, hosts, master, lines = drawn(seed)
     made = predicted(values, hosts, master, lines, fmu)
     with fmu.open() as instance:
         assert [grows(instance, values, hosts, master, lines, part * made.limit) for part in (0.97, 1.01, 1.1)] == [False, True, False]
-    assert longest(lambda step: 1.1 if 1.0e-3 < step < 1.01e-3 else 0.99 + 0.009 * (step > 0.95e-3) - 0.009 * (step > 1.06e-3)) == (
-        pytest.approx(1e-3, rel=0.01))
+
+
+def test_the_search_looks_closer_at_a_maximum_between_its_points():
+    # growth in a range of 0.2 %, on a peak that is wider
+    peak = longest(lambda step: 1.1 if 1.003e-3 < step < 1.005e-3 else 0.98 + 0.01 * exp(-(log(step / 1.004e-3) / 0.02)**2))
+    assert peak == pytest.approx(1.003e-3, rel=1e-6)
 
 
 def test_repetitions_of_a_step_converge_up_to_the_limit_of_rollback(scene, fmu):
@@ -192,7 +198,7 @@ def test_the_exponential_of_stiff_teeth_is_that_of_scipy(scene):
     made = coupling(scene(LOADED | {"scene.gear_contact": "tooth"}), [Host.spring("left", 9000.0, 12.0, reads="both")])
     for step in (1e-6, 1e-4, 1e-2):
         right = expm(made.unit.a * step)
-        np.testing.assert_allclose(exponential(made.unit.a * step), right, rtol=1e-7, atol=1e-7 * np.abs(right).max())
+        np.testing.assert_allclose(exponential(made.unit.a * step, balancing(made.unit.a)), right, rtol=1e-7, atol=1e-7 * np.abs(right).max())
 
 
 def test_the_linearised_unit_predicts_a_small_step(fmu):

@@ -13,7 +13,7 @@ from ..scene import Scene
 from ..values import DifferentialError, FileName
 from ..warned import warn
 from .host import TORQUE, Host
-from .limit import Mode, growth, longest, mode
+from .limit import Mode, growth, limit, longest, mode
 from .linear import Linear
 from .masters import GAUSS_SEIDEL, HELD, HOST, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
 from .unit import at_ports, linearised
@@ -106,4 +106,4 @@ def stability(unit: Linear, hosts: Sequence[Host], master: str = JACOBI, inputs:
               ramp: bool = False) -> Coupling:
     """Stability of a linear unit with hosts; see `coupling`. `ramp`: true if the unit spreads held inputs over the step."""
     exchange = Exchange(unit, hosts, master, inputs, first, ramp)
-    return Coupling(unit, exchange, longest(lambda step: growth(exchange, step)))
+    return Coupling(unit, exchange, limit(exchange))

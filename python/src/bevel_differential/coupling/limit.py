@@ -6,10 +6,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .linear import poles
 from .masters import ROLLBACK, Exchange
 
-# range of the search [s], and its points per decade
-SHORTEST, LONGEST, PER_DECADE = 1e-7, 1.0, 40
+# range of the search [s], and its points per decade: of steps that are far shorter than all swings, and of others. A swing whose period
+# is a few steps may grow in a range of steps that is only a few percent wide
+SHORTEST, LONGEST, PER_DECADE, PER_DECADE_OF_SWINGS = 1e-7, 1.0, 40, 300
+# angle by which a swing turns in a step that is far shorter than its period, rad; and damping ratio above which nothing swings
+SLOW, DAMPED = 0.3, 0.95
 # a radius above this grows; rounding of motions other than rigid rotation is below
 GROWS = 1.0 + 1e-11
 # radius from which a maximum between points of the search is looked at more closely, and number of points for this
@@ -18,10 +22,11 @@ NEAR, CLOSER = 0.97, 16
 BISECTIONS = 28
 
 
-def longest(radius: Callable[[float], float], low: float = SHORTEST, high: float = LONGEST) -> float:
+def longest(radius: Callable[[float], float], low: float = SHORTEST, high: float = LONGEST, dense: float | None = None) -> float:
     """Longest step [s] up to which `radius(step)` stays at 1 or below: the end of the first stable range. 0 if it exceeds 1 at `low`,
-    infinite if it does not exceed 1 up to `high`."""
-    sizes = np.geomspace(low, high, 1 + math.ceil(PER_DECADE * math.log10(high / low)))
+    infinite if it does not exceed 1 up to `high`. The search is dense from the step `dense` on, by default everywhere."""
+    dense = min(max(dense or low, low), high)
+    sizes = np.concatenate([_points(low, dense, PER_DECADE)[:-1], _points(dense, high, PER_DECADE_OF_SWINGS)])
     values = [radius(sizes[0])]
     if values[0] > GROWS:
         return 0.0
@@ -38,6 +43,18 @@ def longest(radius: Callable[[float], float], low: float = SHORTEST, high: float
     return math.inf
 
 
+def _points(low, high, per_decade):
+    return np.geomspace(low, high, 1 + math.ceil(per_decade * math.log10(high / low)))
+
+
+def limit(exchange: Exchange) -> float:
+    """Longest stable step [s] of an exchange; see `longest`."""
+    # swings of the unit with constant torques, and of all together
+    found = np.concatenate([poles(exchange.unit.a), poles(exchange.continuous())])
+    swings = np.abs(found.imag[np.abs(found.real) < DAMPED * np.abs(found)])
+    return longest(lambda step: growth(exchange, step), dense=SLOW / max(swings.max(initial=0.0), SLOW))
+
+
 def _bisected(radius, good, bad):
     for _ in range(BISECTIONS):
         middle = math.sqrt(good * bad)
@@ -48,7 +65,8 @@ def _bisected(radius, good, bad):
 def growth(exchange: Exchange, size: float) -> float:
     """Factor by which the fastest-growing motion grows in one step of `size` [s]. Rigid rotation does not count. With rollback, it is at
     least the factor by which repetitions of a step approach or leave each other."""
-    largest = abs(_fastest(exchange, size)[0])
+    values = np.linalg.eigvals(exchange.matrix(size))
+    largest = float(np.max(np.abs(values[_counted(values, exchange)])))
     if exchange.master == ROLLBACK:
         largest = max(largest, float(np.max(np.abs(np.linalg.eigvals(exchange.repetition(size))))))
     return largest
@@ -57,10 +75,14 @@ def growth(exchange: Exchange, size: float) -> float:
 def _fastest(exchange, size):
     """Largest eigenvalue without those of rigid rotation, with its vector."""
     values, vectors = np.linalg.eig(exchange.matrix(size))
-    # motions of rigid rotation have the eigenvalue 1
-    counted = np.argsort(np.abs(values - 1.0))[exchange.rigid:]
+    counted = _counted(values, exchange)
     place = counted[np.argmax(np.abs(values[counted]))]
     return values[place], vectors[:, place]
+
+
+def _counted(values, exchange):
+    """Places of the eigenvalues without those of rigid rotation, which are nearest to 1."""
+    return np.argsort(np.abs(values - 1.0))[exchange.rigid:]
 
 
 @dataclass(frozen=True)

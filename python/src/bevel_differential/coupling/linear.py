@@ -32,10 +32,9 @@ def balancing(a: np.ndarray) -> np.ndarray:
     return scale
 
 
-def exponential(a: np.ndarray) -> np.ndarray:
+def exponential(a: np.ndarray, scale: np.ndarray) -> np.ndarray:
     """Matrix exponential by a Padé approximant with scaling and squaring (Golub and Van Loan, *Matrix Computations*, 9.3). The matrix is
-    balanced first, because stiff teeth give accelerations far above angles."""
-    scale = balancing(a)
+    balanced by `scale`, because stiff teeth give accelerations far above angles."""
     a = a / scale[:, None] * scale
     squarings = max(0, int(np.ceil(np.log2(max(np.abs(a).sum(axis=1).max(initial=0.0), 1e-300)))) + 1)
     a = a / 2.0**squarings
@@ -58,6 +57,8 @@ class Linear:
     b: np.ndarray
     c: np.ndarray
     d: np.ndarray
+    # matrix of states, inputs and their slopes, with its balancing; and steps by their size
+    _whole: list[np.ndarray] = field(default_factory=list, repr=False, compare=False)
     _steps: dict[float, Step] = field(default_factory=dict, repr=False, compare=False)
 
     @classmethod
@@ -70,11 +71,14 @@ class Linear:
 
     def exact(self, size: float) -> Step:
         """Matrices of a step of `size` [s]."""
-        if size not in self._steps:
-            n, m = self.b.shape
+        n, m = self.b.shape
+        if not self._whole:
             whole = np.zeros((n + 2 * m, n + 2 * m))
             whole[:n, :n], whole[:n, n:n + m], whole[n:n + m, n + m:] = self.a, self.b, np.eye(m)
-            e = exponential(whole * size)
+            self._whole.extend([whole, balancing(whole)])
+        if size not in self._steps:
+            whole, scale = self._whole
+            e = exponential(whole * size, scale)
             self._steps[size] = e[:n, :n], e[:n, n:n + m], e[:n, n + m:]
         return self._steps[size]
 
@@ -112,7 +116,12 @@ def joined(parts: Sequence[Linear], sources: np.ndarray) -> np.ndarray:
     return a + b @ sources @ np.linalg.solve(np.eye(len(d)) - d @ sources, c)
 
 
+def poles(a: np.ndarray) -> np.ndarray:
+    """Eigenvalues of ẋ = A x [1/s], with a balanced matrix."""
+    scale = balancing(a)
+    return np.linalg.eigvals(a / scale[:, None] * scale)
+
+
 def rigid_count(a: np.ndarray) -> int:
     """Number of motions of ẋ = A x that neither swing nor decay, as rigid rotation."""
-    scale = balancing(a)
-    return int(np.sum(np.abs(np.linalg.eigvals(a / scale[:, None] * scale)) < RIGID))
+    return int(np.sum(np.abs(poles(a)) < RIGID))
