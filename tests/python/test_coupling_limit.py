@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from coupled_hosts import Spring, drawn, grows, predicted
+from host_loops import Spring, drawn, grows, predicted
 from scipy.linalg import expm
 
 from bevel_differential import DifferentialError, DifferentialWarning, Scene

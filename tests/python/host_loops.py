@@ -1,7 +1,7 @@
 """Runs of the unit with hosts at its ports, and the longest stable step that they show. Hosts are written here from the definitions of
 docs/coupling.md, without the package's own prediction.
 
-    python tests/python/coupled_hosts.py FROM TO     compares both for the random combinations FROM to TO - 1
+    python tests/python/host_loops.py FROM TO     compares both for the random combinations FROM to TO - 1
 """
 
 import sys
