@@ -7,7 +7,9 @@ use serde::{Deserialize, Serialize};
 
 use super::instance::tolerance_row;
 use super::{CallError, CallResult, Discrete, Experiment, Interface, Kind, Phase};
-use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched};
+use crate::model::{
+    Accepted, Coupling, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched,
+};
 use crate::numeric::Finite;
 use crate::problem::{self, Problem};
 use crate::variables::unset::SetValues;
@@ -15,7 +17,7 @@ use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, ta
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Format version, incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 20;
+const VERSION: u32 = 21;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Data of an instance that change. Cloning copies the state and shares the constants.
@@ -74,7 +76,7 @@ impl Snapshot {
 /// Data of a simulation that are serialised after its snapshot: everything that does not follow from the parameters.
 /// The data are boxed, because they are large for a small stack. The inputs are those of the simulation, which may
 /// differ from the host's values.
-type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>);
+type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>, Option<Box<Coupling>>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs. Fails with every problem found.
@@ -122,13 +124,14 @@ impl Snapshot {
         let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
         let state = running.map(|s| Box::new(((*s.state(), *s.watched()), *s.inputs())));
         let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
+        let coupling = running.and_then(Simulation::coupling).map(|coupling| Box::new(*coupling));
         self.simulation = None;
-        self.resume((state, accepted), cache)
+        self.resume((state, accepted, coupling), cache)
     }
 
     /// Continues a `running` simulation, if there is one, with the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
-        if let (Some(running), accepted) = running {
+        if let (Some(running), accepted, coupling) = running {
             let resumed =
                 Simulation::resume_with(&self.effective(&self.parameters), &running.1, running.0, &given(cache));
             let mut resumed = resumed.map_err(|p| problem::list(&p))?;
@@ -136,18 +139,19 @@ impl Snapshot {
             if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {
                 resumed.set_input_derivatives(self.input_derivatives);
             }
-            self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
+            self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)).with_coupling(coupling));
         }
         Ok(())
     }
 
     /// Returns the `parameters` of the simulation. In model exchange, every planet has its own states. The host
-    /// computes the motion between completed steps, so mesh history and input ramps are off.
+    /// computes the motion between completed steps, so mesh history, advice about the step and input ramps are off.
     fn effective(&self, parameters: &Parameters) -> Parameters {
         let mut parameters = *parameters;
         let own_steps = self.kind == Kind::CoSimulation;
         parameters.solver.merge_planets &= own_steps;
         parameters.effects.mesh_history &= own_steps;
+        parameters.effects.coupling_advice &= own_steps;
         parameters.solver.input_ramp &= own_steps;
         parameters
     }
@@ -156,8 +160,11 @@ impl Snapshot {
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         // same layout as `Running`
         let simulation = self.simulation.as_ref();
-        let running =
-            (simulation.map(|s| ((s.state(), s.watched()), s.inputs())), simulation.and_then(Simulation::accepted));
+        let running = (
+            simulation.map(|s| ((s.state(), s.watched()), s.inputs())),
+            simulation.and_then(Simulation::accepted),
+            simulation.and_then(Simulation::coupling),
+        );
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
@@ -190,7 +197,7 @@ impl Snapshot {
     }
 
     /// Checks that all values are valid, which the checksum cannot show.
-    fn check(&self, (state, accepted): &Running) -> Result<(), String> {
+    fn check(&self, (state, accepted, coupling): &Running) -> Result<(), String> {
         let Self {
             version,
             kind,
@@ -214,6 +221,7 @@ impl Snapshot {
         if !start_time.is_finite()
             || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
             || state.as_ref().is_some_and(|both| !both.0.0.is_valid() || !both.0.1.is_valid())
+            || coupling.as_ref().is_some_and(|coupling| !coupling.is_valid())
             || !(accepted.as_deref().is_none_or(Finite::is_finite)
                 && input_derivatives.is_finite()
                 && discrete.is_finite())

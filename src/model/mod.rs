@@ -33,6 +33,7 @@ pub use assembly::model::Given;
 pub use dynamics::event::{AdvanceOptions, Event, Events, Happening};
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
+pub use effects::coupling_advice::Coupling;
 pub use effects::strength::Fatigue;
 pub use effects::{EFFECTS, EffectParameters, Effects};
 pub use exchange::{BODIES, Body, Direction, INDICATORS, STATES, StencilReadings, Update};

@@ -175,6 +175,14 @@ const ADDED: &[&str] = &[
     "limited_slip.curve[8].slip",
     "limited_slip.curve[8].torque",
     "lock.damping_time",
+    "effects.coupling_advice",
+    "coupling.host_delay",
+    "coupling.wanted_ratio",
+    "coupling.carrier.energy_error",
+    "coupling.left.energy_error",
+    "coupling.right.energy_error",
+    "coupling.energy_ratio",
+    "coupling.step_advice",
 ];
 
 /// Moves the rows of `ADDED` after all other rows, in the order of `ADDED`. Returns the new index of each row.

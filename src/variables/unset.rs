@@ -53,7 +53,7 @@ const LOCK: &str = "lock";
 /// Groups that describe the differential itself.
 const DIFFERENTIAL: [&str; 3] = ["geometry", "material", "inertia"];
 /// Groups that determine how a scene is computed. Their values select methods and do not describe a differential.
-const METHODS: [&str; 4] = ["scene", "effects", "solver", "solid"];
+const METHODS: [&str; 5] = ["scene", "effects", "solver", "solid", "coupling"];
 /// Variables with only one valid value.
 const SINGLE_VALUED: [&str; 1] = ["geometry.shaft_angle"];
 /// Endings of the names of factors. A factor of 1 has no effect.

@@ -4,6 +4,7 @@
 
 mod bearing_drag;
 mod body_compliance;
+pub mod coupling_advice;
 mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
@@ -182,6 +183,7 @@ effects! {
         body_compliance: body_compliance::BodyComplianceSpec,
         mesh_history: mesh_history::MeshHistorySpec,
         warm_up: warm_up::WarmUpSpec,
+        coupling_advice: coupling_advice::CouplingAdviceSpec,
     }
     commanded {
         lock: lock::LockSpec,

@@ -36,6 +36,7 @@ impl Simulation {
         if let Some(network) = &self.model.thermal {
             thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
         }
+        self.read_coupling(&mut readings);
         // held bodies follow the recorded events, because completing the step may switch friction before its event is
         // recorded
         let held = |range: std::ops::Range<usize>| {

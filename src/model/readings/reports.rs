@@ -38,6 +38,7 @@ pub struct Reported {
     outside: [bool; OUTSIDE.len()],
     start: bool,
     rattle: bool,
+    coupling: bool,
     speed: bool,
 }
 
@@ -65,6 +66,12 @@ impl Simulation {
             reported.speed = true;
             found.push(problem);
         }
+        if !reported.coupling
+            && let Some(problem) = self.costly_coupling()
+        {
+            reported.coupling = true;
+            found.push(problem);
+        }
         if !reported.rattle
             && let Some(problem) = effort::rattle_warning(&self.model, &self.state)
         {
@@ -89,6 +96,33 @@ impl Simulation {
             }
         }
         found
+    }
+
+    /// Warning about the cut between host and unit if it changes much of the transmitted energy, or if its energy error
+    /// grows.
+    fn costly_coupling(&self) -> Option<Problem> {
+        let coupling = self.coupling.as_ref()?;
+        let growth = coupling.growth()?;
+        let port = ["carrier", "left side", "right side"][growth.port];
+        let what = if growth.grows {
+            "energy that the cut creates grows from period to period"
+        } else {
+            "cut changes much energy"
+        };
+        let advice = coupling.advice(self.model.parameters.specs.coupling_advice.wanted_ratio);
+        let advised = if advice > 0.0 {
+            format!("coupling.step_advice is {} s", six_digits(advice))
+        } else {
+            "there is no coupling.step_advice".into()
+        };
+        Some(problem!(
+            "coupling.energy_ratio",
+            "the {what} at the {port}: coupling.energy_ratio is {} with steps of {} s at t = {:.6} s; {advised}; shorter steps, \
+             input derivatives, or moving the cut inside help (docs/coupling.md); reported once",
+            six_digits(coupling.ratio()),
+            six_digits(coupling.step()),
+            self.state.time()
+        ))
     }
 
     /// Warning about the fastest body if no differential reaches its speed.

@@ -13,12 +13,15 @@
 //! 6. `timeline` checks that the integration has reached the stop. Errors are explained by `failure`, `effort` and
 //!    `hints`.
 //!
+//! `coupling` records the exchange with the host, in scenes with advice about the communication step.
+//!
 //! Before a call, `input_ramp` turns jumps of inputs into ramps. `widened` lets ideal gears use methods other than the
 //! default. In model exchange, `accepted` stores the end of the last step of the host's solver.
 
 pub mod accepted;
 mod change;
 mod completed_step;
+pub mod coupling;
 pub mod effort;
 pub mod events;
 pub mod failure;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::FULL;
 
 use super::accepted::Accepted;
+use super::coupling::new_record;
 use super::integration::RESOLUTION;
 use super::progress::{self, restart};
 use super::watching::Watched;
@@ -12,6 +13,7 @@ use super::{StepFailure, change, timeline};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::State;
 use crate::model::dynamics::event::{AdvanceOptions, Events, Pause};
+use crate::model::effects::coupling_advice::Coupling;
 use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};
@@ -32,6 +34,8 @@ pub struct Simulation {
     pub(in crate::model) forces: Option<Forces>,
     /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
+    /// Record of the exchange with the host, in scenes with advice about the communication step.
+    pub(in crate::model) coupling: Option<Box<Coupling>>,
 }
 
 /// Effect of the inputs on the integration at the start of a step.
@@ -65,7 +69,8 @@ impl Simulation {
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
-        Ok(Self { model, state, watched, inputs: *inputs, forces: None, accepted: None })
+        let coupling = new_record(parameters);
+        Ok(Self { model, state, watched, inputs: *inputs, forces: None, accepted: None, coupling })
     }
 
     /// Sets the inputs that act from now on.
@@ -167,7 +172,16 @@ impl Simulation {
     /// next communication point. The next call continues with the same bits as without the stop. An event at the start
     /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the simulation is then at
     /// the last good time.
+    #[inline]
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
+        if self.coupling.is_some() {
+            return self.advance_recorded(until, options);
+        }
+        self.advance_unrecorded(until, options)
+    }
+
+    /// Advances as [`Self::advance_by`] does, without a record of the exchange with the host.
+    pub(super) fn advance_unrecorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
         let Self { model, state, watched, inputs, .. } = self;

@@ -6,6 +6,7 @@ use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
 use crate::model::dynamics::{Largest, State};
 use crate::model::effects::strength::Fatigue;
+use crate::model::run::coupling::new_record;
 use crate::model::run::events::{apply_changes, break_tooth};
 use crate::model::run::{Simulation, Watched, imposed};
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
@@ -73,6 +74,8 @@ impl Simulation {
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
+        // the exchange with the host begins now
+        simulation.coupling = new_record(parameters);
         simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
         Ok(simulation)
     }

@@ -19,8 +19,11 @@ const PART_OF_THE_QUESTION: [&str; 4] =
 
 /// Effects that change no motion and only add outputs, with parts of the names of these outputs. A scene can ask for
 /// such an output even if it is zero, such as a damage of 0.
-const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 2] =
-    [("effects.strength", &["stress.", "damage.", "safety."]), ("effects.mesh_history", &["_peak_to_peak"])];
+const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 3] = [
+    ("effects.strength", &["stress.", "damage.", "safety."]),
+    ("effects.mesh_history", &["_peak_to_peak"]),
+    ("effects.coupling_advice", &["coupling."]),
+];
 
 /// Status of an effect in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

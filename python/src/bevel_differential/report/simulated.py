@@ -10,7 +10,7 @@ from ..scene import Scene
 from ..values import DifferentialError, Number
 
 # effects that only add outputs, without influence on motion; a test checks that the command `accuracy` has the same list
-ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history")
+ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history", "effects.coupling_advice")
 # the fastest of several runs counts: maximum number of runs, and the total time after which no further run starts, s
 TIMED, SHORT = 3, 0.5
 # main speeds and torques, drawn in every report

@@ -1,0 +1,141 @@
+//! Records the exchange with the host over each communication step (`effects.coupling_advice`).
+//!
+//! Positions do not jump at communication points, so the end of a step is also the start of the next one. Between
+//! them, the input is constant or follows its derivatives, so its mean is exact.
+
+use super::{Simulation, StepFailure};
+use crate::model::dynamics::event::AdvanceOptions;
+use crate::model::effect_kinds::{BUILT, Changes};
+use crate::model::effects::coupling_advice::{Coupling, PORTS, PortStep};
+use crate::model::scene::{CARRIER, Inputs};
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::{Parameters, STEP_READINGS};
+
+/// Positions and their rates of all ports.
+type Places = [[f64; 2]; PORTS];
+
+/// Record of a new simulation with `parameters`, if its scene has the effect.
+pub fn new_record(parameters: &Parameters) -> Option<Box<Coupling>> {
+    (BUILT && parameters.effects.coupling_advice).then(Box::default)
+}
+
+/// Value of `inputs` at each port: torques, or the speeds of sides driven by speed.
+fn given(inputs: &Inputs, side_imposed: [bool; 2]) -> [f64; PORTS] {
+    let [left, right] = [0, 1].map(|s| if side_imposed[s] { inputs.side_speed[s] } else { inputs.load_torque[s] });
+    [inputs.carrier_torque, left, right]
+}
+
+impl Simulation {
+    /// Advances as [`Simulation::advance_by`] does, and records the exchange. A part of a communication step is
+    /// recorded with its end.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn advance_recorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
+        let side_imposed = self.model.ideal.plan.side_imposed;
+        let before = given(&self.inputs, side_imposed);
+        let derivatives = self.state.input_derivatives.as_ref();
+        let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
+        if let Some(coupling) = &self.coupling
+            && coupling.last.is_none()
+        {
+            let last = Some((self.time(), self.places()));
+            self.coupling.iter_mut().for_each(|coupling| coupling.last = last);
+        }
+        let begin = self.time();
+        self.advance_unrecorded(until, options)?;
+        // a part of a communication step belongs to the record of the whole step
+        if !options.is_part
+            && let Some(mut coupling) = self.coupling.take()
+        {
+            self.record(&mut coupling, before, (begin, rates));
+            self.coupling = Some(coupling);
+        }
+        Ok(())
+    }
+
+    /// Adds the step that ends now to `coupling`. The host's values were `before` at `begin` [s], with the first and
+    /// second `rates` of the inputs.
+    #[inline]
+    fn record(&self, coupling: &mut Coupling, before: [f64; PORTS], (begin, rates): (f64, Option<[[f64; PORTS]; 2]>)) {
+        let (time, end) = (self.time(), self.places());
+        let Some((last, start)) = coupling.last.replace((time, end)) else { return };
+        let mut steps = before.map(|given| PortStep { given, mean: given, h: time - last, ..PortStep::default() });
+        if let Some([first, second]) = rates {
+            let h = time - begin;
+            for (port, step) in steps.iter_mut().enumerate() {
+                step.mean += h * (0.5 * first[port] + h * second[port] / 6.0);
+                step.is_line = first[port] != 0.0 || second[port] != 0.0;
+            }
+        }
+        // a ramp reaches the host's value at the end of the step
+        if self.ramps_inputs() {
+            let after = given(&self.inputs, self.model.ideal.plan.side_imposed);
+            steps.iter_mut().zip(after).for_each(|(step, given)| (step.given, step.is_line) = (given, false));
+        }
+        for (port, step) in steps.iter_mut().enumerate() {
+            self.exchange(port, [start[port], end[port]], step);
+        }
+        coupling.add(&steps, self.model.parameters.specs.coupling_advice.host_delay);
+    }
+
+    /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
+    #[inline]
+    fn exchange(&self, port: usize, [start, end]: [[f64; 2]; 2], step: &mut PortStep) {
+        let plan = &self.model.ideal.plan;
+        let moved = end[0] - start[0];
+        (step.moved, step.changed) = (moved, end[1] - start[1]);
+        match port.checked_sub(1) {
+            None if plan.carrier_imposed => *step = PortStep::default(),
+            // the position is the twist of the half-shaft, and the rate its torque
+            Some(s) if plan.side_imposed[s] => {
+                let shaft = &self.model.parameters.specs.half_shaft;
+                step.moved = 0.5 * step.h * shaft.stiffness[s] * (start[0] + end[0]) + shaft.damping[s] * moved;
+            }
+            _ => {}
+        }
+    }
+
+    /// Angle and speed of each port driven by torque; twist and torque of a half-shaft whose wheel is driven by speed.
+    fn places(&self) -> Places {
+        let (model, state) = (&self.model, &self.state);
+        let (plan, layout) = (&model.ideal.plan, &model.layout);
+        let position = |i: usize| state.position(i, &model.periods);
+        let carrier = position(CARRIER);
+        let side = |s: usize| {
+            if !plan.shafts[s] {
+                return [carrier + position(s), state.v[s]];
+            }
+            let end = layout.end(s);
+            if plan.side_imposed[s] {
+                let (twist, shaft) = (position(end), &model.parameters.specs.half_shaft);
+                let rate = state.v[s] - state.v[end];
+                [twist, shaft.stiffness[s] * twist + shaft.damping[s] * rate]
+            } else {
+                [carrier + position(s) - position(end), state.v[end]]
+            }
+        };
+        [[carrier, state.v[CARRIER]], side(0), side(1)]
+    }
+
+    /// Sets the readings of the effect in the ledger.
+    pub(in crate::model) fn read_coupling(&self, readings: &mut [f64; STEP_READINGS]) {
+        let Some(coupling) = &self.coupling else { return };
+        let readings = &mut readings[const { places_of("coupling_advice", Changes::ByStep) }];
+        readings[..PORTS].copy_from_slice(&coupling.errors());
+        let wanted = self.model.parameters.specs.coupling_advice.wanted_ratio;
+        readings[PORTS..].copy_from_slice(&[coupling.ratio(), coupling.advice(wanted)]);
+    }
+
+    /// Record of the exchange with the host, for snapshots.
+    pub fn coupling(&self) -> Option<&Coupling> {
+        self.coupling.as_deref()
+    }
+
+    /// Returns the simulation with `coupling` as the record of its exchange with the host, if its scene has one.
+    pub fn with_coupling(mut self, coupling: Option<Box<Coupling>>) -> Self {
+        if self.coupling.is_some() && coupling.is_some() {
+            self.coupling = coupling;
+        }
+        self
+    }
+}

@@ -1,0 +1,205 @@
+"""Advice about the communication step: energy errors against an exact exchange, the advice followed, and warnings only for real causes."""
+
+import math
+import random
+
+import numpy as np
+import pytest
+from bevel_differential.vehicle import Car, Tyre
+from coupled_hosts import ERRORS, FREE, LAG, LOADS, Coupled, Host, couple
+
+ADVICE = ["coupling.energy_ratio", "coupling.step_advice"]
+
+
+def shaft():
+    return {"left": Host(9000.0, 12.0, 5.0, 2.0, speed=0.0)}, {"carrier.torque_command": 60.0}
+
+
+def both_sides():
+    return {"left": Host(500.0, 6.0, 2.0, 1.0, speed=0.0), "right": Host(800.0, 8.0, 3.0, 0.5, speed=20.0)}, {
+        "carrier.torque_command": 100.0}
+
+
+def motor():
+    return {"carrier": Host(2000.0, 10.0, 0.5, 0.2, lambda time: 40.0 + 80.0 * math.sin(20.0 * time), sign=-1.0)}, {
+        "left.load_torque": 15.0, "right.load_torque": 12.0}
+
+
+def swing():
+    return {"right": Host(300.0, 2.0, 50.0, speed=3.0)}, {"carrier.speed_command": 0.0}
+
+
+SYSTEMS = {made.__name__: made for made in (shaft, both_sides, motor, swing)}
+EXCHANGES = [(0, False), (1, False), (0, True), (1, True)]
+ORDERS = [(0, False, 1), (1, False, 1), (0, True, 2)]
+SIZE = 4e-4
+
+
+@pytest.fixture
+def coupled(fmu):
+    """coupled(system, size, delay, lines, **values): run of 1 s."""
+    def run(system, size, delay, lines, stop=1.0, **more):
+        hosts, values = SYSTEMS[system]()
+        return couple(fmu, hosts, size, stop, delay=delay, lines=lines, values=values | more)
+
+    return run
+
+
+@pytest.mark.parametrize(("delay", "lines"), EXCHANGES)
+@pytest.mark.parametrize("system", ["shaft", "both_sides", "motor"])
+def test_the_energy_error_is_that_of_the_exact_exchange(coupled, system, delay, lines):
+    run = coupled(system, SIZE, delay, lines)
+    for port, errors in run.errors.items():
+        assert errors[-1] == pytest.approx(run.exact[port][-1 - LAG], rel=0.1), port
+
+
+@pytest.mark.parametrize(("delay", "lines", "order"), ORDERS)
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_half_the_step_halves_the_ratio_or_quarters_it(coupled, system, delay, lines, order):
+    whole, half = (coupled(system, size, delay, lines).ratio[-1] for size in (SIZE / 2, SIZE / 4))
+    assert whole / half == pytest.approx(2**order, rel=0.15)
+
+
+@pytest.mark.parametrize(("delay", "lines", "order"), ORDERS)
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_advised_step_gives_the_wanted_ratio(coupled, system, delay, lines, order):
+    wanted = 0.003
+    advice = coupled(system, SIZE / 2, delay, lines, **{"coupling.wanted_ratio": wanted}).advice[-1]
+    followed = coupled(system, 1.0 / round(1.0 / advice), delay, lines)
+    assert wanted / 1.5 < followed.ratio[-1] < 1.5 * wanted
+
+
+@pytest.mark.parametrize("wanted", [1e-4, 2e-5])
+def test_a_car_that_follows_the_advice_has_the_wanted_ratio(fmu, wanted):
+    car = Car({"contact.law": "line", "effects.coupling_advice": True, "coupling.wanted_ratio": wanted}, left=Tyre(friction=0.15),
+              right=Tyre(friction=0.9), fmu=fmu)
+
+    def end(step):
+        return car.run(ADVICE, stop=1.0, step=step, request=([0.0, 0.3], [0.0, 120.0]))[-1]
+
+    followed = end(end(5e-4)["coupling.step_advice"])
+    assert wanted / 1.5 < followed["coupling.energy_ratio"] < 1.5 * wanted
+
+
+def played(fmu, torque, size=1e-3, stop=1.0):
+    """Run with a torque on the left side that depends only on time."""
+    run = Coupled()
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0, "right.load_torque": 10.0})
+        port = instance.port([LOADS["left"]], ADVICE)
+        for step in range(round(stop / size)):
+            ratio, advice = port.step([torque(step * size)], size)
+            run.ratio.append(ratio)
+            run.advice.append(advice)
+        run.messages = instance.messages
+    return run
+
+
+def noise(seed):
+    drawn = random.Random(seed)
+    return lambda time: drawn.uniform(-30.0, 30.0)
+
+
+TABLES = {"constant": lambda time: 10.0, "ramp": lambda time: 100.0 * time, "jumps": lambda time: 10.0 if time % 0.1 < 0.05 else -10.0,
+          "sine": lambda time: 10.0 + 20.0 * math.sin(12.0 * time), **{f"noise {seed}": noise(seed) for seed in range(5)}}
+
+
+@pytest.mark.parametrize("table", TABLES)
+def test_a_host_that_does_not_react_gets_no_warning(fmu, table):
+    assert not played(fmu, TABLES[table]).warnings
+
+
+def test_a_constant_torque_has_no_error_and_needs_no_advice(fmu):
+    run = played(fmu, TABLES["constant"])
+    assert not any(run.ratio) and not any(run.advice)
+
+
+def test_jumps_at_given_times_are_no_reaction(fmu):
+    run = played(fmu, TABLES["jumps"])
+    assert run.ratio[-1] > 0.0 and not any(run.advice)
+
+
+def test_a_standstill_gets_no_advice(fmu):
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.speed_command": 0.0})
+        port = instance.port([LOADS["left"]], ADVICE)
+        assert all(port.step([0.0], 1e-3) == [0.0, 0.0] for _ in range(50))
+
+
+def test_a_costly_cut_is_reported_once_with_port_ratio_step_advice_and_remedies(coupled):
+    run = coupled("shaft", 3e-3, 0, False)
+    assert len(run.warnings) == 1
+    for said in ("left side", "coupling.energy_ratio is 0.", "steps of 0.003 s", "coupling.step_advice is 0.00", "shorter steps",
+                 "input derivatives", "moving the cut inside"):
+        assert said in run.warnings[0]
+
+
+def test_a_growing_oscillation_is_reported_although_its_ratio_is_small(fmu):
+    # the limit is 2 c/k = 0.11 ms
+    run = couple(fmu, {"left": Host(9000.0, 0.5, 1e3, speed=0.0)}, 6e-4, 1.0, values={"carrier.speed_command": 1.0})
+    assert max(run.ratio[100:]) < 0.1
+    assert len(run.warnings) == 1 and "grows from period to period" in run.warnings[0]
+    stable = couple(fmu, {"left": Host(9000.0, 0.5, 1e3, speed=0.0)}, 8e-5, 1.0, values={"carrier.speed_command": 1.0})
+    assert not stable.warnings
+
+
+def test_a_side_driven_by_speed_has_the_energy_of_its_late_speed(fmu):
+    size, acceleration, steps = 1e-3, 30.0, 400
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "scene.left_drive": "speed", "scene.right_drive": "speed",
+                                    "left.speed_command": 10.0, "right.speed_command": 10.0, "carrier.speed_command": 10.0,
+                                    "carrier.torque_command": 200.0})
+        port = instance.port(["left.speed_command", "right.speed_command"], ["left.shaft_torque", *ERRORS])
+        impulse, error = 0.0, 0.0
+        for step in range(steps):
+            torque, _, error, _ = port.step([10.0 + acceleration * step * size] * 2, size)
+            impulse += torque * size if step < steps - LAG else 0.0
+    # the speed is half a step late: the wheel turns faster than the unit's end of the shaft
+    assert error == pytest.approx(0.5 * acceleration * size * impulse, rel=0.02)
+
+
+def values_of(port, torques):
+    return [port.step([torque], 1e-3) for torque in torques]
+
+
+def test_rollback_and_saved_states_keep_all_values(fmu):
+    shown = [*ERRORS, *ADVICE]
+    torques = [20.0 * math.sin(0.3 * step) for step in range(60)]
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0})
+        port = instance.port([LOADS["left"]], shown)
+        values_of(port, torques)
+        at, time, state = port.read(), instance.time, instance.raw.getFMUState()
+        saved = instance.raw.serializeFMUState(state)
+        first = values_of(port, torques)
+        for again in (state, instance.raw.deSerializeFMUstate(saved)):
+            instance.raw.setFMUState(again)
+            instance.time = time
+            assert port.read() == at
+            assert values_of(port, torques) == first
+
+
+def test_all_signs_reversed_give_the_same_ratio_and_advice(fmu):
+    def ends(sign):
+        with fmu.open() as instance:
+            instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.speed_command": sign * 5.0,
+                                        "carrier.torque_command": sign * 20.0})
+            port = instance.port([LOADS["left"], LOADS["right"]], ["left.wheel_speed", "right.wheel_speed", *ERRORS, *ADVICE])
+            row, rows = port.read(), []
+            for _ in range(300):
+                row = port.step([3.0 * row[0], 2.0 * row[1]], 1e-3)
+                rows.append(row[2:])
+        return rows
+
+    assert np.any(ends(1.0)) and ends(1.0) == ends(-1.0)
+
+
+def test_the_advice_changes_no_bit_of_the_motion(fmu):
+    def motion(on):
+        with fmu.open() as instance:
+            instance.initialise({"effects.coupling_advice": on, "scene.carrier_drive": "torque", "inertia.left_end": 0.5,
+                                 "inertia.right_end": 0.5})
+            port = instance.port([LOADS["left"]], ["left.angle", "right.speed", "carrier.speed", "solver.steps"])
+            return [port.step([800.0 + step], 1e-3) for step in range(100)]
+
+    assert motion(True) == motion(False)
