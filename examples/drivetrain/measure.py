@@ -120,12 +120,13 @@ def write_csv(file, rows):
         writer.writerows(rows)
 
 
-def limits(library, fmus, quick):
+def limits(fmus, quick):
     """Predicted limits of the communication step by master, with the growth of a disturbance in the FMUs on both sides."""
     with System.of_fmus(fmus, "ideal") as system:
         interpolates = next(part for part in system.parts if part.name == "differential").interpolates
-    sliding = stability.linear_system(library, interpolates, 0.0)
-    linear = stability.linear_system(library, interpolates)
+    differential = str(fmus["BevelDifferential"])
+    sliding = stability.linear_system(differential, interpolates, 0.0)
+    linear = stability.linear_system(differential, interpolates)
     found = {"interpolates": interpolates, "frequency": stability.frequency(linear)}
     for name, master in masters.ALL.items():
         progress(0.2, f"limit of {master.label}")

@@ -31,9 +31,11 @@ def limits(found):
         measured = "–" if row.get("measured") is None else f"{row['measured'] * 1e3:.2f}"
         around = f"× {row['inside']:.2g} / × {row['outside']:.2g}" if "inside" in row else "–"
         rows.append([master.label, f"{row['predicted'] * 1e3:.2f}", measured, around])
+    shortest = min(found[name]["predicted"] for name in ALL)
     return ("Longest communication step, ms, at which nothing grows (with rollback: repetitions converge), and what a disturbance\n"
             "becomes in 0.2 s at 0.85 / 1.15 of the prediction.\n\n"
-            + table([["master", "predicted", "found", "at 0.85 / at 1.15"], *rows]))
+            + table([["master", "predicted", "found", "at 0.85 / at 1.15"], *rows])
+            + f"\nThe archive's step of {STEP * 1e3:g} ms is {100.0 * STEP / shortest:.0f} % of the shortest of these.\n")
 
 
 def errors(contact, found):

@@ -51,7 +51,7 @@ def everything(fmu, library_path, folder, quick):
     hosts = measure.hosts(folder, fmus, quick)
     progress(0.1, "the whole as one set of equations")
     references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}
-    limits = measure.limits(library, fmus, quick)
+    limits = measure.limits(fmus, quick)
     errors = measure.errors(fmus, references, quick)
     mesh = measure.mesh(library)
     measure.write_csv(folder / "errors.csv", errors)

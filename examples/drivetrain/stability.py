@@ -1,40 +1,39 @@
 """Longest communication step: stability of the coupled linearised parts under the same masters that run the FMUs.
 
 The drivetrain is at rest, tyres grip, gears are ideal. Each part is ẋ = A x + B u, o = C x + D u, and steps exactly
-(matrix exponential) with inputs held or on a line. One step of a master is then a matrix, and a disturbance grows if its
-largest eigenvalue is above 1. If a master repeats its step, the matrix of one repetition decides on convergence.
+(matrix exponential) with inputs held or on a line. The matrices of the differential are its own directional derivatives. One
+step of a master is then a matrix, and a disturbance grows if its largest eigenvalue is above 1. If a master repeats its step,
+the matrix of one repetition decides on convergence.
+
+`bevel_differential.coupling` does the same for hosts at the ports of the differential. Here, further parts are between them.
 """
 
 import numpy as np
+from bevel_differential.coupling import Linear, linearised, longest
 from scipy.linalg import expm
 
 import reference as r
 from masters import IteratedHeld
-from slaves import System
+from parameters import settings
+from slaves import FmuPart, System
+
+
+# range in which the limit is searched [s]
+RANGE = (1e-5, 1e-2)
 
 
 class LinearPart:
     """A part that steps by the matrix exponential."""
 
-    def __init__(self, matrices, follows_lines):
-        self.a, self.b, self.c, self.d = (np.array(m, dtype=float) for m in matrices)
-        self.follows_lines = follows_lines
+    def __init__(self, linear, follows_lines):
+        self.linear, self.follows_lines = linear, follows_lines
+        self.a, self.b, self.c, self.d = linear.a, linear.b, linear.c, linear.d
         self.x, self.u = np.zeros(len(self.a)), np.zeros(self.b.shape[1])
-        self.cache = {}
-
-    def matrices(self, size):
-        if size not in self.cache:
-            n, m = self.b.shape
-            whole = np.zeros((n + 2 * m, n + 2 * m))
-            whole[:n, :n], whole[:n, n:n + m], whole[n:n + m, n + m:] = self.a, self.b, np.eye(m)
-            e = expm(whole * size)
-            self.cache[size] = e[:n, :n], e[:n, n:n + m], e[:n, n + m:]
-        return self.cache[size]
 
     def step(self, time, size, u, slope=None):
         if slope is not None and not self.follows_lines:
             u, slope = u + 0.5 * size * slope, None
-        free, held, line = self.matrices(size)
+        free, held, line = self.linear.exact(size)
         self.x = free @ self.x + held @ u
         self.u = u
         if slope is not None:
@@ -56,14 +55,9 @@ class LinearPart:
         pass
 
 
-def parts(library, grip):
-    """Matrices A, B, C, D by part; `grip` of the left tyre: 1, or 0 if it slides."""
+def parts(grip):
+    """Matrices A, B, C, D of all parts but the differential; `grip` of the left tyre: 1, or 0 if it slides."""
     k, c, ratio = r.PROP_STIFFNESS, r.PROP_DAMPING, r.GEAR
-    ideal = r.Ideal(library)
-    rows = np.eye(7)
-    # x = (twists, speeds of the sides), u = (carrier torque, wheels)
-    both = np.array([ideal.rates(row[:4], row[4], row[5:]) for row in rows]).T
-    outputs = np.array([[ideal.carrier_speed(row[:4]), *ideal.torques(row[:4], row[5:])] for row in rows]).T
 
     def wheel(grip):
         force, damping, arm = grip * r.SLIP_STIFFNESS, grip * r.TYRE_DAMPING, r.RADIUS / r.WHEEL_INERTIA
@@ -77,21 +71,26 @@ def parts(library, grip):
         "final_drive": ([[-c / ratio**2 / r.ENGINE_INERTIA, -k / ratio / r.ENGINE_INERTIA], [1 / ratio, 0]],
                         [[1 / r.ENGINE_INERTIA, c * r.FINAL / ratio / r.ENGINE_INERTIA], [0, -r.FINAL]],
                         [[1, 0], [r.FINAL * c / ratio, r.FINAL * k]], [[0, 0], [0, -c * r.FINAL**2]]),
-        "differential": (both[:, :4], both[:, 4:], outputs[:, :4], outputs[:, 4:]),
         "left_wheel": wheel(grip), "right_wheel": wheel(1.0),
         "vehicle": ([[-rolling]], [[1 / r.MASS, 1 / r.MASS]], [[1]], [[0, 0]]),
     }
 
 
-def linear_system(library, interpolates, grip=1.0):
-    """System of linear parts; `interpolates`: true if the differential follows lines."""
-    matrices = parts(library, grip)
+def linear_system(fmu, interpolates, grip=1.0):
+    """System of linear parts; `fmu`: the differential; `interpolates`: true if it follows lines."""
+    matrices = parts(grip)
 
     def make_part(name, inputs, outputs):
+        if name == "differential":
+            values = {variable: value for (owner, variable), value in settings("ideal").items() if owner == name}
+            part = FmuPart(name, fmu, inputs, outputs, values)
+            linear = linearised(part.instance, inputs, outputs)
+            part.close()
+            return LinearPart(linear, interpolates)
         a, b, c, d = matrices[name]
         if name == "final_drive" and outputs[0] == "carrier_torque":
             c, d = c[::-1], d[::-1]
-        return LinearPart((a, b, c, d), interpolates or name != "differential")
+        return LinearPart(Linear.of(a, b, c, d), True)
 
     return System(make_part)
 
@@ -117,20 +116,9 @@ def growth(system, master, size):
     return np.max(np.abs(np.linalg.eigvals(np.array(columns).T)))
 
 
-def limit(system, master, low=1e-4, high=1e-2):
+def limit(system, master):
     """Longest communication step [s] below which no disturbance grows, or every repetition converges."""
-    sizes = np.geomspace(low, high, 40)
-    grows = [growth(system, master, size) > 1.0 + 1e-9 for size in sizes]
-    if not any(grows):
-        return np.inf
-    first = grows.index(True)
-    if first == 0:
-        return 0.0
-    good, bad = sizes[first - 1], sizes[first]
-    for _ in range(30):
-        middle = 0.5 * (good + bad)
-        good, bad = (good, middle) if growth(system, master, middle) > 1.0 + 1e-9 else (middle, bad)
-    return good
+    return longest(lambda size: growth(system, master, size), *RANGE)
 
 
 def whole(system):

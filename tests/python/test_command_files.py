@@ -13,8 +13,9 @@ from bevel_differential.output_file import ENDINGS, checked
 from bevel_differential.spectrum import spectrum
 
 # required arguments by command
-NEEDED = {"accuracy": ["study_turning", "--within", "1%"], "loads": ["study_turning"], "losses": ["torque_bias"], "optimise": ["problem.toml"],
-          "plan": ["study_turning"], "report": ["study_turning"], "run": ["study_turning"], "spectrum": ["cycle.csv"],
+NEEDED = {"accuracy": ["study_turning", "--within", "1%"], "coupling": ["study_turning", "--host", "left:k=1,c=1"],
+          "loads": ["study_turning"], "losses": ["torque_bias"],
+          "optimise": ["problem.toml"], "plan": ["study_turning"], "report": ["study_turning"], "run": ["study_turning"], "spectrum": ["cycle.csv"],
           "sweep": ["--scene", "study_turning"], "tolerance": ["tolerances.toml"]}
 # options for files to read
 INPUTS = {"--fmu", "--scene", "--plan-file"}

@@ -82,6 +82,8 @@ CASES = {
                 "2", "--most", "8", "--csv", "a.csv", "--simulink", "a.m", "--plot", "a.png", "--report", "a.html", "--workers", "0"],
                "a.csv", 0, ()),
     "bench": (["winter_start", "--out", "out", "--workers", "0"], "out/winter_start.toml", 150_000, ()),
+    "coupling": (["one_wheel_on_ice", "--set", "scene.start=equilibrium", "--host", "left:k=9000,c=12,J=1", "--plot", "a.png"], "a.png",
+                 8192, ()),
     "study": (["--out", "out"], "out/table.md", 190_000, ()),
     "verify": (["--csv", "a.csv"], "a.csv", 0, ()),
     "variables": (["--csv", "a.csv"], "a.csv", 0, ()),

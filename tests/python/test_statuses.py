@@ -48,6 +48,7 @@ FILES = {"scene.toml": SCENE, "light.toml": PROBLEM.format(diameter=95), "tiny.t
          "light.csv": CYCLE.format(count=1, torque=500), "heavy.csv": CYCLE.format(count=1000000, torque=3000), "there.toml": ""}
 SWEEP = "sweep --scene study_turning --stop 2ms --want left.speed --plan grid --workers 0 --vary"
 LOSSES = "losses torque_bias --speed 10,20 --difference 5,10 --temperature 20degC --unseen 3 --workers 0 --torque 100,200"
+COUPLING = "coupling one_wheel_on_ice --set scene.gear_contact=ideal --host"
 ACCURACY = "accuracy study_turning --stop 5ms --want left.speed:mean --within"
 OPTIMISE = "optimise {problem} --workers 0 --out {out}"
 # command lines by command and status
@@ -75,6 +76,8 @@ CASES = {
     "losses": {DONE: LOSSES, FAILED: f"{LOSSES} --csv {NOWHERE}/a.csv", WRONG: f"{LOSSES} --set geometry.module=0",
                FINDING: f"{LOSSES} --bound 1e-4,1e-4 --most 4"},
     "bench": {DONE: "bench winter_start", FAILED: f"bench winter_start --out {NOWHERE}/a", WRONG: "bench winter_start --set geometry.module=0"},
+    "coupling": {DONE: f"{COUPLING} left:k=9000,c=12,J=1", FAILED: f"{COUPLING} left:k=9000,c=12,J=1 --plot {NOWHERE}/a.png",
+                 WRONG: f"{COUPLING} left:k=9000,c=soon", FINDING: f"{COUPLING} left:k=9000,c=0,J=1,reads=both"},
     "study": {DONE: "study --quick", FAILED: f"study --quick --out {NOWHERE}/a", WRONG: "study --quick --fmu none.fmu"},
     "verify": {DONE: "verify good.fmu", FAILED: f"verify good.fmu --csv {NOWHERE}/a.csv", WRONG: "verify none.fmu", FINDING: "verify bad.fmu"},
     "examples": {DONE: "examples", FAILED: f"examples --out {NOWHERE}/a", WRONG: "examples --out there"},

@@ -189,7 +189,7 @@ def test_constant_power_above_the_knee(fmu_file):
     (lambda fmu: Car({"contact.lawn": "line"}, fmu=fmu), "contact.lawn: there is no such variable"),
     (lambda fmu: Car(fmu=fmu).run(["body.sped"]), "body.sped: neither the differential nor the car has it (did you mean body.speed"),
     (lambda fmu: Car(fmu=fmu).run(["body.speed"] * 2), "body.speed: it is recorded twice"),
-    (lambda fmu: Car(fmu=fmu).run(step="20 ms"), "step = 0.02 s: the left tyre at standstill is stable with steps up to 0.0057 s"),
+    (lambda fmu: Car(fmu=fmu).run(step="20 ms"), "step = 0.02 s: the car is stable with steps up to "),
     (lambda fmu: Car(fmu=fmu).run(request=([0, 1], [2])), "request: it is a pair of lists"),
     (lambda fmu: Car(fmu=fmu).run(speed="fast"), "speed = 'fast': it is m/s, or a number and one of m/s, km/h"),
     (lambda fmu: Car(fmu=fmu).run(steer="left"), "steer = 'left': it is a finite number"),

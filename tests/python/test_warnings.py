@@ -67,6 +67,7 @@ RUNS = {
     "pattern": (["{}/scene.toml", "--out", "{}/pattern"], [WIDE, UNFELT, STIFFNESS]),
     "sweep": (["--scene", "{}/scene.toml", "--vary", "left.load_torque=300, 400", "--plan", "grid", "--want", "efficiency",
                "--workers", "0"], [WIDE, UNFELT, STIFFNESS]),
+    "coupling": (["{}/scene.toml", "--host", "left:k=9000,c=12,J=1"], [WIDE, UNFELT, STIFFNESS]),
     "spectrum": (["{}/cycle.csv", "--set", "geometry.module=4.3 mm", "--set", "geometry.face_width=21 mm"],
                  [WIDE, STIFFNESS]),
     "losses": (["{}/scene.toml", "--torque", "100 N.m, 200 N.m", "--speed", "50 rad/s, 60 rad/s", "--difference", "5 rad/s, 10 rad/s",

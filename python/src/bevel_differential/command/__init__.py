@@ -37,6 +37,7 @@ COMMANDS = {
                  "damage and life of the gears over a duty cycle: events with counts, torque and speeds"),
     "losses": (".losses.command", "sweep", "map power loss and torque bias over torque, speeds and oil temperature, with measured errors"),
     "bench": (".bench.command", "sweep", "put a differential on a virtual bench: torque bias, breakaway, judder, hot lap, winter start"),
+    "coupling": (".coupling.command", "plot", "find the longest stable communication step of hosts at the ports, and what limits it"),
     "study": (".study.command", "report", "simulate the two cases of the study and compare the results with the study and with theory"),
     "verify": (".command.verify", None, "simulate the scenes of an FMU's evidence and compare with its results within their tolerances"),
     "examples": (".command.examples", None, "copy the example files of designs, tolerances, duty cycles and cars into a folder"),

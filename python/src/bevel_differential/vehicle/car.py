@@ -33,6 +33,12 @@ DEFAULT_OUTPUTS = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "l
 # requests that a controller sets in addition to inputs of the differential
 REQUESTS = ("motor.request", "body.steer")
 
+# fraction of the times of a wheel on its tyre up to which no step needs a closer look
+SAFE = 0.25
+# speeds at which the stability of a step is checked, by the speed at which the damping of the tyres is halved: from standstill, where
+# damping is largest, to where there is none
+WALKS = (0.0, 1.0, 2.0, 3.0, 4.0, 8.0)
+
 # receives the time (s) and the recorded outputs by name; returns the values to set, by name
 Controller = Callable[[float, dict[str, Number]], Mapping[str, Value] | None]
 
@@ -144,15 +150,42 @@ class Car:
             raise DifferentialError(f"{twice}: it is recorded twice; name each output once")
         return names
 
+    def longest_step(self) -> float:
+        """Longest step [s] that is stable at all speeds, as the differential and the tyres are coupled in `run`: the differential with both
+        wheels, linearised at rest, and tyres without slip on a body of constant speed; see `bevel_differential.coupling`."""
+        # imported here, because runs with usual steps do not need it
+        from ..coupling import GAUSS_SEIDEL, HOST, LINES, linearised, stability
+
+        motion = Motion(self.motor, self.tyres, self.body, 0.0)
+        with self.fmu.open() as instance:
+            instance.initialise(self._start(motion, 0.0, 0.0) | dict.fromkeys(LOADS, 0.0))
+            unit = linearised(instance, LOADS[1:], SPEEDS[1:])
+        walk = max(tyre.walk for tyre in self.tyres)
+        return min(stability(unit, [_host(side, tyre, part * walk) for side, tyre in zip(("left", "right"), self.tyres)],
+                             GAUSS_SEIDEL, LINES, HOST).limit for part in WALKS)
+
     def _check_step(self, step):
-        for side, tyre in zip(("left", "right"), self.tyres):
-            # a load that is late by one step acts as a damper with the coefficient minus stiffness times step
-            longest = min(tyre.damping * tyre.relaxation / tyre.slip_stiffness,
-                          2.0 * math.sqrt(tyre.inertia * tyre.relaxation / tyre.slip_stiffness) / tyre.radius)
+        # far below these times of a wheel on its tyre, every step is stable
+        times = [time for tyre in self.tyres for time in _times(tyre)]
+        if step > SAFE * min(times):
+            longest = self.longest_step()
             if step > longest:
-                raise DifferentialError(f"step = {step:g} s: the {side} tyre at standstill is stable with steps up to "
-                                        f"{longest:.2g} s (damping times relaxation length by slip stiffness, or twice the "
-                                        "wheel's period by 2 pi); use a shorter one")
+                raise DifferentialError(f"step = {step:g} s: the car is stable with steps up to {longest:.3g} s, because tyres and "
+                                        "differential exchange speeds and torques only once in a step; use a shorter one")
+
+
+def _host(side, tyre, speed):
+    """Tyre around no slip at a speed of the body [m/s], as a host that reads the wheel's speed."""
+    from ..coupling import Host
+
+    # `slip_rate` and `tyre_force`, with the slip as state
+    return Host.of(side, [[-speed / tyre.relaxation]], [[tyre.radius / tyre.relaxation]], [[tyre.radius * tyre.slip_stiffness]],
+                   [[tyre.radius**2 * tyre.damping / (1.0 + (speed / tyre.walk) ** 2)]], "speed")
+
+
+def _times(tyre):
+    """Times [s] of a wheel on its tyre at standstill: inertia by damping, and the inverse frequency."""
+    return tyre.inertia / (tyre.radius**2 * tyre.damping), math.sqrt(tyre.inertia * tyre.relaxation / tyre.slip_stiffness) / tyre.radius
 
 
 class _Run:

@@ -1,0 +1,59 @@
+"""The command `coupling`."""
+
+import argparse
+
+from ..command import DONE, FINDING
+from ..command.arguments import add_file, add_fmu, add_set, once
+
+# masters of the command; rollback needs a master that saves states, which Python offers
+MASTERS, INPUTS = ("jacobi", "gauss-seidel"), ("held", "lines")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Adds the arguments of the command."""
+    parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
+    add_set(parser)
+    parser.add_argument("--host", metavar="HOST", action="append", required=True,
+                        help="PORT:k=9000,c=12,J=1,reads=speed: spring, damper and the inertia behind them at the port carrier, left or "
+                             "right, in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1. May be "
+                             "repeated")
+    parser.add_argument("--master", choices=MASTERS, default=MASTERS[0],
+                        help="jacobi: both sides step at the same time; gauss-seidel: the unit steps first (default: jacobi)")
+    parser.add_argument("--input", choices=INPUTS, default=INPUTS[0], help="inputs held over a step, or on lines (default: held)")
+    parser.add_argument("--at", metavar="TIME", default="0 s", help="time in the scene of the operating point (default: its start)")
+    add_file(parser, "--plot", "picture", "draw the growth of a disturbance over the step")
+    add_fmu(parser)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Prints the longest stable step and writes files. If no step is stable, this is a finding. Raises `DifferentialError`."""
+    from ..scene import Scene
+    from ..text import aligned
+    from . import Host, coupling
+    from .picture import draw
+
+    hosts = [Host.parse(text) for text in arguments.host]
+    with Scene.load(arguments.scene, arguments.fmu) as scene:
+        scene.set(once("--set", arguments.set))
+        made = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)
+    for host in hosts:
+        print(f"{host.port}: {host.words}")
+    print(f"longest stable step: {step(made.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")
+    if lost := made.mode():
+        print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}")
+    print(f"\nas the hosts see the ports in steps of {step(made.step)}:")
+    rows = [(port, f"{found.inertia:.4g}", f"{found.stiffness:.4g}") for port, found in made.apparent().items()]
+    print("\n".join(aligned([("port", "inertia, kg.m2", "stiffness, N.m/rad"), *rows], 1)))
+    limits = made.limits()
+    print("\nlongest stable step of each master:")
+    masters = dict.fromkeys(master for master, _ in limits)
+    print("\n".join(aligned([("master", *(f"inputs {name}" if name == "held" else "on lines" for name in INPUTS)),
+                             *((master, *(step(limits[master, name]) for name in INPUTS)) for master in masters)], 1)))
+    if arguments.plot:
+        print(f"\nwritten: {draw(made, arguments.plot)}")
+    return DONE if made.limit else FINDING
+
+
+def step(limit: float) -> str:
+    """A step in words, in ms."""
+    return "none" if limit == 0.0 else "any up to 1 s" if limit == float("inf") else f"{limit * 1e3:.3g} ms"
