@@ -3,7 +3,9 @@
 //! Serialised form, little-endian: magic (8 bytes), format version (u32), hash of the interface's GUID (u64), length of
 //! the payload (u64), payload (postcard), and FNV-1a checksum of everything before it (u64).
 
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::instance::tolerance_row;
 use super::{CallError, CallResult, Discrete, Experiment, Interface, Kind, Phase};
@@ -76,7 +78,18 @@ impl Snapshot {
 /// Data of a simulation that are serialised after its snapshot: everything that does not follow from the parameters.
 /// The data are boxed, because they are large for a small stack. The inputs are those of the simulation, which may
 /// differ from the host's values.
-type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>, Option<Box<Coupling>>);
+type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>, Option<Record>);
+
+/// Record of the exchange with the host. It is read in a separate function, because its frame is large for a small
+/// stack.
+struct Record(Arc<Coupling>);
+
+impl<'de> Deserialize<'de> for Record {
+    #[inline(never)]
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Coupling::deserialize(from).map(|coupling| Self(Arc::new(coupling)))
+    }
+}
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs. Fails with every problem found.
@@ -124,7 +137,7 @@ impl Snapshot {
         let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
         let state = running.map(|s| Box::new(((*s.state(), *s.watched()), *s.inputs())));
         let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
-        let coupling = running.and_then(Simulation::coupling).map(|coupling| Box::new(*coupling));
+        let coupling = running.and_then(Simulation::coupling).map(|coupling| Record(coupling.clone()));
         self.simulation = None;
         self.resume((state, accepted, coupling), cache)
     }
@@ -139,7 +152,11 @@ impl Snapshot {
             if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {
                 resumed.set_input_derivatives(self.input_derivatives);
             }
-            self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)).with_coupling(coupling));
+            self.simulation = Some(
+                resumed
+                    .from_accepted(accepted.map(|accepted| *accepted))
+                    .with_coupling(coupling.map(|record| record.0)),
+            );
         }
         Ok(())
     }
@@ -163,7 +180,7 @@ impl Snapshot {
         let running = (
             simulation.map(|s| ((s.state(), s.watched()), s.inputs())),
             simulation.and_then(Simulation::accepted),
-            simulation.and_then(Simulation::coupling),
+            simulation.and_then(Simulation::coupling).map(|coupling| &**coupling),
         );
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
@@ -221,7 +238,7 @@ impl Snapshot {
         if !start_time.is_finite()
             || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
             || state.as_ref().is_some_and(|both| !both.0.0.is_valid() || !both.0.1.is_valid())
-            || coupling.as_ref().is_some_and(|coupling| !coupling.is_valid())
+            || coupling.as_ref().is_some_and(|record| !record.0.is_valid())
             || !(accepted.as_deref().is_none_or(Finite::is_finite)
                 && input_derivatives.is_finite()
                 && discrete.is_finite())

@@ -129,14 +129,14 @@ impl Simulation {
     }
 
     /// Record of the exchange with the host, for snapshots.
-    pub fn coupling(&self) -> Option<&Coupling> {
-        self.coupling.as_deref()
+    pub fn coupling(&self) -> Option<&Arc<Coupling>> {
+        self.coupling.as_ref()
     }
 
     /// Returns the simulation with `coupling` as the record of its exchange with the host, if its scene has one.
-    pub fn with_coupling(mut self, coupling: Option<Box<Coupling>>) -> Self {
+    pub fn with_coupling(mut self, coupling: Option<Arc<Coupling>>) -> Self {
         if self.coupling.is_some() && coupling.is_some() {
-            self.coupling = coupling.map(|coupling| Arc::new(*coupling));
+            self.coupling = coupling;
         }
         self
     }
