@@ -80,6 +80,9 @@ impl Snapshot {
 /// differ from the host's values.
 type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>, Option<Record>);
 
+/// First two parts of [`Running`].
+type Stored = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>);
+
 /// Record of the exchange with the host. It is read in a separate function, because its frame is large for a small
 /// stack.
 struct Record(Arc<Coupling>);
@@ -196,21 +199,31 @@ impl Snapshot {
 
     /// Reads a snapshot from `bytes`. Fails with the reason if they cannot be used.
     pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
-        let (mut snapshot, running) = Self::read(open(bytes)?)?;
+        let (mut snapshot, (running, accepted), rest) = Self::read(open(bytes)?)?;
+        let running = (running, accepted, Self::read_record(rest)?);
         snapshot.check(&running)?;
         snapshot.resume(running, cache)?;
         Ok(*snapshot)
     }
 
-    /// Reads the content of a payload.
+    /// Reads the content of a payload up to the record of the exchange. Returns the rest as well.
     #[inline(never)]
-    fn read(payload: &[u8]) -> Result<(Box<Self>, Running), String> {
+    fn read(payload: &[u8]) -> Result<(Box<Self>, Stored, &[u8]), String> {
         let read = postcard::take_from_bytes(payload);
-        let (found, rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
+        let ((snapshot, stored), rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
+        Ok((snapshot, stored, rest))
+    }
+
+    /// Reads the record of the exchange with the host from the `rest` of a payload. It is read after the frame of
+    /// [`Self::read`] is free, for a small stack.
+    #[inline(never)]
+    fn read_record(rest: &[u8]) -> Result<Option<Record>, String> {
+        let read = postcard::take_from_bytes(rest);
+        let (record, rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
         if !rest.is_empty() {
             return Err(format!("the state has {} bytes too many", rest.len()));
         }
-        Ok(found)
+        Ok(record)
     }
 
     /// Checks that all values are valid, which the checksum cannot show.
