@@ -62,7 +62,7 @@ pub struct WheelFriction {
 pub enum SurfaceKind {
     /// Surface between side gear and carrier.
     Side,
-    /// The same surface, with a torque from a measured curve.
+    /// Surface between side gear and carrier, with a torque from a measured curve.
     SideCurve,
     /// Surface between a planet and its pin.
     Pin,
