@@ -34,7 +34,7 @@ SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "
           "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
           "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
 # outputs that jump by the documentation: with completed steps, at events, and from tooth pair to tooth pair
-JUMPS = ("damage.", "solver.", "held.", "safety.root_min", "safety.flank_min")
+JUMPS = ("damage.", "solver.", "held.", "safety.root_min", "safety.flank_min", "coupling.")
 COUNTS = ("_peak_to_peak", "_pairs", ".tooth")
 POINTS, STEP, SIZE = 4, 7e-3, 4e-6
 # allowed error relative to the largest slope of an output in the run, or of the fastest temperature (the thermal network has order 2)
