@@ -1,5 +1,7 @@
 """Every parameter and input can be set from its control. The page accepts and refuses values exactly like the native FMU."""
 
+from math import degrees
+
 import pytest
 from bevel_differential import DifferentialError, Scene
 
@@ -8,6 +10,8 @@ SCENE, STOP = "study_straight", 0.02
 # largest Integer of FMI
 LARGEST = 2**31 - 1
 FRAGMENT = f"scene={SCENE}&stop_time={STOP}"
+# unit in which the page shows all speeds at first
+SPEEDS = "deg/s"
 
 
 @pytest.fixture
@@ -26,9 +30,14 @@ def text_of(number):
     return f"{number:.5g}"
 
 
+def shown(variable, value):
+    """Unit of the page, and the value in it."""
+    return (SPEEDS, degrees(value)) if variable.unit == "rad/s" else variable.shown(value)
+
+
 def in_si(variable, text):
     """Value in SI of a text that is typed in the unit of the page."""
-    return variable.number((text, variable.shown(0.0)[0] or None))
+    return variable.number((text, shown(variable, 0.0)[0] or None))
 
 
 def another(variable, value):
@@ -44,7 +53,7 @@ def another(variable, value):
         return str(number), number
     candidates = [1.1 * value, 0.9 * value, *([low + 0.3 * (high - low), low + 0.6 * (high - low)] if low is not None else [1.0])]
     for candidate in candidates:
-        text = text_of(variable.shown(candidate)[1])
+        text = text_of(shown(variable, candidate)[1])
         number = in_si(variable, text)
         if number != value and (low is None or low <= number <= high):
             return text, number
@@ -62,7 +71,7 @@ def beyond(variable):
     """A value above the range, as (text that a user types, value in SI)."""
     if variable.kind == "Integer":
         return str(variable.maximum + 1), variable.maximum + 1
-    text = text_of(variable.shown(2.0 * variable.maximum if variable.maximum > 0.0 else 1.0)[1])
+    text = text_of(shown(variable, 2.0 * variable.maximum if variable.maximum > 0.0 else 1.0)[1])
     return text, in_si(variable, text)
 
 
