@@ -1,10 +1,12 @@
 //! Tests of dry friction with sticking.
 
-use super::body_friction::BodyFriction;
+use super::body_friction::{BodyFriction, PARTS};
 use super::dry_friction::*;
+use super::friction::Friction;
 use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
-use super::friction_source::FrictionSource;
+use super::friction_source::{FrictionSource, SideFriction};
 use super::friction_state::{FrictionState, Mode};
+use super::torque_curve::TorqueCurve;
 
 const STIFFNESS: f64 = 1e3;
 
@@ -137,4 +139,15 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
         assert!(brake.crossing(&slides, (&moving(1e-3), &by), (&moving(-4e-9), &by)).is_none());
         assert!(brake.crossing(&slides, (&moving(1e-3), &by), (&moving(-1e-7), &by)).is_some());
     }
+}
+
+#[test]
+fn all_frictions_of_a_side_gear_fit_on_it_and_more_are_counted() {
+    let side = SideFriction { stiffness: 1.0, ..SideFriction::default() };
+    let source = FrictionSource { side, ..FrictionSource::new(0) };
+    let curve = TorqueCurve::new(&[[0.0, 1.0]]);
+    let measured = FrictionSource { side: SideFriction { curve, ..side }, ..FrictionSource::new(0) };
+    // washer, clutch pack with its measured curve, and lock
+    assert_eq!(Friction::part_count(&[source, measured, source]), PARTS);
+    assert_eq!(Friction::part_count(&[source, measured, source, source]), PARTS + 1);
 }
