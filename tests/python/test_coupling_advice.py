@@ -69,6 +69,21 @@ def test_the_advised_step_gives_the_wanted_ratio(coupled, system, delay, lines, 
     assert wanted / 1.5 < followed.ratio[-1] < 1.5 * wanted
 
 
+def test_a_launch_gets_advice_although_the_wheels_accelerate(fmu):
+    # the springs oscillate with a period of 0.2 s while their inertias accelerate
+    hosts = {side: Host(900.0, 3.0, 2.0, 0.5, speed=0.0) for side in ("left", "right")}
+    run = couple(fmu, hosts, 5e-4, 1.0, values={"scene.start": "rest", "carrier.torque_command": 50.0})
+    assert min(run.advice[600:]) > 0.0
+
+
+def test_inputs_with_derivatives_are_no_ramps(coupled):
+    def end(ramps):
+        run = coupled("shaft", SIZE, 0, True, stop=0.1, **{"solver.input_ramp": ramps})
+        return run.errors["left"][-1], run.ratio[-1]
+
+    assert end(True) == end(False)
+
+
 @pytest.mark.parametrize("wanted", [1e-4, 2e-5])
 def test_a_car_that_follows_the_advice_has_the_wanted_ratio(fmu, wanted):
     car = Car({"contact.law": "line", "effects.coupling_advice": True, "coupling.wanted_ratio": wanted}, left=Tyre(friction=0.15),

@@ -55,6 +55,14 @@ impl Simulation {
         Ok(())
     }
 
+    /// Notes which inputs `follow` derivatives in a step in which the others ramp: 1 for each of them.
+    pub(super) fn note_ramps(&mut self, follow: &Inputs) {
+        if let Some(coupling) = &mut self.coupling {
+            let follows = given(follow, self.model.ideal.plan.side_imposed);
+            Arc::make_mut(coupling).follows = follows.map(|follows| follows != 0.0);
+        }
+    }
+
     /// Adds the step that ends now to `coupling`. The host's values were `before` at `begin` [s], with the first and
     /// second `rates` of the inputs.
     #[inline]
@@ -72,7 +80,8 @@ impl Simulation {
         // a ramp reaches the host's value at the end of the step
         if self.ramps_inputs() {
             let after = given(&self.inputs, self.model.ideal.plan.side_imposed);
-            steps.iter_mut().zip(after).for_each(|(step, given)| (step.given, step.is_line) = (given, false));
+            let ramps = steps.iter_mut().zip(after).zip(coupling.follows).filter(|(_, follows)| !follows);
+            ramps.for_each(|((step, given), _)| (step.given, step.is_line) = (given, false));
         }
         for (port, step) in steps.iter_mut().enumerate() {
             self.exchange(port, [start[port], end[port]], step);

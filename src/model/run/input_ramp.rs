@@ -48,6 +48,7 @@ impl Simulation {
     /// Prepares a step in which all inputs reach the host's values at the time `until` [s].
     pub fn ramp_inputs(&mut self, host: &HostInputs, until: f64) {
         self.apply_jumps(host);
+        self.note_ramps(&host.follow);
         let first = self.inputs.rates_to(&host.values, until - self.time());
         let lines = InputDerivatives { rates: [first, Inputs::ZERO] };
         // over the shortest steps a rate may overflow; then the inputs jump

@@ -9,6 +9,8 @@ use crate::numeric::finite;
 
 /// Ratio of the time over which sums decay to the period.
 const PERIODS: f64 = 2.0;
+/// Number of steps that sums remember at least.
+pub const LEAST_STEPS: f64 = 50.0;
 /// Square of the deviation, relative to the variance, at which a value changes side.
 const SIDE: f64 = 0.25;
 
@@ -52,6 +54,11 @@ impl Oscillation {
             self.since = 0.0;
         }
         changes
+    }
+
+    /// True if the value has changed sides so often that its period is known.
+    pub fn has_period(&self) -> bool {
+        self.intervals[0] > 0.0
     }
 
     /// Time over which sums must decay to cover the oscillation [s]; 0 for a constant value.

@@ -9,11 +9,13 @@
 //! M = u(n + ½ + `host_delay`),
 //!
 //! with u linear between its values at whole numbers. The cut creates the energy (M − ū) x at a load that resists, and
-//! (ū − M) x at the carrier. `port` evaluates one port, `memory` the time over which sums decay, and `record` all ports.
+//! (ū − M) x at the carrier. `port` evaluates one port, `regression` shows if its host reacts, `memory` is the time over
+//! which sums decay, and `record` contains all ports.
 
 mod memory;
 mod port;
 mod record;
+mod regression;
 mod spec;
 
 pub use port::PortStep;

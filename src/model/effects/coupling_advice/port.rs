@@ -1,26 +1,15 @@
-//! One port: energy error of a step, and the regression that shows if the host reacts.
+//! One port: energy error of a step, and the sums of its errors.
 
 use serde::{Deserialize, Serialize};
 
-use super::memory::Oscillation;
+use super::memory::{LEAST_STEPS, Oscillation};
+use super::regression::Regression;
 use crate::numeric::finite;
 
 /// Magnitude up to which values count. Larger ones belong to a motion that has diverged.
 const LARGEST: f64 = 1e12;
-/// Fraction of the changes of u that the motion must explain if the host reacts.
-pub const EXPLAINED: f64 = 0.5;
-/// Fraction above which the host certainly reacts. If u is noise, the response of the unit to u explains one half.
-pub const CERTAINLY_EXPLAINED: f64 = 0.8;
-/// Weight of steps below which the regression shows nothing, because three coefficients need more data.
-const LEAST_WEIGHT: f64 = 10.0;
-/// Changes below this fraction of the value are rounding errors of the host.
-const ROUNDING: f64 = 1e-9;
-/// Relative determinant below which both regressors are proportional.
-const PROPORTIONAL: f64 = 1e-9;
 /// Growth of the energy error from half-period to half-period that counts as growth.
 const GROWS: f64 = 1.02;
-/// Movement of a step, relative to its usual magnitude, below which a port stands still.
-const STILL: f64 = 1e-6;
 
 /// Exchange of one port over one communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -97,14 +86,8 @@ pub struct Port {
     pub error: f64,
     /// Decaying sum of the magnitudes of the energy errors [J].
     pub errors: f64,
-    /// Means of Δu, x and the change of the rate of x.
-    means: [f64; 3],
-    /// Decaying sums of products of their deviations: uu, ux, uy, xx, xy, yy.
-    products: [f64; 6],
-    /// Decaying mean of |u|.
-    magnitude: f64,
-    /// Movement of the last step.
-    moved: f64,
+    /// Reaction of the host.
+    pub regression: Regression,
     /// Oscillation of u.
     pub oscillation: Oscillation,
     /// Magnitude and sum of the energy errors since u last changed sides, and the magnitude before [J].
@@ -113,34 +96,18 @@ pub struct Port {
     pub growths: u32,
 }
 
-finite!(Port { error, errors, means, products, magnitude, moved, oscillation, half_period; growths });
+finite!(Port { error, errors, regression, oscillation, half_period; growths });
 
 impl Port {
-    /// Adds the second of four `steps` with the energy `error` [J]. `weights` are the factor on
-    /// old terms and the share of the new one in all weights.
+    /// Adds the second of four `steps` with the energy `error` [J]. Old errors are multiplied by `keep`.
     #[inline]
-    pub fn add(&mut self, steps: [&PortStep; 4], error: f64, delay: f64, weights: [f64; 2]) {
-        let [keep, share] = weights;
+    pub fn add(&mut self, steps: [&PortStep; 4], error: f64, delay: f64, keep: f64) {
         let PortStep { given, moved, changed, h, .. } = *steps[1];
         self.error += error;
         self.errors = keep * self.errors + error.abs();
-        self.magnitude += share * (given.abs() - self.magnitude);
-        self.moved = moved;
-        let values = [answer(steps, delay), moved, changed];
-        let [u, x, y]: [f64; 3] = std::array::from_fn(|i| values[i] - self.means[i]);
-        self.means = [self.means[0] + share * u, self.means[1] + share * x, self.means[2] + share * y];
-        let rest = 1.0 - share;
-        let [uu, ux, uy, xx, xy, yy] = &mut self.products;
-        let add = |sum: &mut f64, product: f64| *sum = keep * *sum + rest * product;
-        add(xx, x * x);
-        add(xy, x * y);
-        add(yy, y * y);
-        // sums of a constant u stay zero
-        if u != 0.0 || *uu != 0.0 {
-            add(uu, u * u);
-            add(ux, u * x);
-            add(uy, u * y);
-        }
+        // the reaction shows in the motion of this port, however slow the motion of the others is
+        let memory = self.oscillation.memory().max(LEAST_STEPS * h);
+        let weights = self.regression.add(given, [answer(steps, delay), moved, changed], (h, memory / (memory + h)));
         self.half_period[0] += error.abs();
         self.half_period[1] += error;
         if self.oscillation.add(given, h, weights) {
@@ -151,28 +118,9 @@ impl Port {
         }
     }
 
-    /// True if the host reacts: the motion explains at least the `fraction` of the changes of u. `weight` is the sum of
-    /// the weights of all steps.
-    pub fn reacts(&self, weight: f64, fraction: f64) -> bool {
-        let [uu, ux, uy, xx, xy, yy] = self.products;
-        let rounding = ROUNDING * self.magnitude;
-        if weight < LEAST_WEIGHT || uu <= weight * rounding * rounding {
-            return false;
-        }
-        let determinant = xx * yy - xy * xy;
-        let explained = if determinant > PROPORTIONAL * xx * yy {
-            (ux * ux * yy - 2.0 * ux * uy * xy + uy * uy * xx) / determinant
-        } else {
-            let alone = |product: f64, square: f64| if square > 0.0 { product * product / square } else { 0.0 };
-            alone(ux, xx).max(alone(uy, yy))
-        };
-        explained >= fraction * uu
-    }
-
-    /// True if the port moved in the last step. `weight` is the sum of the weights of all steps.
-    pub fn moves(&self, weight: f64) -> bool {
-        let usual = self.means[1] * self.means[1] + self.products[3] / weight;
-        self.moved * self.moved > STILL * STILL * usual
+    /// True if the host reacts: the motion explains at least the `fraction` of the changes of u.
+    pub fn reacts(&self, fraction: f64) -> bool {
+        self.regression.reacts(fraction, self.oscillation.has_period())
     }
 }
 

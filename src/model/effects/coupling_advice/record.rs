@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::port::{CERTAINLY_EXPLAINED, EXPLAINED, LAG, Port, PortStep, energy_difference};
+use super::memory::LEAST_STEPS;
+use super::port::{LAG, Port, PortStep, energy_difference};
+use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED};
 use crate::numeric::{Finite, finite, sqrt};
 
 /// Number of ports: carrier, left side, right side.
@@ -12,8 +14,6 @@ const LEFT: usize = 1;
 /// Signs of the energy that the cut creates if the host exchanges more than the unit. Torque drives the carrier and
 /// loads the sides.
 const SIGNS: [f64; PORTS] = [-1.0, 1.0, 1.0];
-/// Number of steps that sums remember at least.
-const LEAST_STEPS: f64 = 50.0;
 /// Weight of steps below which nothing is reported.
 const LEAST_WEIGHT: f64 = 30.0;
 /// Ratio above which a warning is reported.
@@ -29,6 +29,8 @@ pub type Places = [[f64; 2]; PORTS];
 pub struct Coupling {
     /// Time [s], positions and their rates at the last communication point.
     pub last: Option<(f64, Places)>,
+    /// True for each port whose input follows the host's derivatives although other inputs ramp (`solver.input_ramp`).
+    pub follows: [bool; PORTS],
     /// Last four steps of each port; the step with number n has the index n modulo 4.
     steps: [[PortStep; 4]; PORTS],
     /// Number of steps.
@@ -48,7 +50,7 @@ pub struct Coupling {
 }
 
 finite!(Coupling {
-    last, steps, weight, passed, first_order, second_order, ports; count, has_changed
+    last, steps, weight, passed, first_order, second_order, ports; count, has_changed, follows
 });
 
 /// Cause of a warning.
@@ -88,7 +90,6 @@ impl Coupling {
         let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
         let keep = memory / (memory + h);
         self.weight = keep * self.weight + 1.0;
-        let weights = [keep, 1.0 / self.weight];
         let (mut passed, mut first, mut second) = (0.0, 0.0, 0.0);
         for ((port, steps), sign) in self.ports.iter_mut().zip(&self.steps).zip(SIGNS) {
             let steps = places.map(|place| &steps[place]);
@@ -102,7 +103,7 @@ impl Coupling {
             } else {
                 first += error.abs();
             }
-            port.add(steps, error, delay, weights);
+            port.add(steps, error, delay, keep);
         }
         self.passed = keep * self.passed + passed;
         self.first_order *= keep;
@@ -132,8 +133,8 @@ impl Coupling {
     /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It
     /// is 0 if nothing moves, if no host reacts, or if there is no error.
     pub fn advice(&self, wanted: f64) -> f64 {
-        let moves = self.ports.iter().any(|port| port.moves(self.weight));
-        let reacts = self.ports.iter().any(|port| port.reacts(self.weight, EXPLAINED));
+        let moves = self.ports.iter().any(|port| port.regression.moves());
+        let reacts = self.ports.iter().any(|port| port.reacts(EXPLAINED));
         let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed);
         if !(moves && reacts && c > 0.0 && a + b > 0.0) {
             return 0.0;
@@ -152,7 +153,7 @@ impl Coupling {
         if self.weight < LEAST_WEIGHT || !(any_grows || is_high(all)) {
             return None;
         }
-        let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(self.weight, CERTAINLY_EXPLAINED));
+        let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
         let of = |port: usize| self.ports[port].errors;
         let port = reacting().max_by(|&a, &b| of(a).total_cmp(&of(b)))?;
         let grows = reacting().any(|port| self.ports[port].growths >= GROWTHS);
