@@ -3,12 +3,15 @@
 import numpy as np
 
 import masters
+from advice import WANTED
 from measure import INSIDE
 
 # largest allowed difference between two runs of the same method: rounding, amplified by a stiff solver at 1e-10
 SAME = 1e-8
 # largest allowed difference of a method's order from theory
 BAND = 0.25
+# largest allowed difference of an energy ratio's order, and factor between the ratio in advised steps and the wanted one
+ORDER, FOLLOWED = 0.2, 1.5
 # largest allowed difference between two methods of scipy on the reference
 DOUBT = 1e-6
 
@@ -22,6 +25,7 @@ def wrong(found):
     for contact, right in found["references"].items():
         if not right.doubt < DOUBT:
             problems.append(f"{contact}: {' and '.join(right.methods)} differ by {right.doubt:.1e} on the reference")
+    problems += advice_wrong(found["advice"])
     limits = found["limits"]
     for name, master in masters.ALL.items():
         row = limits[name]
@@ -31,6 +35,22 @@ def wrong(found):
         for contact in found["references"]:
             rows = [row for row in found["errors"] if (row["contact"], row["master"]) == (contact, name)]
             problems += errors_wrong(contact, master, rows, limits)
+    return problems
+
+
+def advice_wrong(rows):
+    """Messages about the energy ratios. Gauss-Seidel with held inputs has none, because each spring gets the mean of its torque."""
+    problems = []
+    for name, row in rows.items():
+        master = masters.ALL[name]
+        if master.delay == -0.5:
+            problems += [f"{name}: energy ratio {row['ratio']:.1e}, expected 0"] if row["ratio"] > 0.0 else []
+            continue
+        order = np.log2(row["ratio"] / row["half"])
+        if not abs(order - master.order) < ORDER:
+            problems.append(f"{name}: the energy ratio has the order {order:.2f}, expected {master.order}")
+        if "followed" in row and not WANTED / FOLLOWED < row["followed"] < WANTED * FOLLOWED:
+            problems.append(f"{name}: steps of {row['advice']:.2e} s have the energy ratio {row['followed']:.1e}, expected {WANTED:g}")
     return problems
 
 

@@ -2,6 +2,9 @@
 
     step(system, time, size, y, before) → y at the end of the step
 
+`delay` is the delay of the answer that the differential sees, in steps (`coupling.host_delay`): the other parts integrate
+its speed or torque. It is None if repetitions exchange values within a step.
+
 y contains all outputs at the start of the step, `before` those one step earlier. All inputs of a part act from the start
 of the step, held or on a line.
 """
@@ -23,7 +26,7 @@ class NoConvergence(Exception):
 class Jacobi:
     """Steps all parts at the same time, with inputs held at their values at the start, as plain hosts do."""
 
-    label, order, states = "Jacobi, held", 1, False
+    label, order, states, delay = "Jacobi, held", 1, False, 0.5
 
     def step(self, system, time, size, y, before):
         for part, feeds in zip(system.parts, system.feeds):
@@ -34,7 +37,7 @@ class Jacobi:
 class GaussSeidel:
     """Steps one part after the other; each uses the outputs that the parts before it have at the end of the step."""
 
-    label, order, states = "Gauss-Seidel, held", 1, False
+    label, order, states, delay = "Gauss-Seidel, held", 1, False, -0.5
 
     def step(self, system, time, size, y, before):
         y = y.copy()
@@ -47,7 +50,7 @@ class GaussSeidel:
 class Lines:
     """Steps all parts at the same time; inputs continue along the line through the last two communication points."""
 
-    label, order, states = "Jacobi, lines", 2, False
+    label, order, states, delay = "Jacobi, lines", 2, False, 0.0
 
     def step(self, system, time, size, y, before):
         slope = (y - before) / size
@@ -61,7 +64,7 @@ class Lines:
 class IteratedHeld:
     """Repeats the step from its start, with inputs held at the outputs of the last repetition, until these converge."""
 
-    label, order, states = "rollback, held", 1, True
+    label, order, states, delay = "rollback, held", 1, True, None
     lines = False
 
     def __init__(self):

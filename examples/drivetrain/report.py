@@ -1,6 +1,7 @@
 """Measurements as Markdown."""
 
 from bevel_differential.text import markdown as table
+from advice import BEGIN, WANTED
 from checks import expected, observed
 from masters import ALL
 from measure import QUANTITIES
@@ -8,7 +9,7 @@ from parameters import STEP
 
 
 def markdown(found):
-    parts = [hosts(found["hosts"]), limits(found["limits"])]
+    parts = [hosts(found["hosts"]), limits(found["limits"]), advice(found)]
     # errors with ideal gears are in the picture and in errors.csv
     parts.append(errors(list(found["references"])[-1], found))
     parts.append(quantities(found))
@@ -36,6 +37,36 @@ def limits(found):
             "becomes in 0.2 s at 0.85 / 1.15 of the prediction.\n\n"
             + table([["master", "predicted", "found", "at 0.85 / at 1.15"], *rows])
             + f"\nThe archive's step of {STEP * 1e3:g} ms is {100.0 * STEP / shortest:.0f} % of the shortest of these.\n")
+
+
+def advice(found):
+    rows = []
+    for name, row in found["advice"].items():
+        followed = f"{row['followed']:.1e}" if "followed" in row else "–"
+        rows.append([ALL[name].label, f"{ALL[name].delay:g}", f"{row['ratio']:.1e}", f"{row['half']:.1e}", advised(row), followed,
+                     f"{row['error']:.1e}"])
+    contact = list(found["references"])[-1]
+    return (f"`{contact}`: what the differential says of the cut (`effects.coupling_advice`) from {BEGIN:g} s on: the largest energy ratio "
+            f"in steps of\n{STEP * 1e3:g} ms and of half of it, and the shortest advice for a ratio of {WANTED:g}, with the ratio in such steps. "
+            "Last column: largest error of any\nquantity in steps of "
+            f"{STEP * 1e3:g} ms.\n\n"
+            + table([["master", "host_delay", "ratio", "half the step", "advice, ms", "ratio there", "error"], *rows]))
+
+
+def advised(row):
+    return f"{row['advice'] * 1e3:.2g}" if row["advice"] > 0.0 else "none"
+
+
+def summary(found):
+    """Limit, advice and error of each master side by side."""
+    limits, rows, shown = found["limits"], found["advice"], f"in steps of {STEP * 1e3:g} ms, %"
+    measured = {name: "–" if limits[name].get("measured") is None else f"{limits[name]['measured'] * 1e3:.2f}" for name in rows}
+    lines = [["longest stable step, ms: predicted", *(f"{limits[name]['predicted'] * 1e3:.2f}" for name in rows)],
+             ["found", *measured.values()],
+             [f"advised step for an energy ratio of {100.0 * WANTED:g} %, ms", *(advised(row) for row in rows.values())],
+             [f"energy ratio {shown}", *(f"{100.0 * row['ratio']:.2g}" for row in rows.values())],
+             [f"largest error {shown}", *(f"{100.0 * row['error']:.2g}" for row in rows.values())]]
+    return table([["drivetrain", *(ALL[name].label for name in rows)], *lines])
 
 
 def errors(contact, found):

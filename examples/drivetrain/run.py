@@ -2,8 +2,8 @@
 
     python run.py FMU LIBRARY FOLDER [--quick]
 
-FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes SSP archives, errors.csv and pictures
-to FOLDER and prints the tables. Fails if an archive does not conform to its version of SSP, if archives or hosts disagree, or if
+FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes SSP archives, errors.csv, summary.md and
+pictures to FOLDER and prints the tables. Fails if an archive does not conform to its version of SSP, if archives or hosts disagree, or if
 errors, orders or limits contradict theory.
 `cargo run -p lab --release -- drivetrain` creates the environment and runs this script.
 """
@@ -15,6 +15,7 @@ from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+import advice  # noqa: E402
 import checks  # noqa: E402
 import figures  # noqa: E402
 import measure  # noqa: E402
@@ -52,14 +53,16 @@ def everything(fmu, library_path, folder, quick):
     progress(0.1, "the whole as one set of equations")
     references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}
     limits = measure.limits(fmus, quick)
+    contact = contacts[-1]
+    advised = advice.advice(fmus, contact, references[contact])
     errors = measure.errors(fmus, references, quick)
     mesh = measure.mesh(library)
     measure.write_csv(folder / "errors.csv", errors)
-    found = {"hosts": hosts, "references": references, "limits": limits, "errors": errors, "mesh": mesh}
-    contact = contacts[-1]
+    found = {"hosts": hosts, "references": references, "limits": limits, "advice": advised, "errors": errors, "mesh": mesh}
     figures.launch(folder / "drivetrain_launch.png", references[contact].dense, measure.coupled(fmus, contact), contact)
     figures.errors(folder / "drivetrain_errors.png", errors, limits)
     figures.signals(folder / "drivetrain_signals.png")
+    (folder / "summary.md").write_text(report.summary(found), encoding="utf-8")
     return report.markdown(found), wrong + checks.wrong(found)
 
 

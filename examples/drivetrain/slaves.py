@@ -14,12 +14,16 @@ class FmuPart:
         self.name, fmu = name, Fmu.of(fmu)
         self.interpolates = fmu.description.coSimulation.canInterpolateInputs
         self.instance, self.inputs = fmu.open(name=name), inputs
-        self.fed, self.given = (Batches([fmu.variable(each) for each in names]) for names in (inputs, outputs))
+        self.fed, self.given = self.variables(inputs), self.variables(outputs)
         slopes = [f"der({each})" for each in inputs]
         self.slopes = Batches([fmu.variable(each) for each in slopes]) if all(each in fmu.variables for each in slopes) else None
         self.sloping = False
         # everything is at rest
         self.instance.initialise(values | dict.fromkeys(inputs, 0.0))
+
+    def variables(self, names):
+        """Variables to read or set together."""
+        return Batches([self.instance.fmu.variable(name) for name in names])
 
     @property
     def follows_lines(self):

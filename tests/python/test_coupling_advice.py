@@ -6,7 +6,7 @@ import random
 import numpy as np
 import pytest
 from bevel_differential.vehicle import Car, Tyre
-from coupled_hosts import ERRORS, FREE, LAG, LOADS, Coupled, Host, couple
+from coupled_hosts import ERRORS, FREE, LAG, LOADS, MOTION, Coupled, Host, couple
 
 ADVICE = ["coupling.energy_ratio", "coupling.step_advice"]
 
@@ -30,6 +30,7 @@ def swing():
 
 
 SYSTEMS = {made.__name__: made for made in (shaft, both_sides, motor, swing)}
+BRAKES = ["left.brake_torque", "right.brake_torque"]
 EXCHANGES = [(0, False), (1, False), (0, True), (1, True)]
 ORDERS = [(0, False, 1), (1, False, 1), (0, True, 2)]
 SIZE = 4e-4
@@ -76,6 +77,35 @@ def test_a_launch_gets_advice_although_the_wheels_accelerate(fmu):
     assert min(run.advice[600:]) > 0.0
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_an_hour_at_a_standstill_changes_nothing_and_the_advice_returns(fmu, sign):
+    host = Host(500.0, 0.5, 1.0, 0.2)
+
+    def drive(port, torque, steps):
+        rows = [port.read()]
+        for _ in range(steps):
+            before = rows[-1][:2]
+            rows.append(port.step([sign * torque, host.torque(*before)], 1e-3))
+            host.advance(1e-3, before, rows[-1][:2])
+        return np.array(rows)[:, 2:]
+
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "effects.wheel_brake": True, "scene.start": "rest"})
+        port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], *ERRORS, *ADVICE])
+        host.start(*port.read()[:2])
+        first = drive(port, 20.0, 2000)
+        instance.set(dict.fromkeys(BRAKES, 300.0))
+        host.damping = 20.0
+        held = drive(port, 0.0, 3000)
+        waited = [port.step([0.0, 0.0], 36.0)[2:] for _ in range(100)]
+        assert waited[-1][:-1] == pytest.approx(held[-1, :-1], rel=1e-6) and waited[-1][-1] == 0.0
+        instance.set(dict.fromkeys(BRAKES, 0.0))
+        host.damping = 0.5
+        again = drive(port, 20.0, 2000)
+        assert not [message for message in instance.messages if "coupling" in message]
+    assert first[-1, -1] > 0.0 and again[-1, -1] > 0.0
+
+
 def test_inputs_with_derivatives_are_no_ramps(coupled):
     def end(ramps):
         run = coupled("shaft", SIZE, 0, True, stop=0.1, **{"solver.input_ramp": ramps})
@@ -94,6 +124,13 @@ def test_a_car_that_follows_the_advice_has_the_wanted_ratio(fmu, wanted):
 
     followed = end(end(5e-4)["coupling.step_advice"])
     assert wanted / 1.5 < followed["coupling.energy_ratio"] < 1.5 * wanted
+
+
+def test_the_cut_of_a_car_costs_less_energy_than_the_page_says(fmu):
+    car = Car({"contact.law": "line", "effects.coupling_advice": True}, left=Tyre(friction=0.15), right=Tyre(friction=0.9), fmu=fmu)
+    record = car.run(ADVICE, stop=1.0, request=([0.0, 0.3], [0.0, 120.0]))
+    assert 0.0 < max(record["coupling.energy_ratio"][200:]) < 2e-3
+    assert car.longest_step() == pytest.approx(6.9e-3, rel=0.01)
 
 
 def played(fmu, torque, size=1e-3, stop=1.0):

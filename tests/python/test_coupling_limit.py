@@ -2,7 +2,6 @@
 
 from itertools import product
 from math import exp, inf, log, pi, sqrt
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +14,6 @@ from bevel_differential.coupling import GAUSS_SEIDEL, HELD, JACOBI, LINES, ROLLB
 from bevel_differential.coupling.linear import balancing, exponential
 from bevel_differential.vehicle import Car, Tyre
 
-ROOT = Path(__file__).resolve().parents[2]
 # the accuracy that is promised
 WITHIN = 0.03
 # scene with loaded teeth whose carrier is driven by torque
@@ -266,15 +264,6 @@ def test_the_command_prints_what_python_returns_and_draws_it(scene, fmu_file, tm
         assert f"{made.limits()[master, HELD] * 1e3:.3g} ms" in next(line for line in said.splitlines() if line.startswith(f"{master} "))
     assert (tmp_path / "a.png").stat().st_size > 10_000
     assert main([*words, "right:k=0,c=12"]) == WRONG
-
-
-def test_the_page_s_limits_of_the_drivetrain_are_those_of_its_measurement():
-    shown, measured = ((ROOT / "docs" / name).read_text(encoding="utf-8").splitlines() for name in ("coupling.md", "inside/hosts.md"))
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in [*shown, *measured] if line.startswith("|")]
-    table = {row[0]: row[1:] for row in rows if row[0] in ("drivetrain, longest step, ms", "predicted", "found")}
-    limits = {row[0]: row[1:3] for row in rows if row[0] in table["drivetrain, longest step, ms"] and len(row) == 4}
-    assert len(limits) == 3
-    assert limits == {name: list(pair) for name, *pair in zip(table["drivetrain, longest step, ms"], table["predicted"], table["found"])}
 
 
 def test_without_a_damper_no_step_is_stable_one_step_later():

@@ -2,7 +2,6 @@
 
 import math
 import os
-import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -419,22 +418,29 @@ def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder,
     assert not list((folder / "out").glob("*.part"))
 
 
-def command(folder, fmu_file, *arguments):
-    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "python/src"), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
-    return subprocess.Popen([sys.executable, "-m", "bevel_differential", "optimise", *map(str, arguments)], cwd=folder,
-                            env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, preexec_fn=with_interrupts)
+# Ctrl-C while this design is evaluated, in the third generation of 12 designs
+INTERRUPTED_AT = 28
+INTERRUPTED = f"""
+import os, signal, sys
+from bevel_differential.command import main
+from bevel_differential.optimise.design_task import DesignTask
+evaluate = DesignTask.evaluate
+def interrupted(task, run, values):
+    if run == {INTERRUPTED_AT}:
+        os.kill(os.getpid(), signal.SIGINT)
+    return evaluate(task, run, values)
+DesignTask.evaluate = interrupted
+sys.exit(main(sys.argv[1:]))
+"""
 
 
 def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, capsys, monkeypatch):
-    # slow enough that the interrupt comes in the middle
-    (folder / "scene.toml").write_text(SCENE.replace("contact.mesh_stiffness_from_geometry = false\n", ""), encoding="utf-8")
     given = ["two.toml", "--out", "out", "--workers", "0", "--population", "12", "--generations", "4"]
-    process = command(folder, fmu_file, *given)
-    for line in process.stdout:
-        if line.startswith("generation 2 "):
-            process.send_signal(signal.SIGINT)
-            break
-    _, errors = process.communicate(timeout=60)
+    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "python/src"), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
+    process = subprocess.run([sys.executable, "-c", INTERRUPTED, "optimise", *given], cwd=folder, env=environment, capture_output=True,
+                             text=True, timeout=60, preexec_fn=with_interrupts)
+    errors = process.stderr
+    assert "generation 2 of 4" in process.stdout and "generation 3" not in process.stdout
     assert process.returncode == 130 and "continue with --resume" in errors and "Traceback" not in errors
     before = pd.read_csv(folder / "out/front.csv")
     assert len(before) and len(pd.read_parquet(folder / "out/evaluations.parquet")) >= 2 * 8

@@ -1,6 +1,7 @@
 """The car around the differential: against all its equations at once, in the mirror, and with wrong values."""
 
 import runpy
+import warnings
 from math import atan, pi, sin, tanh
 from pathlib import Path
 
@@ -227,3 +228,13 @@ def test_the_command_copies_all_examples_and_never_overwrites_files(tmp_path, ca
     assert (tmp_path / "vehicle" / "launch.py").is_file() and (tmp_path / "design" / "study_gears.toml").is_file()
     assert main(["examples", "--out", str(tmp_path)]) != 0
     assert "are there already" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
+@pytest.mark.parametrize("speed", [0.0, 10.0])
+def test_nothing_that_the_car_sets_is_without_influence(fmu_file, contact, speed):
+    car = Car({"scene.gear_contact": contact}, fmu=fmu_file)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        car.run(["body.speed"], stop=0.01, speed=speed)
+    assert not [warning for warning in caught if "changes nothing" in str(warning.message)]

@@ -98,7 +98,7 @@ pub const DRIVETRAIN: Script = Script {
     options: || {
         vec![
             flag("quick", "Ideal gears only, in a minute and a half").conflicts_with("write"),
-            flag("write", "Also renew docs/inside/hosts.md"),
+            flag("write", "Also renew docs/inside/hosts.md and docs/coupling.md"),
         ]
     },
     needs: Needs::Own(["examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcosim, pyssp-standard"]),
@@ -106,7 +106,7 @@ pub const DRIVETRAIN: Script = Script {
     doing: "coupling",
     folder: Some("drivetrain"),
     given: &[Given::PlainFmu, Given::Equations, Given::Folder, Given::Named("quick")],
-    sections: &[("docs/inside/hosts.md", "drivetrain", "")],
+    sections: &[("docs/inside/hosts.md", "drivetrain", ""), ("docs/coupling.md", "drivetrain", "summary.md")],
     has_pictures: true,
     ..DEFAULTS
 };

@@ -134,9 +134,13 @@ class Car:
         begin = speed / (0.5 * (left.radius + right.radius))
         if speed:
             motion.x[0] = motor_torque(self.motor, request, self.motor.ratio * begin)
-        return {**self._given, "inertia.carrier": given + self.motor.inertia * self.motor.ratio**2,
+        contact = self.fmu.variable("scene.gear_contact")
+        # a start from rest reads it only if the gears are ideal
+        is_ideal = contact.number(self._given.get(contact.name, contact.start)) == contact.literals["ideal"]
+        start = {"carrier.speed_command": begin} if speed or is_ideal else {}
+        return {**self._given, **start, "inertia.carrier": given + self.motor.inertia * self.motor.ratio**2,
                 "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",
-                "scene.start": "equilibrium" if speed else "rest", "carrier.speed_command": begin,
+                "scene.start": "equilibrium" if speed else "rest",
                 "inertia.left_end": left.inertia, "inertia.right_end": right.inertia}
 
     def _recorded(self, outputs):
@@ -201,7 +205,7 @@ class _Run:
         self.read: list[float] = []
 
     def start(self, values, stop):
-        at = values["carrier.speed_command"]
+        at = values.get("carrier.speed_command", 0.0)
         self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
         self.fixed = dict(zip(self.fixed, self.instance.read(self.fixed)))
         self._keep(self.port.read())

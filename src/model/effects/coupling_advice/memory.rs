@@ -17,7 +17,9 @@ const SIDE: f64 = 0.25;
 /// Oscillation of one value. Positive and negative deviations are treated identically.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Oscillation {
-    /// Mean of the value, and the sum of its squared deviations.
+    /// Sum of the weights of all steps, mean of the value, and the sum of its squared deviations. They decay over the
+    /// last two periods, so that the mean soon follows a jump.
+    weight: f64,
     mean: f64,
     deviations: f64,
     /// Side on which the value deviated last: −1, 1, or 0 before the first deviation.
@@ -27,13 +29,16 @@ pub struct Oscillation {
     intervals: [f64; 2],
 }
 
-finite!(Oscillation { mean, deviations, side, since, intervals });
+finite!(Oscillation { weight, mean, deviations, side, since, intervals });
 
 impl Oscillation {
-    /// Adds `value`, which acted for `h` [s]. Old terms are multiplied by `keep`, and the new one has the `share` of
-    /// all weights. Returns true if the value has changed sides.
+    /// Adds `value`, which acted for `h` [s]. Returns true if the value has changed sides.
     #[inline]
-    pub fn add(&mut self, value: f64, h: f64, [keep, share]: [f64; 2]) -> bool {
+    pub fn add(&mut self, value: f64, h: f64) -> bool {
+        let recent = (PERIODS * (self.intervals[0] + self.intervals[1])).max(LEAST_STEPS * h);
+        let keep = recent / (recent + h);
+        self.weight = keep * self.weight + 1.0;
+        let share = 1.0 / self.weight;
         let deviation = value - self.mean;
         // a constant value
         if deviation == 0.0 && self.deviations == 0.0 {
@@ -72,21 +77,18 @@ impl Oscillation {
 mod tests {
     use super::*;
 
-    /// Memory after 40 s of a sine with `period` [s], with steps of 10 ms.
+    /// Memory after 80 s of a sine with `period` [s] and steps of 10 ms, 60 s after a jump of its mean.
     fn memory_of(period: f64, sign: f64) -> f64 {
-        let (mut oscillation, mut weight, mut memory, h) = (Oscillation::default(), 0.0, 0.0, 0.01);
-        for step in 0..4000 {
-            let keep = memory / (memory + h);
-            weight = keep * weight + 1.0;
-            let value = 3.0 + (core::f64::consts::TAU * f64::from(step) * h / period).sin();
-            oscillation.add(sign * value, h, [keep, 1.0 / weight]);
-            memory = oscillation.memory().max(20.0 * h);
+        let (mut oscillation, h) = (Oscillation::default(), 0.01);
+        for step in 0..8000 {
+            let mean = if step < 2000 { 3.0 } else { -1.0 };
+            oscillation.add(sign * (mean + (core::f64::consts::TAU * f64::from(step) * h / period).sin()), h);
         }
-        memory
+        oscillation.memory()
     }
 
     #[test]
-    fn the_memory_covers_the_period_of_an_oscillation_about_a_mean() {
+    fn the_memory_covers_the_period_of_an_oscillation_about_a_mean_that_jumps() {
         for period in [0.2, 1.0, 6.0] {
             let memory = memory_of(period, 1.0);
             assert!((memory / (2.0 * period) - 1.0).abs() < 0.1, "{period}: {memory}");
@@ -97,8 +99,8 @@ mod tests {
     #[test]
     fn a_constant_value_needs_no_memory() {
         let mut oscillation = Oscillation::default();
-        for weight in 1..100 {
-            assert!(!oscillation.add(7.0, 1e-3, [1.0, 1.0 / f64::from(weight)]));
+        for _ in 1..100 {
+            assert!(!oscillation.add(7.0, 1e-3));
         }
         assert_eq!(oscillation.memory(), 0.0);
     }

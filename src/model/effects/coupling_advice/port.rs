@@ -86,6 +86,8 @@ pub struct Port {
     pub error: f64,
     /// Decaying sum of the magnitudes of the energy errors [J].
     pub errors: f64,
+    /// True if the port moved in the last step.
+    pub moves: bool,
     /// Reaction of the host.
     pub regression: Regression,
     /// Oscillation of u.
@@ -96,7 +98,7 @@ pub struct Port {
     pub growths: u32,
 }
 
-finite!(Port { error, errors, regression, oscillation, half_period; growths });
+finite!(Port { error, errors, regression, oscillation, half_period; growths, moves });
 
 impl Port {
     /// Adds the second of four `steps` with the energy `error` [J]. Old errors are multiplied by `keep`.
@@ -105,12 +107,17 @@ impl Port {
         let PortStep { given, moved, changed, h, .. } = *steps[1];
         self.error += error;
         self.errors = keep * self.errors + error.abs();
-        // the reaction shows in the motion of this port, however slow the motion of the others is
+        // a standstill shows nothing, however long it lasts
+        self.moves = self.regression.is_motion(moved);
+        if !self.moves {
+            return;
+        }
+        // the reaction shows in the motion of this port, however slow other motions are
         let memory = self.oscillation.memory().max(LEAST_STEPS * h);
-        let weights = self.regression.add(given, [answer(steps, delay), moved, changed], (h, memory / (memory + h)));
+        self.regression.add(given, [answer(steps, delay), moved, changed], memory / (memory + h));
         self.half_period[0] += error.abs();
         self.half_period[1] += error;
-        if self.oscillation.add(given, h, weights) {
+        if self.oscillation.add(given, h) {
             let [magnitude, sum, before] = self.half_period;
             let grows = sum > 0.0 && before > 0.0 && magnitude > GROWS * before;
             self.growths = if grows { self.growths.saturating_add(1) } else { 0 };

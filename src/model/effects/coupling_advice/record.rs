@@ -133,7 +133,7 @@ impl Coupling {
     /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It
     /// is 0 if nothing moves, if no host reacts, or if there is no error.
     pub fn advice(&self, wanted: f64) -> f64 {
-        let moves = self.ports.iter().any(|port| port.regression.moves());
+        let moves = self.ports.iter().any(|port| port.moves);
         let reacts = self.ports.iter().any(|port| port.reacts(EXPLAINED));
         let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed);
         if !(moves && reacts && c > 0.0 && a + b > 0.0) {

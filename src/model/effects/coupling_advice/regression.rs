@@ -1,7 +1,7 @@
 //! Regression that shows if the host reacts: it explains the changes of u by the motion of the port.
 //!
 //! In a launch, an inertia behind a spring accelerates with the port, and only the difference of both motions changes u.
-//! If u oscillates, a linear trend in time is therefore removed from all values.
+//! If u oscillates, a linear trend over the steps is therefore removed from all values.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,39 +26,35 @@ const STILL: f64 = 1e-6;
 pub struct Regression {
     /// Sum of the weights of all steps.
     weight: f64,
-    /// Mean time that has passed since the steps [s].
+    /// Mean number of steps since the added ones. Unlike the time, it does not jump while the port stands still.
     age: f64,
     /// Means of Δu, x and y.
     means: [f64; 3],
     /// Sums of products of their deviations: uu, ux, uy, xx, xy, yy.
     products: [f64; 6],
-    /// Sums of products of their deviations with that of the time t: ut, xt, yt, tt.
-    with_time: [f64; 4],
+    /// Sums of products of their deviations with that of the number of the step t: ut, xt, yt, tt.
+    with_number: [f64; 4],
     /// Mean of |u|.
     magnitude: f64,
-    /// Movement of the last step.
-    moved: f64,
 }
 
-finite!(Regression { weight, age, means, products, with_time, magnitude, moved });
+finite!(Regression { weight, age, means, products, with_number, magnitude });
 
 impl Regression {
-    /// Adds a step of length `h` [s] in which the host's value is `given`, with its [Δu, x, y]. Old terms are multiplied
-    /// by `keep`. Returns `keep` and the share of the new step in all weights.
+    /// Adds a step in which the host's value is `given`, with its [Δu, x, y]. Old terms are multiplied by `keep`.
     #[inline]
-    pub fn add(&mut self, given: f64, values: [f64; 3], (h, keep): (f64, f64)) -> [f64; 2] {
+    pub fn add(&mut self, given: f64, values: [f64; 3], keep: f64) {
         self.weight = keep * self.weight + 1.0;
         let share = 1.0 / self.weight;
         let rest = 1.0 - share;
         self.magnitude += share * (given.abs() - self.magnitude);
-        self.moved = values[1];
         let [u, x, y]: [f64; 3] = std::array::from_fn(|i| values[i] - self.means[i]);
         self.means = [self.means[0] + share * u, self.means[1] + share * x, self.means[2] + share * y];
-        let t = self.age + h;
+        let t = self.age + 1.0;
         self.age = rest * t;
         let add = |sum: &mut f64, product: f64| *sum = keep * *sum + rest * product;
         let [uu, ux, uy, xx, xy, yy] = &mut self.products;
-        let [ut, xt, yt, tt] = &mut self.with_time;
+        let [ut, xt, yt, tt] = &mut self.with_number;
         add(xx, x * x);
         add(xy, x * y);
         add(yy, y * y);
@@ -72,7 +68,6 @@ impl Regression {
             add(uy, u * y);
             add(ut, u * t);
         }
-        [keep, share]
     }
 
     /// True if the host reacts: the motion explains at least the `fraction` of the changes of u, as they are or, if u
@@ -85,9 +80,9 @@ impl Regression {
         self.weight >= LEAST_WEIGHT && (reacts(self.products) || oscillates && reacts(self.without_trend()))
     }
 
-    /// Products after a linear trend in time has been removed.
+    /// Products after a linear trend over the steps has been removed.
     fn without_trend(&self) -> [f64; 6] {
-        let ([uu, ux, uy, xx, xy, yy], [ut, xt, yt, tt]) = (self.products, self.with_time);
+        let ([uu, ux, uy, xx, xy, yy], [ut, xt, yt, tt]) = (self.products, self.with_number);
         let square = |all: f64, trend: f64| if all - trend > PROPORTIONAL * all { all - trend } else { 0.0 };
         [
             square(uu, ut * ut / tt),
@@ -99,10 +94,12 @@ impl Regression {
         ]
     }
 
-    /// True if the port moved in the last step.
-    pub fn moves(&self) -> bool {
-        let usual = self.means[1] * self.means[1] + self.products[3] / self.weight;
-        self.moved * self.moved > STILL * STILL * usual
+    /// True if a port that has `moved` in a step does not stand still.
+    #[inline]
+    pub fn is_motion(&self, moved: f64) -> bool {
+        let usual =
+            if self.weight > 0.0 { self.means[1] * self.means[1] + self.products[3] / self.weight } else { 0.0 };
+        moved * moved > STILL * STILL * usual
     }
 }
 
@@ -128,7 +125,7 @@ mod tests {
         for step in 0..400 {
             let t = f64::from(step) * h;
             let (x, y) = (h * rate(t), rate(t + h) - rate(t));
-            regression.add(1.0, [changes(t, x, y), x, y], (h, 0.995));
+            regression.add(1.0, [changes(t, x, y), x, y], 0.995);
         }
         regression
     }
