@@ -61,7 +61,7 @@ impl Oscillation {
         changes
     }
 
-    /// True if the value has changed sides so often that its period is known.
+    /// True if a whole period is known.
     pub fn has_period(&self) -> bool {
         self.intervals[0] > 0.0
     }
