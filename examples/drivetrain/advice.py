@@ -7,7 +7,7 @@ from measure import GRID, difference, progress
 from parameters import END, STEP
 from slaves import System
 
-RATIO, ADVICE = OUTPUTS = ["coupling.energy_ratio", "coupling.step_advice"]
+OUTPUTS = ["coupling.energy_ratio", "coupling.step_advice"]
 # ratio at which the advised step aims: the FMU's start value
 WANTED = 0.01
 # sums cover a few periods of the half-shafts from this time on [s]
@@ -35,15 +35,10 @@ def advice(fmus, contact, right):
 def run(fmus, contact, master, step):
     """Ratio and advice after each step from `BEGIN` on, and all outputs of the system at the points of the grid, if steps meet them."""
     changes = {("differential", "effects.coupling_advice"): 1, ("differential", "coupling.host_delay"): master.delay}
-    every = round(GRID / step)
+    seen = []
     with System.of_fmus(fmus, contact, changes) as system:
-        differential = next(part for part in system.parts if part.name == "differential")
-        given, used = differential.variables(OUTPUTS), master()
-        y = system.read()
-        before, rows, seen = y, [y], []
-        for k in range(round(END / step)):
-            y, before = used.step(system, k * step, step, y, before), y
-            seen.append(given.get(differential.instance))
-            if (k + 1) % every == 0:
-                rows.append(y)
-    return np.array(seen)[round(BEGIN / step):], np.array(rows)
+        differential = system.part("differential")
+        given = differential.variables(OUTPUTS)
+        rows = masters.run(system, master(), step, round(END / step), round(GRID / step),
+                           lambda: seen.append(given.get(differential.instance)))
+    return np.array(seen)[round(BEGIN / step):], rows

@@ -115,14 +115,16 @@ ALL = {"jacobi": Jacobi, "gauss_seidel": GaussSeidel, "lines": Lines, "iterated_
        "iterated_lines": IteratedLines}
 
 
-def run(system, master, size, count, every=1):
-    """Outputs at the start and after every `every` of `count` steps of `size` [s]. A run that diverges ends early."""
+def run(system, master, size, count, every=1, watch=lambda: None):
+    """Outputs at the start and after every `every` of `count` steps of `size` [s]. `watch` is called after each step. A run that diverges
+    ends early."""
     y = system.read()
     before, rows = y, [y]
     for k in range(count):
         y, before = master.step(system, k * size, size, y, before), y
         if not np.all(np.abs(y) < BOUND):
             break
+        watch()
         if (k + 1) % every == 0:
             rows.append(y)
     return np.array(rows)

@@ -123,7 +123,7 @@ def write_csv(file, rows):
 def limits(fmus, quick):
     """Predicted limits of the communication step by master, with the growth of a disturbance in the FMUs on both sides."""
     with System.of_fmus(fmus, "ideal") as system:
-        interpolates = next(part for part in system.parts if part.name == "differential").interpolates
+        interpolates = system.part("differential").interpolates
     differential = str(fmus["BevelDifferential"])
     sliding = stability.linear_system(differential, interpolates, 0.0)
     linear = stability.linear_system(differential, interpolates)

@@ -29,14 +29,18 @@ def limits(found):
     rows = []
     for name, master in ALL.items():
         row = found[name]
-        measured = "–" if row.get("measured") is None else f"{row['measured'] * 1e3:.2f}"
         around = f"× {row['inside']:.2g} / × {row['outside']:.2g}" if "inside" in row else "–"
-        rows.append([master.label, f"{row['predicted'] * 1e3:.2f}", measured, around])
+        rows.append([master.label, f"{row['predicted'] * 1e3:.2f}", measured(row), around])
     shortest = min(found[name]["predicted"] for name in ALL)
     return ("Longest communication step, ms, at which nothing grows (with rollback: repetitions converge), and what a disturbance\n"
             "becomes in 0.2 s at 0.85 / 1.15 of the prediction.\n\n"
             + table([["master", "predicted", "found", "at 0.85 / at 1.15"], *rows])
             + f"\nThe archive's step of {STEP * 1e3:g} ms is {100.0 * STEP / shortest:.0f} % of the shortest of these.\n")
+
+
+def measured(row):
+    """Limit that runs have shown, in ms."""
+    return "–" if row.get("measured") is None else f"{row['measured'] * 1e3:.2f}"
 
 
 def advice(found):
@@ -60,9 +64,8 @@ def advised(row):
 def summary(found):
     """Limit, advice and error of each master side by side."""
     limits, rows, shown = found["limits"], found["advice"], f"in steps of {STEP * 1e3:g} ms, %"
-    measured = {name: "–" if limits[name].get("measured") is None else f"{limits[name]['measured'] * 1e3:.2f}" for name in rows}
     lines = [["longest stable step, ms: predicted", *(f"{limits[name]['predicted'] * 1e3:.2f}" for name in rows)],
-             ["found", *measured.values()],
+             ["found", *(measured(limits[name]) for name in rows)],
              [f"advised step for an energy ratio of {100.0 * WANTED:g} %, ms", *(advised(row) for row in rows.values())],
              [f"energy ratio {shown}", *(f"{100.0 * row['ratio']:.2g}" for row in rows.values())],
              [f"largest error {shown}", *(f"{100.0 * row['error']:.2g}" for row in rows.values())]]

@@ -89,6 +89,9 @@ class System:
 
         return cls(make_part)
 
+    def part(self, name):
+        return next(part for part in self.parts if part.name == name)
+
     def read(self):
         y = np.empty(len(self.signals))
         for part, gives in zip(self.parts, self.gives):

@@ -129,19 +129,21 @@ class Car:
 
     def _start(self, motion, speed, request):
         left, right = self.tyres
-        carrier = self.fmu.variable("inertia.carrier")
-        given = carrier.number(self._given.get("inertia.carrier", carrier.start))
         begin = speed / (0.5 * (left.radius + right.radius))
         if speed:
             motion.x[0] = motor_torque(self.motor, request, self.motor.ratio * begin)
-        contact = self.fmu.variable("scene.gear_contact")
-        # a start from rest reads it only if the gears are ideal
-        is_ideal = contact.number(self._given.get(contact.name, contact.start)) == contact.literals["ideal"]
+        # a start from rest reads the speed only if the gears are ideal
+        is_ideal = self._value("scene.gear_contact") == self.fmu.variable("scene.gear_contact").literals["ideal"]
         start = {"carrier.speed_command": begin} if speed or is_ideal else {}
-        return {**self._given, **start, "inertia.carrier": given + self.motor.inertia * self.motor.ratio**2,
+        return {**self._given, **start, "inertia.carrier": self._value("inertia.carrier") + self.motor.inertia * self.motor.ratio**2,
                 "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",
                 "scene.start": "equilibrium" if speed else "rest",
                 "inertia.left_end": left.inertia, "inertia.right_end": right.inertia}
+
+    def _value(self, name):
+        """Value of a parameter of the differential, given or by default."""
+        variable = self.fmu.variable(name)
+        return variable.number(self._given.get(name, variable.start))
 
     def _recorded(self, outputs):
         names = list(outputs)
