@@ -21,7 +21,7 @@ from documents import ROOT, blocks, commands, printed, saved
 from warned_lines import without_warnings
 
 # values that depend on the machine
-TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.]+ of the [\d.]+(?= ms of a run)")
+TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.e+-]+ of the [\d.e+-]+(?= ms of a run)")
 # longest line of a page, and the length at which longer lines are wrapped
 WIDEST, WIDTH = 160, 120
 GAP = re.compile(r"^ *\.\.\.\n", re.MULTILINE)
@@ -112,11 +112,13 @@ def now(block, said):
             if GAP.match(f"{line}\n"):
                 chosen.append("...")
                 continue
-            [nearest] = difflib.get_close_matches(line, lines[place:], n=1, cutoff=0.0)
-            found = lines.index(nearest, place)
+            nearest = difflib.get_close_matches(line, lines[place:], n=1, cutoff=0.0)
+            if not nearest:
+                break
+            found = lines.index(nearest[0], place)
             if found > place and chosen[-1:] != ["..."]:
                 chosen.append("...")
-            chosen.append(nearest)
+            chosen.append(lines[found])
             place = found + 1
         if place < len(lines) and chosen[-1] != "...":
             chosen.append("...")
@@ -196,5 +198,6 @@ def test_outputs_are_compared_by_their_digits_but_not_by_their_times():
     assert not shows("force 12.5 N\n\nerror 1.0 %; 50 x real time; more\n", said)
     assert not shows("force 12.5 N\nends\n", said)
     assert now("force 9 N\n...\nends\n", said) == "force 12.5 N\n...\nends\n"
+    assert now("...\nends\nforce 9 N\n", said) == "...\nends\n"
     assert now("...\nforce 9 N\nends\n", said) == "...\nforce 12.5 N\n...\nends\n"
     assert now("...\nerror 2.0 %; 7.25 x real time; more\n...\n", said) == "...\nerror 1.0 %; 7.25 x real time; more\n...\n"

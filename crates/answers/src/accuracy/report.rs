@@ -14,8 +14,6 @@ use crate::text::table::labelled;
 
 /// Width of the first column.
 const INDENT: usize = 11;
-/// The text mentions the time of the start if it exceeds this fraction of the time of the steps.
-const LONG_START: f64 = 0.2;
 /// Errors cancel if the chosen setting is this many times closer to the reference than the same gears with all effects.
 const CANCELLED: f64 = 2.0;
 /// Maximum number of wanted quantities that the text lists by name.
@@ -39,15 +37,11 @@ fn lines(answer: &Answer) -> Vec<(&'static str, String)> {
             let certain = if answer.is_uncertain() { " NOT CERTAIN, see the reference." } else { "" };
             lines.push(("", format!("{}.{certain}", error_and_cost(answer, chosen))));
             let Effort { start, seconds, .. } = chosen.effort;
-            if start > LONG_START * seconds {
-                let [start, all] = [start, start + seconds].map(|time| two_digits(time * 1e3));
-                lines.push((
-                    "",
-                    format!(
-                        "The start takes {start} of the {all} ms of a run; later starts with the same gears are faster."
-                    ),
-                ));
-            }
+            let [start, all] = [start, start + seconds].map(|time| two_digits(time * 1e3));
+            let time = format!(
+                "The start takes {start} of the {all} ms of a run; later starts with the same gears are faster."
+            );
+            lines.push(("", time));
             if let Some(by) = cancelled(answer, chosen) {
                 lines.push(("", by));
             }
