@@ -117,6 +117,26 @@ fn transmission_errors_call_for_a_law_from_geometry_and_name_the_grade_that_is_z
 }
 
 #[test]
+fn the_lines_of_an_answer_are_the_same_on_slow_and_on_fast_machines() {
+    let mut found = asked(TEETH, &["left.speed:mean"], 0.01);
+    let chosen = found.chosen.expect("a setting");
+    let mut timed = |start: f64, seconds: f64| {
+        let effort = &mut found.trials[chosen].effort;
+        (effort.start, effort.seconds) = (start, seconds);
+        let said = report::text(&found);
+        let is_number = |word: &&str| word.contains(|c: char| c.is_ascii_digit());
+        said.split_whitespace()
+            .map(|word| if is_number(&word) { "(number)" } else { word })
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let fast = timed(2e-3, 5e-3);
+    assert!(fast.contains("The start takes"), "{fast}");
+    assert_eq!(fast, timed(2e-3, 50.0));
+    assert_eq!(fast, timed(2.0, 5e-3));
+}
+
+#[test]
 fn a_mean_speed_calls_for_no_teeth() {
     let found = asked(TEETH, &["left.speed:mean"], 0.01);
     let p = found.choice().expect("a setting").scene.parameters;
