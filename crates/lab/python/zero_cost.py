@@ -60,8 +60,7 @@ def main():
         return
     print(f"{markdown(rows)}\nInstructions per communication step of 1 ms in the study's turn: {totals[1]:.0f} with all off, {totals[0]:.0f} in "
           "a build without any, with the same bits. An effect that is off adds no floating-point operation, branch or call. One that is on "
-          "takes more steps where it brings faster motion. `coupling_advice` acts once per communication step: both builds test there "
-          "whether it is on, with five instructions.")
+          "takes more steps where it brings faster motion. Both builds test once per communication step whether `coupling_advice` is on.")
 
 
 if __name__ == "__main__":

@@ -86,7 +86,7 @@ pub struct Port {
     pub error: f64,
     /// Decaying sum of the magnitudes of the energy errors [J].
     pub errors: f64,
-    /// True if the port moved in the last step.
+    /// True if the port moved in the last step that was added.
     pub moves: bool,
     /// Reaction of the host.
     pub regression: Regression,
