@@ -1,6 +1,6 @@
-"""Wheel with a tyre whose slip builds up over a relaxation length, on a road with given friction."""
+"""Wheel with a tyre whose slip builds up over a relaxation length until its patch slides, on a road with given friction."""
 
-from equations import slip_rate, tyre_force
+from equations import patch_rate, patch_slip, tyre_force, tyre_full_slide
 from part import Part
 
 
@@ -17,18 +17,22 @@ class Wheel(Part):
         "damping": (1000.0, "Damping of the tyre along the road at standstill, N.s/m"),
         "walk": (2.5, "Speed of the vehicle at which this damping is halved, m/s"),
     }
-    states = ("speed", "slip")
+    # the deflection is a fraction of the relaxation length
+    states = ("speed", "deflection")
     inputs = (("shaft_torque", "Torque of the half-shaft, N.m"), ("vehicle_speed", "Speed of the vehicle, m/s"))
     outputs = (("speed", "Speed of the wheel, rad/s"), ("force", "Force of the road on the tyre, N"),
                ("slip", "Slip of the tyre as it has built up"))
 
+    def slip(self, x):
+        return patch_slip(x[1], tyre_full_slide(self))
+
     def force(self, x, v):
-        return tyre_force(self, x[1], self.radius * x[0], v)
+        return tyre_force(self, self.slip(x), self.radius * x[0], v)
 
     def rates(self, t, x, u):
         torque, v = u
         return [(torque - self.radius * self.force(x, v)) / self.inertia,
-                slip_rate(self, x[1], self.radius * x[0], v)]
+                patch_rate(x[1], tyre_full_slide(self), self.relaxation, self.radius * x[0] - v, v)]
 
     def output_values(self, x, u):
-        return {"speed": x[0], "force": self.force(x, u[1]), "slip": x[1]}
+        return {"speed": x[0], "force": self.force(x, u[1]), "slip": self.slip(x)}

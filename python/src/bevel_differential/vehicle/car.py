@@ -184,7 +184,7 @@ def _host(side, tyre, speed):
     """Tyre around no slip at a speed of the body [m/s], as a host that reads the wheel's speed."""
     from ..coupling import Host
 
-    # `slip_rate` and `tyre_force`, with the slip as state
+    # `patch_rate` and `tyre_force` of a patch that adheres, with its slip as state
     return Host.of(side, [[-speed / tyre.relaxation]], [[tyre.radius / tyre.relaxation]], [[tyre.radius * tyre.slip_stiffness]],
                    [[tyre.radius**2 * tyre.damping / (1.0 + (speed / tyre.walk) ** 2)]], "speed")
 

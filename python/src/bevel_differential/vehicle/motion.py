@@ -2,14 +2,17 @@
 
 from collections.abc import Callable, Sequence
 
-from .equations import GRAVITY, axle_force, motor_torque, resistance, slip_rate, tyre_force
+from .equations import (GRAVITY, axle_force, full_slide, motor_torque, patch_rate, patch_slip, resistance, rocking_slip, sliding_rate,
+                        tyre_force, tyre_full_slide)
 from .parts import Body, Motor, Tyre
 
-# states: torque of the motor (N.m), slip of both tyres, speed ahead and lateral speed (m/s), yaw rate (rad/s), slip angles of both
-# axles (rad)
+# states: torque of the motor (N.m), deflections of both tyres over their relaxation length, speed ahead and lateral speed (m/s), yaw rate
+# (rad/s), lateral deflections of both axles over their relaxation length
 STATES = 8
 # longest step of Runge-Kutta's method of order 4, s
 LONGEST = 1e-3
+# Largest product of this step and the rate of a patch that slides. The method is stable up to 2.78.
+STABLE = 2.0
 # speeds of carrier, left and right wheel at a time within the step, rad/s
 Speeds = Callable[[float], Sequence[float]]
 
@@ -25,6 +28,26 @@ class Motion:
         self.x[3] = speed
         weight = body.mass * GRAVITY / (body.front + body.rear)
         self._limits = [body.grip * weight * body.rear, body.grip * weight * body.front]
+        # full slide and relaxation length (m) of the patches: left and right tyre along their planes, front and driven axle to the side
+        self._patches = [*((tyre_full_slide(tyre), tyre.relaxation) for tyre in tyres),
+                         *((full_slide(*axle), body.relaxation) for axle in zip(self._stiffness(), self._limits))]
+
+    def _stiffness(self) -> tuple[float, float]:
+        """Cornering stiffness of front and driven axle, N/rad."""
+        return self.body.front_stiffness, self.body.rear_stiffness
+
+    def slips(self, x: Sequence[float]) -> list[float]:
+        """Slips of the patches, in their order."""
+        return [patch_slip(deflection, full) for deflection, (full, _) in zip((x[1], x[2], x[6], x[7]), self._patches)]
+
+    def creeps(self, x: Sequence[float], speeds: Sequence[float], steer: float) -> list[float]:
+        """Speeds of the tyres at the patches relative to the road, m/s."""
+        along = [tyre.radius * speed - centre for tyre, speed, centre in zip(self.tyres, speeds[1:], self.wheel_centres(x))]
+        return along + self.lateral_creeps(x, steer)
+
+    def lateral_creeps(self, x: Sequence[float], steer: float) -> list[float]:
+        """Lateral speeds of the tyres of front and driven axle relative to the road, m/s."""
+        return [x[3] * steer - x[4] - self.body.front * x[5], self.body.rear * x[5] - x[4]]
 
     def wheel_centres(self, x: Sequence[float]) -> list[float]:
         """Speeds of the centres of left and right wheel, m/s."""
@@ -33,14 +56,14 @@ class Motion:
 
     def forces(self, x: Sequence[float], speeds: Sequence[float]) -> list[float]:
         """Forces of the road on left and right tyre, N. `speeds`: speeds of carrier and wheels, rad/s."""
-        return [tyre_force(tyre, x[1 + s], tyre.radius * speeds[1 + s], centre)
-                for s, (tyre, centre) in enumerate(zip(self.tyres, self.wheel_centres(x)))]
+        return [tyre_force(tyre, slip, tyre.radius * speed, centre)
+                for tyre, slip, speed, centre in zip(self.tyres, self.slips(x), speeds[1:], self.wheel_centres(x))]
 
-    def lateral_forces(self, x: Sequence[float]) -> list[float]:
+    def lateral_forces(self, x: Sequence[float], steer: float) -> list[float]:
         """Lateral forces of front and driven axle, N, positive to the left."""
-        body = self.body
-        return [axle_force(stiffness, limit, x[6 + i])
-                for i, (stiffness, limit) in enumerate(zip((body.front_stiffness, body.rear_stiffness), self._limits))]
+        slips = (slip + rocking_slip(self.body.relaxation, creep, x[3])
+                 for slip, creep in zip(self.slips(x)[2:], self.lateral_creeps(x, steer)))
+        return [axle_force(*axle) for axle in zip(self._stiffness(), self._limits, slips)]
 
     def torque(self, speeds: Sequence[float]) -> float:
         """Torque of the motor, N.m. The lagging torque is limited again, because the limit falls immediately when the speed rises."""
@@ -49,23 +72,30 @@ class Motion:
     def rates(self, x: Sequence[float], speeds: Sequence[float], request: float, steer: float) -> list[float]:
         """Rates of all states, at the torque `request` of the motor (N.m) and the angle `steer` of the front wheels (rad)."""
         motor, body = self.motor, self.body
-        torque, _, _, ahead, aside, yaw, front, rear = x
+        torque, _, _, ahead, aside, yaw, _, _ = x
         left, right = self.forces(x, speeds)
-        front_force, rear_force = self.lateral_forces(x)
-        centres = self.wheel_centres(x)
+        front_force, rear_force = self.lateral_forces(x, steer)
+        deflecting = [patch_rate(deflection, *patch, creep, speed)
+                      for deflection, patch, creep, speed in zip((x[1], x[2], x[6], x[7]), self._patches, self.creeps(x, speeds, steer),
+                                                                 (*self.wheel_centres(x), ahead, ahead))]
         return [
             (motor_torque(motor, request, motor.ratio * speeds[0]) - torque) / motor.lag,
-            *(slip_rate(tyre, x[1 + s], tyre.radius * speeds[1 + s], centres[s]) for s, tyre in enumerate(self.tyres)),
+            *deflecting[:2],
             (left + right - front_force * steer - resistance(body, ahead)) / body.mass + aside * yaw,
             (front_force + rear_force) / body.mass - ahead * yaw,
             (body.front * front_force - body.rear * rear_force + 0.5 * body.track * (right - left)) / body.yaw_inertia,
-            (ahead * steer - aside - body.front * yaw - abs(ahead) * front) / body.relaxation,
-            (body.rear * yaw - aside - abs(ahead) * rear) / body.relaxation,
+            *deflecting[2:],
         ]
+
+    def _count(self, size: float, speeds: Speeds, steer: Callable[[float], float]) -> int:
+        """Number of steps in which `size` (s) is integrated: more than usual while a patch slides fast."""
+        rates = (abs(creep) * sliding_rate(*patch) for time in (0.0, size)
+                 for creep, patch in zip(self.creeps(self.x, speeds(time), steer(time)), self._patches))
+        return max(1, -int(-size * max(1.0 / LONGEST, max(rates) / STABLE) // 1.0))
 
     def advance(self, size: float, speeds: Speeds, request: Callable[[float], float], steer: Callable[[float], float]) -> None:
         """Integrates over `size` (s). `speeds` (carrier and wheels), `request` and `steer` count time from the start of the step."""
-        count = max(1, -int(-size // LONGEST))
+        count = self._count(size, speeds, steer)
         h, x = size / count, self.x
         for k in range(count):
             times = ((k + part) * h for part in (0.0, 0.5, 1.0))
@@ -84,9 +114,9 @@ class Motion:
 
     def outputs(self, speeds: Sequence[float], steer: float) -> dict[str, float]:
         """All outputs of the parts, by name."""
-        _, left_slip, right_slip, ahead, aside, yaw, _, _ = self.x
-        left, right = self.forces(self.x, speeds)
+        ahead, aside, yaw = self.x[3:6]
+        (left, right), (left_slip, right_slip, _, _) = self.forces(self.x, speeds), self.slips(self.x)
         return {"motor.torque": self.torque(speeds), "motor.speed": self.motor.ratio * speeds[0],
                 "left_tyre.force": left, "right_tyre.force": right, "left_tyre.slip": left_slip, "right_tyre.slip": right_slip,
                 "body.speed": ahead, "body.lateral_speed": aside, "body.yaw_rate": yaw,
-                "body.lateral_acceleration": sum(self.lateral_forces(self.x)) / self.body.mass, "body.steer": steer}
+                "body.lateral_acceleration": sum(self.lateral_forces(self.x, steer)) / self.body.mass, "body.steer": steer}

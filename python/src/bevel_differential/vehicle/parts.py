@@ -7,7 +7,8 @@ from .part import Part, parameter
 
 @dataclass
 class Tyre(Part):
-    """Driven wheel and its tyre. The slip builds up over a relaxation length; the force follows Pacejka's magic formula.
+    """Driven wheel and its tyre. The slip builds up over a relaxation length, until the whole contact patch slides. The force follows
+    Pacejka's magic formula.
 
     Torque on the wheel: the differential's shaft torque less `radius` times the force of the road."""
 
