@@ -2,7 +2,8 @@
 
 The equations are written here again and share no code with the parts. The differential is Willis' equation (`Ideal`) or
 the teeth of this program (`Teeth`), whose rates the library foreign-solvers offers to any solver.
-States: torque and speed of the engine, twist of the prop shaft, speed and slip of each wheel, speed, differential.
+States: torque and speed of the engine, twist of the prop shaft, speed of each wheel, deflection of each tyre in relaxation lengths, speed,
+differential.
 """
 
 import sys
@@ -20,9 +21,14 @@ from library import Library, Run  # noqa: E402
 GEAR, FINAL, ENGINE_INERTIA, PROP_STIFFNESS, PROP_DAMPING = 3.5, 3.9, 0.15, 7500.0, 8.0
 WHEEL_INERTIA, RADIUS, LOAD, SLIP_STIFFNESS, SHAPE, RELAXATION = 1.0, 0.334, 3568.0, 70000.0, 1.4, 0.4
 TYRE_DAMPING, WALK = 1000.0, 2.5
+# damping over stiffness of a tyre against motion of the car at standstill [s], speed at which it is halved [m/s]
+ROCKING, ROCKING_SPEED = 0.003, 0.5
+# fraction of the deflection of a sliding patch up to which it adheres
+ADHESION = 2.0 / 3.0
 MASS, DRAG, ROLLING, BREAKAWAY, GRAVITY = 1455.0, 0.4, 0.012, 0.2, 9.80665
-STIFFNESS = [DIFFERENTIAL[f"half_shaft.{side}_stiffness"] for side in ("left", "right")]
-DAMPING = [DIFFERENTIAL[f"half_shaft.{side}_damping"] for side in ("left", "right")]
+SIDES = ("left", "right")
+STIFFNESS = [DIFFERENTIAL[f"half_shaft.{side}_stiffness"] for side in SIDES]
+DAMPING = [DIFFERENTIAL[f"half_shaft.{side}_damping"] for side in SIDES]
 # teeth of side gear over teeth of planet
 TEETH = 16.0 / 10.0
 
@@ -37,9 +43,23 @@ def engine_rate(t, torque, speed):
     return (asked / sqrt(1.0 + (speed / 300.0) ** 2) - torque) / 0.03
 
 
-def tyre(side, speed, slip, v):
+def adhering(side, deflection):
+    """Fraction of a sliding speed that deflects the tyre further."""
+    sliding = 3.0 * FRICTION[side] * LOAD / SLIP_STIFFNESS
+    return 1.0 - (min(max(abs(deflection) / sliding - ADHESION, 0.0) / (1.0 - ADHESION), 1.0)) ** 2
+
+
+def deflection_rate(side, speed, deflection, v):
+    creep = RADIUS * speed - v
+    return (creep * (adhering(side, deflection) if creep * deflection > 0.0 else 1.0) - abs(v) * deflection) / RELAXATION
+
+
+def tyre(side, speed, deflection, v):
     peak = FRICTION[side] * LOAD
+    # a wheel that spins while the car stands would have an infinite slip
+    slip = deflection / max(adhering(side, deflection), 0.01 * abs(deflection))
     slip += TYRE_DAMPING / (1.0 + (v / WALK) ** 2) / SLIP_STIFFNESS * (RADIUS * speed - v)
+    slip -= ROCKING / (1.0 + (v / ROCKING_SPEED) ** 2) * v / RELAXATION
     return peak * sin(SHAPE * atan(SLIP_STIFFNESS / (SHAPE * peak) * slip))
 
 
@@ -120,15 +140,15 @@ class Whole:
         return PROP_STIFFNESS * x[2] + PROP_DAMPING * rate, rate
 
     def rates(self, t, x):
-        gears, wheels, slips, v = x[8:], x[3:5], x[5:7], x[7]
+        gears, wheels, deflections, v = x[8:], x[3:5], x[5:7], x[7]
         prop, twist_rate = self.prop_shaft(x)
         torques = self.differential.torques(gears, wheels)
-        forces = [tyre("left", wheels[0], slips[0], v), tyre("right", wheels[1], slips[1], v)]
+        forces = [tyre(side, *state, v) for side, state in zip(SIDES, zip(wheels, deflections))]
         resistance = DRAG * v * abs(v) + ROLLING * MASS * GRAVITY * tanh(v / BREAKAWAY)
         return np.concatenate((
             [engine_rate(t, x[0], x[1]), (x[0] - prop / GEAR) / ENGINE_INERTIA, twist_rate],
             [(torques[s] - RADIUS * forces[s]) / WHEEL_INERTIA for s in range(2)],
-            [(RADIUS * wheels[s] - v - abs(v) * slips[s]) / RELAXATION for s in range(2)],
+            [deflection_rate(side, *state, v) for side, state in zip(SIDES, zip(wheels, deflections))],
             [(forces[0] + forces[1] - resistance) / MASS],
             self.differential.rates(gears, FINAL * prop, wheels)))
 

@@ -61,9 +61,11 @@ def parts(grip):
 
     def wheel(grip):
         force, damping, arm = grip * r.SLIP_STIFFNESS, grip * r.TYRE_DAMPING, r.RADIUS / r.WHEEL_INERTIA
+        # against motion of the car
+        rocking = damping + force * r.ROCKING / r.RELAXATION
         return ([[-arm * damping * r.RADIUS, -arm * force], [r.RADIUS / r.RELAXATION, 0]],
-                [[1 / r.WHEEL_INERTIA, arm * damping], [0, -1 / r.RELAXATION]],
-                [[1, 0], [damping * r.RADIUS, force]], [[0, 0], [0, -damping]])
+                [[1 / r.WHEEL_INERTIA, arm * rocking], [0, -1 / r.RELAXATION]],
+                [[1, 0], [damping * r.RADIUS, force]], [[0, 0], [0, -rocking]])
 
     rolling = r.ROLLING * r.GRAVITY / r.BREAKAWAY
     return {

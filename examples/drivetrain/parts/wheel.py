@@ -17,7 +17,7 @@ class Wheel(Part):
         "damping": (1000.0, "Damping of the tyre along the road at standstill, N.s/m"),
         "walk": (2.5, "Speed of the vehicle at which this damping is halved, m/s"),
     }
-    # the deflection is a fraction of the relaxation length
+    # the deflection is in relaxation lengths
     states = ("speed", "deflection")
     inputs = (("shaft_torque", "Torque of the half-shaft, N.m"), ("vehicle_speed", "Speed of the vehicle, m/s"))
     outputs = (("speed", "Speed of the wheel, rad/s"), ("force", "Force of the road on the tyre, N"),

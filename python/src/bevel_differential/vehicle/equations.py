@@ -2,12 +2,12 @@
 
 `tyre`, `motor` and `body` are objects with the parameters of `Tyre`, `Motor` and `Body`. SI units.
 
-A contact patch deflects by u along its force, and slides at the speed c of the tyre relative to the road. While the patch adheres,
-du/dt = c - |v| u/σ, with the speed v of the wheel's centre and the relaxation length σ (Pacejka, *Tyre and Vehicle Dynamics*, 3rd edition
-2012, chapter 7; Bernard and Clover, SAE 950311). Its deflection cannot exceed that at which the whole patch slides. The fraction a(u) of c
-therefore becomes sliding, as in the single-state elastoplastic model: du/dt = c (1 - a) - |v| u/σ (Dupont, Hayward, Armstrong and Altpeter,
-IEEE Transactions on Automatic Control 47(5), 2002). If c reduces the deflection, a is 0, so the patch springs back. The force depends on the
-slip u/(σ (1 - a)). At constant speeds, this slip becomes c/|v| for each c.
+A contact patch deflects by u. The tyre moves relative to the road with the creep c, and the wheel's centre with the speed v. While the patch
+adheres, du/dt = c - |v| u/σ, with the relaxation length σ (Pacejka, *Tyre and Vehicle Dynamics*, 3rd edition 2012, chapter 7; Bernard and
+Clover, SAE 950311). The deflection cannot exceed that at which the whole patch slides. The fraction a(u) of the creep therefore becomes
+sliding, as in the elastoplastic model: du/dt = c (1 - a) - |v| u/σ (Dupont, Hayward, Armstrong and Altpeter, IEEE Transactions on Automatic
+Control 47(5), 2002). If the creep reduces the deflection, nothing slides, so a is 0 in this equation. The force follows from the slip
+u/(σ (1 - a)), which tends to c/|v|. The code counts u in relaxation lengths.
 """
 
 from math import atan, sin, tanh
@@ -15,55 +15,55 @@ from typing import Any
 
 # standard gravity, m/s2
 GRAVITY = 9.80665
-# The patch adheres up to this fraction of the deflection at which all of it slides. Pacejka's formula then gives 97 % of its peak if its
-# shape is 1.4.
+# The whole patch adheres up to this fraction of the deflection at which all of it slides. Pacejka's formula with shape 1.4 then gives 97 %
+# of its peak, so the wheel does not spin before.
 ADHESION = 2.0 / 3.0
-# Damping over stiffness of a patch against the motion of the body at standstill, s. The car rocks on its tyres with about 15 rad/s, so the
-# loss factor is 0.18. Damping of rubber falls with frequency. `Tyre.damping` also resists the fast motion of the wheel, so it is smaller.
-ROCKING = 0.012
+# Largest slip of a patch: a wheel that spins while the car stands has an infinite slip.
+LARGEST_SLIP = 100.0
+# Damping over stiffness of a patch against motion of the body, along and across the plane of the wheel, s. A body that rocks on its tyres
+# with 15 rad/s then has a loss factor of 0.13 in both directions, because `Tyre.damping` contributes 0.006 s along the plane.
+ROCKING_ALONG, ROCKING_ACROSS = 0.003, 0.009
 # Speed of the car at which this damping is halved, m/s.
 ROCKING_SPEED = 0.5
-# Largest slip that a patch can have. A wheel that spins while the car stands has no finite slip.
-LARGEST_SLIP = 100.0
 
 
 def full_slide(stiffness: float, limit: float) -> float:
-    """Deflection over relaxation length at which a whole patch slides. It is the slip 3 μ F_z/C at which all bristles of the brush
-    model slide (Pacejka, section 3.2). `stiffness`: slope of the force by slip, N; `limit`: friction coefficient times load, N."""
+    """Deflection in relaxation lengths at which a whole patch slides, 3 μ F_z/C. All bristles of the brush model slide at this slip
+    (Pacejka, section 3.2). `stiffness`: slope of the force by slip, N; `limit`: friction coefficient times load, N."""
     return 3.0 * limit / stiffness
 
 
 def sliding_rate(full: float, relaxation: float) -> float:
-    """Largest rate at which a patch approaches full sliding, for each m/s of its sliding speed, 1/m."""
+    """Largest rate at which the deflection of a patch settles, divided by its creep, 1/m."""
     return 2.0 / ((1.0 - ADHESION) * full * relaxation)
 
 
 def sliding_part(deflection: float, full: float) -> float:
-    """Fraction of the sliding speed that does not deflect the patch: 0 in adhesion, 1 if the whole patch slides."""
+    """Fraction a of the creep that slides: 0 in adhesion, 1 if the whole patch slides."""
     above = min(max(abs(deflection) / full - ADHESION, 0.0) / (1.0 - ADHESION), 1.0)
     return above * above
 
 
 def patch_slip(deflection: float, full: float) -> float:
-    """Slip that corresponds to the `deflection` of a patch, which is a fraction of the relaxation length, as is `full`."""
+    """Slip of a patch at its deflection. Both are in relaxation lengths, as is `full`, the deflection at which all of it slides."""
     return deflection / max(1.0 - sliding_part(deflection, full), abs(deflection) / LARGEST_SLIP)
 
 
 def patch_rate(deflection: float, full: float, relaxation: float, creep: float, speed: float) -> float:
-    """Rate of the deflection over relaxation length, 1/s. `creep`: speed of the tyre relative to the road, m/s; `speed`: speed of the
-    wheel's centre, m/s."""
+    """Rate of a patch's deflection, in relaxation lengths per second. `creep`: speed of the tyre relative to the road, m/s; `speed`: speed
+    of the wheel's centre, m/s."""
     deflecting = 1.0 - sliding_part(deflection, full) if creep * deflection > 0.0 else 1.0
     return (deflecting * creep - abs(speed) * deflection) / relaxation
 
 
-def rocking_slip(relaxation: float, motion: float, ahead: float) -> float:
-    """Slip by which the force of a patch increases while the body moves relative to the road. `motion`: speed along the force, m/s;
-    `ahead`: speed of the car, m/s."""
-    return ROCKING / (1.0 + (ahead / ROCKING_SPEED) ** 2) * motion / relaxation
+def rocking_slip(rocking: float, relaxation: float, motion: float, ahead: float) -> float:
+    """Slip that a patch gains while the body rocks, by the damping `rocking`. `motion`: speed of the body against the force, m/s;
+    `ahead`: speed of the car, m/s. It only depends on the body, so it does not shorten the steps that a wheel allows."""
+    return rocking * motion / (relaxation * (1.0 + (ahead / ROCKING_SPEED) ** 2))
 
 
 def tyre_full_slide(tyre: Any) -> float:
-    """Deflection over relaxation length at which the patch of a tyre slides along its plane."""
+    """Deflection in relaxation lengths at which the whole patch of a tyre slides along its plane."""
     return full_slide(tyre.slip_stiffness, tyre.friction * tyre.load)
 
 
@@ -71,10 +71,10 @@ def tyre_force(tyre: Any, slip: float, rolling: float, speed: float) -> float:
     """Force of the road on the tyre along its plane, N.
 
     Pacejka's magic formula with E = 0 (*Tyre and Vehicle Dynamics*, 3rd edition 2012, section 4.3). `slip`: `patch_slip` of its
-    deflection; `rolling`: radius times speed of the wheel, m/s; `speed`: speed of the wheel's centre, m/s. Both dampings fade with speed."""
+    deflection; `rolling`: radius times speed of the wheel, m/s; `speed`: speed of the wheel's centre, m/s. Damping fades with speed."""
     peak = tyre.friction * tyre.load
     damping = tyre.damping / (1.0 + (speed / tyre.walk) ** 2)
-    total = slip + damping / tyre.slip_stiffness * (rolling - speed) + rocking_slip(tyre.relaxation, -speed, speed)
+    total = slip + damping / tyre.slip_stiffness * (rolling - speed) - rocking_slip(ROCKING_ALONG, tyre.relaxation, speed, speed)
     return peak * sin(tyre.shape * atan(tyre.slip_stiffness / (tyre.shape * peak) * total))
 
 

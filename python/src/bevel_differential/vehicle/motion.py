@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Sequence
 
-from .equations import (GRAVITY, axle_force, full_slide, motor_torque, patch_rate, patch_slip, resistance, rocking_slip, sliding_rate,
-                        tyre_force, tyre_full_slide)
+from .equations import (GRAVITY, ROCKING_ACROSS, axle_force, full_slide, motor_torque, patch_rate, patch_slip, resistance, rocking_slip,
+                        sliding_rate, tyre_force, tyre_full_slide)
 from .parts import Body, Motor, Tyre
 
-# states: torque of the motor (N.m), deflections of both tyres over their relaxation length, speed ahead and lateral speed (m/s), yaw rate
-# (rad/s), lateral deflections of both axles over their relaxation length
+# states: torque of the motor (N.m), deflections of both tyres (relaxation lengths), speed ahead and lateral speed (m/s), yaw rate (rad/s),
+# lateral deflections of both axles (relaxation lengths)
 STATES = 8
 # longest step of Runge-Kutta's method of order 4, s
 LONGEST = 1e-3
@@ -61,7 +61,7 @@ class Motion:
 
     def lateral_forces(self, x: Sequence[float], steer: float) -> list[float]:
         """Lateral forces of front and driven axle, N, positive to the left."""
-        slips = (slip + rocking_slip(self.body.relaxation, creep, x[3])
+        slips = (slip + rocking_slip(ROCKING_ACROSS, self.body.relaxation, creep, x[3])
                  for slip, creep in zip(self.slips(x)[2:], self.lateral_creeps(x, steer)))
         return [axle_force(*axle) for axle in zip(self._stiffness(), self._limits, slips)]
 

@@ -45,7 +45,7 @@ class Body(Part):
     mass: float = parameter(1455.0, "kg", "Mass", 0.0)
     drag: float = parameter(0.4, "kg/m", "Half the air's density times drag coefficient and area", -1e-300)
     rolling: float = parameter(0.012, "1", "Rolling resistance by weight", -1e-300)
-    breakaway: float = parameter(0.2, "m/s", "Speed from which rolling resistance is full", 0.0)
+    breakaway: float = parameter(0.02, "m/s", "Speed from which rolling resistance is full", 0.0)
     track: float = parameter(1.5, "m", "Distance of the driven wheels", 0.0)
     front: float = parameter(1.2, "m", "Distance of the front axle from the centre of gravity", 0.0)
     rear: float = parameter(1.4, "m", "Distance of the driven axle from the centre of gravity", 0.0)
