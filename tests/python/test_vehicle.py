@@ -40,6 +40,23 @@ def magic(tyre, slip):
     return peak * sin(tyre.shape * atan(tyre.slip_stiffness / (tyre.shape * peak) * slip))
 
 
+def patch(deflection, stiffness, limit, rocking):
+    """Adhering fraction of a patch and its slip, with `rocking` added, from the deflection in relaxation lengths: from two thirds of the
+    deflection 3 F_max/C of a sliding brush on, the sliding fraction grows with a square up to 1."""
+    most = 3.0 * limit / stiffness
+    adheres = 1.0 - min(max(3.0 * abs(deflection) / most - 2.0, 0.0), 1.0) ** 2
+    return adheres, deflection / max(adheres, 0.01 * abs(deflection)) + rocking
+
+
+def deflecting(creep, speed, deflection, adheres, relaxation):
+    return ((adheres if creep * deflection > 0.0 else 1.0) * creep - abs(speed) * deflection) / relaxation
+
+
+def rocking(time, motion, speed, relaxation):
+    """Slip from the damping over stiffness `time` (s) against `motion` of the body, halved at 0.5 m/s."""
+    return time * motion / relaxation / (1.0 + 4.0 * speed**2)
+
+
 def allowed(motor, carrier):
     """Largest torque of the motor: its peak, or its power divided by its speed."""
     return min(motor.peak, motor.peak * motor.knee / max(motor.ratio * carrier, 1e-9))
@@ -58,30 +75,35 @@ def reference(speed, motor, body):
         torque, carrier, spin, s_l, s_r, v, w, r, front, rear = y
         wheels = carrier + RATIO * spin, carrier - RATIO * spin
         centres = v - 0.5 * body.track * r, v + 0.5 * body.track * r
-        forces, slips = [], []
-        for tyre, omega, centre, slip in zip((LEFT, RIGHT), wheels, centres, (s_l, s_r)):
+        forces, slips, lateral, sideways = [], [], [], []
+        for tyre, omega, centre, u in zip((LEFT, RIGHT), wheels, centres, (s_l, s_r)):
             creep = tyre.radius * omega - centre
             fading = tyre.damping / (1.0 + (centre / tyre.walk) ** 2)
+            adheres, slip = patch(u, tyre.slip_stiffness, tyre.friction * tyre.load, rocking(0.003, -centre, centre, tyre.relaxation))
             forces.append(magic(tyre, slip + fading / tyre.slip_stiffness * creep))
-            slips.append((creep - abs(centre) * slip) / tyre.relaxation)
+            slips.append(deflecting(creep, centre, u, adheres, tyre.relaxation))
+        delta = steer(time)
+        for u, stiffness, limit, creep in ((front, body.front_stiffness, limits[0], v * delta - w - body.front * r),
+                                           (rear, body.rear_stiffness, limits[1], body.rear * r - w)):
+            adheres, slip = patch(u, stiffness, limit, rocking(0.015, creep, v, body.relaxation))
+            lateral.append(limit * tanh(stiffness * slip / limit))
+            sideways.append(deflecting(creep, v, u, adheres, body.relaxation))
+        y_front, y_rear = lateral
         load_l, load_r = (tyre.radius * force for tyre, force in zip((LEFT, RIGHT), forces))
         limit = allowed(motor, carrier)
         drive = motor.ratio * min(torque, limit)
         alpha = np.linalg.solve(mass_matrix, [drive - load_l - load_r, RATIO * (load_r - load_l)])
-        y_front = limits[0] * tanh(body.front_stiffness * front / limits[0])
-        y_rear = limits[1] * tanh(body.rear_stiffness * rear / limits[1])
-        delta = steer(time)
         against = body.drag * v * abs(v) + body.rolling * body.mass * g * tanh(v / body.breakaway)
         return [(min(request(time), limit) - torque) / motor.lag, *alpha, *slips, (sum(forces) - y_front * delta - against) / body.mass + w * r,
                 (y_front + y_rear) / body.mass - v * r,
                 (body.front * y_front - body.rear * y_rear + 0.5 * body.track * (forces[1] - forces[0])) / body.yaw_inertia,
-                (v * delta - w - body.front * r - abs(v) * front) / body.relaxation,
-                (body.rear * r - w - abs(v) * rear) / body.relaxation]
+                *sideways]
 
     begin = [0.0, speed / LEFT.radius, 0.0, 0.0, 0.0, speed, 0.0, 0.0, 0.0, 0.0]
     y = solve_ivp(rates, (0.0, END), begin, "LSODA", rtol=1e-10, atol=1e-12).y[:, -1]
     wheels = y[1] + RATIO * y[2], y[1] - RATIO * y[2]
-    return dict(zip(OUTPUTS, [min(y[0], allowed(motor, y[1])), *wheels, y[3], y[4], y[5], y[6], y[7]]))
+    slips = [patch(u, tyre.slip_stiffness, tyre.friction * tyre.load, 0.0)[1] for u, tyre in zip(y[3:5], (LEFT, RIGHT))]
+    return dict(zip(OUTPUTS, [min(y[0], allowed(motor, y[1])), *wheels, *slips, y[5], y[6], y[7]]))
 
 
 @pytest.mark.parametrize("speed", [0.0, 15.0])
