@@ -41,13 +41,14 @@ def sliding_rate(full: float, relaxation: float) -> float:
 
 def sliding_part(deflection: float, full: float) -> float:
     """Fraction a of the creep that slides: 0 in adhesion, 1 if the whole patch slides."""
-    above = min(max(abs(deflection) / full - ADHESION, 0.0) / (1.0 - ADHESION), 1.0)
-    return above * above
+    above = (abs(deflection) / full - ADHESION) / (1.0 - ADHESION)
+    return 0.0 if above <= 0.0 else min(above * above, 1.0)
 
 
 def patch_slip(deflection: float, full: float) -> float:
     """Slip of a patch at its deflection. Both are in relaxation lengths, as is `full`, the deflection at which all of it slides."""
-    return deflection / max(1.0 - sliding_part(deflection, full), abs(deflection) / LARGEST_SLIP)
+    sliding = sliding_part(deflection, full)
+    return deflection / max(1.0 - sliding, abs(deflection) / LARGEST_SLIP) if sliding else deflection
 
 
 def patch_rate(deflection: float, full: float, relaxation: float, creep: float, speed: float) -> float:

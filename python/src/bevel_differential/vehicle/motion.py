@@ -42,28 +42,25 @@ class Motion:
 
     def creeps(self, x: Sequence[float], speeds: Sequence[float], steer: float) -> list[float]:
         """Speeds of the tyres at the patches relative to the road, m/s."""
-        along = [tyre.radius * speed - centre for tyre, speed, centre in zip(self.tyres, speeds[1:], self.wheel_centres(x))]
-        return along + self.lateral_creeps(x, steer)
-
-    def lateral_creeps(self, x: Sequence[float], steer: float) -> list[float]:
-        """Lateral speeds of the tyres of front and driven axle relative to the road, m/s."""
-        return [x[3] * steer - x[4] - self.body.front * x[5], self.body.rear * x[5] - x[4]]
+        (left, right), (left_centre, right_centre) = self.tyres, self.wheel_centres(x)
+        return [left.radius * speeds[1] - left_centre, right.radius * speeds[2] - right_centre,
+                x[3] * steer - x[4] - self.body.front * x[5], self.body.rear * x[5] - x[4]]
 
     def wheel_centres(self, x: Sequence[float]) -> list[float]:
         """Speeds of the centres of left and right wheel, m/s."""
         half = 0.5 * self.body.track * x[5]
         return [x[3] - half, x[3] + half]
 
-    def forces(self, x: Sequence[float], speeds: Sequence[float]) -> list[float]:
-        """Forces of the road on left and right tyre, N. `speeds`: speeds of carrier and wheels, rad/s."""
+    def forces(self, slips: Sequence[float], speeds: Sequence[float], centres: Sequence[float]) -> list[float]:
+        """Forces of the road on left and right tyre, N. `speeds`: speeds of carrier and wheels, rad/s; `centres`: `wheel_centres`, m/s."""
         return [tyre_force(tyre, slip, tyre.radius * speed, centre)
-                for tyre, slip, speed, centre in zip(self.tyres, self.slips(x), speeds[1:], self.wheel_centres(x))]
+                for tyre, slip, speed, centre in zip(self.tyres, slips, speeds[1:], centres)]
 
-    def lateral_forces(self, x: Sequence[float], steer: float) -> list[float]:
-        """Lateral forces of front and driven axle, N, positive to the left."""
-        slips = (slip + rocking_slip(ROCKING_ACROSS, self.body.relaxation, creep, x[3])
-                 for slip, creep in zip(self.slips(x)[2:], self.lateral_creeps(x, steer)))
-        return [axle_force(*axle) for axle in zip(self._stiffness(), self._limits, slips)]
+    def lateral_forces(self, slips: Sequence[float], creeps: Sequence[float], ahead: float) -> list[float]:
+        """Lateral forces of front and driven axle, N, positive to the left. `ahead`: speed of the car, m/s."""
+        damping = rocking_slip(ROCKING_ACROSS, self.body.relaxation, 1.0, ahead)
+        return [axle_force(stiffness, limit, slip + damping * creep)
+                for stiffness, limit, slip, creep in zip(self._stiffness(), self._limits, slips[2:], creeps[2:])]
 
     def torque(self, speeds: Sequence[float]) -> float:
         """Torque of the motor, N.m. The lagging torque is limited again, because the limit falls immediately when the speed rises."""
@@ -73,11 +70,11 @@ class Motion:
         """Rates of all states, at the torque `request` of the motor (N.m) and the angle `steer` of the front wheels (rad)."""
         motor, body = self.motor, self.body
         torque, _, _, ahead, aside, yaw, _, _ = x
-        left, right = self.forces(x, speeds)
-        front_force, rear_force = self.lateral_forces(x, steer)
-        deflecting = [patch_rate(deflection, *patch, creep, speed)
-                      for deflection, patch, creep, speed in zip((x[1], x[2], x[6], x[7]), self._patches, self.creeps(x, speeds, steer),
-                                                                 (*self.wheel_centres(x), ahead, ahead))]
+        slips, creeps, centres = self.slips(x), self.creeps(x, speeds, steer), self.wheel_centres(x)
+        left, right = self.forces(slips, speeds, centres)
+        front_force, rear_force = self.lateral_forces(slips, creeps, ahead)
+        deflecting = [patch_rate(deflection, full, relaxation, creep, speed) for deflection, (full, relaxation), creep, speed
+                      in zip((x[1], x[2], x[6], x[7]), self._patches, creeps, (*centres, ahead, ahead))]
         return [
             (motor_torque(motor, request, motor.ratio * speeds[0]) - torque) / motor.lag,
             *deflecting[:2],
@@ -109,14 +106,15 @@ class Motion:
 
     def loads(self, speeds: Sequence[float]) -> list[float]:
         """Loads of the parts on the differential, N.m: torque on the carrier, loads on left and right half-shaft."""
-        forces = self.forces(self.x, speeds)
+        forces = self.forces(self.slips(self.x), speeds, self.wheel_centres(self.x))
         return [self.motor.ratio * self.torque(speeds), *(tyre.radius * force for tyre, force in zip(self.tyres, forces))]
 
     def outputs(self, speeds: Sequence[float], steer: float) -> dict[str, float]:
         """All outputs of the parts, by name."""
-        ahead, aside, yaw = self.x[3:6]
-        (left, right), (left_slip, right_slip, _, _) = self.forces(self.x, speeds), self.slips(self.x)
+        (ahead, aside, yaw), slips = self.x[3:6], self.slips(self.x)
+        left, right = self.forces(slips, speeds, self.wheel_centres(self.x))
+        lateral = self.lateral_forces(slips, self.creeps(self.x, speeds, steer), ahead)
         return {"motor.torque": self.torque(speeds), "motor.speed": self.motor.ratio * speeds[0],
-                "left_tyre.force": left, "right_tyre.force": right, "left_tyre.slip": left_slip, "right_tyre.slip": right_slip,
+                "left_tyre.force": left, "right_tyre.force": right, "left_tyre.slip": slips[0], "right_tyre.slip": slips[1],
                 "body.speed": ahead, "body.lateral_speed": aside, "body.yaw_rate": yaw,
-                "body.lateral_acceleration": sum(self.lateral_forces(self.x, steer)) / self.body.mass, "body.steer": steer}
+                "body.lateral_acceleration": sum(lateral) / self.body.mass, "body.steer": steer}
