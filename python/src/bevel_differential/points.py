@@ -11,6 +11,9 @@ TimeValue: TypeAlias = float | str
 # size of a second in each unit
 PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
+# communication points are rounded: times that differ by less than this fraction of a step are equal
+SAME = 1e-6
+
 
 def seconds(what: str, time: TimeValue) -> float:
     """Time in seconds from a number in s, or from text such as "5 ms". `what` names the time in errors."""
@@ -52,9 +55,10 @@ def at_times(times: np.ndarray, rows: np.ndarray, values: np.ndarray) -> np.ndar
     return np.where(np.append(False, np.diff(times) == 0.0), after, before)
 
 
-def from_time(record: np.ndarray, start: float, slack: float) -> np.ndarray:
-    """Rows of a record from `start` (s) on. The first one is interpolated, or the second row of a jump. Times that differ by less than
-    `slack` (s) are equal."""
+def from_time(record: np.ndarray, start: float, step: float) -> np.ndarray:
+    """Rows of a record with the communication step `step` (s) from `start` (s) on. The first one is interpolated, or the second row of a
+    jump."""
+    slack = SAME * step
     first = int(np.searchsorted(record["time"], start + slack, side="right")) - 1
     if start <= 0.0 or first + 1 >= len(record):
         return record

@@ -9,9 +9,6 @@ from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
 
-# times that differ by less than this fraction of a step are equal
-SAME = 1e-6
-
 
 @dataclass
 class Row:
@@ -81,6 +78,5 @@ class Task:
         outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
         record = self.scene._record(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
-        # communication points are rounded
-        record = from_time(record, self.start, SAME * self.scene.step)
+        record = from_time(record, self.start, self.scene.step)
         return {str(want): want.of(record, teeth) for want in self.figures}

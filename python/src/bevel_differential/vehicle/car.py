@@ -11,7 +11,7 @@ from ..fmu import Fmu
 from ..inputs import prolonged, times_of_rows
 from ..instance import Instance
 from ..plot import plot
-from ..points import TimeValue, duration, span
+from ..points import SAME, TimeValue, duration, span
 from ..values import DifferentialError, FileName, Number, Value, variable_suggestion
 from ..warned import warn
 from .equations import motor_torque
@@ -34,8 +34,6 @@ DEFAULT_OUTPUTS = ("motor.torque", "left.shaft_torque", "right.shaft_torque", "l
 # requests that a controller sets in addition to inputs of the differential
 REQUESTS = ("motor.request", "body.steer")
 
-# times that differ by less than this fraction of a step are equal
-SAME = 1e-6
 # fraction of the times of a wheel on its tyre up to which no step needs a closer look
 SAFE = 0.25
 # speeds at which the stability of a step is checked, by the speed at which the damping of the tyres is halved: from standstill, where
