@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from bevel_differential import Differential, DifferentialError, Scene
+from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
+from bevel_differential.designs.task import Task
 
 # bodies that turn freely under only the drive
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.start": "rest", "carrier.speed_command": 0.0,
@@ -53,7 +54,8 @@ def test_without_a_step_corners_and_jumps_count(stop, free, inertia):
     exact = np.trapezoid(ends, knots) / inertia
     assert free.final([SPEED], inputs, stop)[SPEED] == pytest.approx(exact, rel=1e-8)
     record = free.run(inputs, [SPEED], stop, None)
-    assert record["time"].tolist() == sorted(set(knots))
+    # a jump has two rows
+    assert record["time"].tolist() == knots
     assert record[SPEED][-1] == pytest.approx(exact, rel=1e-8)
 
 
@@ -104,8 +106,60 @@ def test_a_jump_comes_in_every_period(step, input_slopes, inertia, fmu_file):
 def test_the_end_of_a_period_is_a_jump_if_the_next_one_begins_otherwise(step, table, impulse, inertia, fmu_file):
     record = in_scene([(DRIVE, *table)], 1.0, step, fmu_file)
     assert np.abs(record["time"] - 0.1 * np.arange(1, 10)[:, np.newaxis]).min(axis=1).max() < 1e-12
-    if table is SAWTOOTH:
-        assert record[SPEED][-1] == pytest.approx(impulse / inertia, rel=1e-7)
+    assert record[SPEED][-1] == pytest.approx(impulse / inertia, rel=1e-7)
+
+
+# a pulse between communication points, and a ramp whose middle point is on a straight line
+PULSE = [0.0, 0.11, 0.13, 0.15, 0.19], [0.0, 0.0, 500.0, 1000.0, 0.0]
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("step", STEPS)
+def test_a_pulse_between_communication_points_gives_its_momentum(step, sign, free, inertia, fmu_file):
+    times, values = PULSE[0], [sign * value for value in PULSE[1]]
+    exact = sign * 0.5 * 0.08 * 1000.0 / inertia
+    record = free.run({DRIVE: (times, values)}, [SPEED], 1.0, step)
+    assert record[SPEED][-1] == pytest.approx(exact, rel=1e-8)
+    if step is None:
+        return
+    # the record has no rows at corners
+    assert record["time"] == pytest.approx(np.append(np.arange(0.0, 1.0 - 1e-9, step), 1.0), abs=1e-12)
+    with Scene(stop=1.0, step=step, outputs=[SPEED], set=FREE, tables=[(DRIVE, times, values, 0.25)], fmu=fmu_file) as scene:
+        assert scene.run()[SPEED][-1] == pytest.approx(4.0 * exact, rel=1e-8)
+        assert scene.final()[SPEED] == pytest.approx(4.0 * exact, rel=1e-8)
+        row = Task(scene, [f"{SPEED}:max" if sign > 0.0 else f"{SPEED}:min"]).evaluate(0, {})
+        assert row.figures == pytest.approx({next(iter(row.figures)): 4.0 * exact}, rel=1e-8)
+
+
+def test_held_values_are_sampled_only_at_the_start_of_steps(free, inertia):
+    held = free.run({DRIVE: PULSE}, [SPEED], 1.0, 0.05, input_slopes=False)
+    assert held[SPEED][-1] == pytest.approx(1000.0 * 0.05 / inertia, rel=1e-7)
+    assert len(held) == 21
+
+
+def test_a_table_with_many_points_between_communication_points_says_so_once(fmu_file):
+    times = np.arange(0, 2001) * 1e-4
+    noise = np.random.default_rng(1).normal(100.0, 5.0, len(times))
+    with Differential(FREE, fmu=fmu_file) as driven, pytest.warns(DifferentialWarning) as caught:
+        driven.run({DRIVE: (times, noise)}, [SPEED], 0.2, 0.01)
+        assert [text for text in driven.warnings if "points of tables" in text] == [str(one.message) for one in caught
+                                                                                    if "1980 points of tables" in str(one.message)]
+        driven.run({DRIVE: (times, noise)}, [SPEED], 0.2, 1e-4)
+        assert not [text for text in driven.warnings if "points of tables" in text]
+
+
+def test_strength_does_not_depend_on_where_a_blow_of_the_load_is_between_communication_points(fmu_file):
+    times = np.arange(0.0, 0.0905, 1e-3)
+    torque = np.full(len(times), 400.0)
+    blow = slice(52, 59)
+    torque[blow] += 1000.0 * np.sin(np.pi * (times[blow] - 0.0515) / 0.007)
+    loads = {f"{side}.load_torque": (times, torque) for side in ("left", "right")}
+    rated = {"safety.root_min", "damage.planet"}
+    with Differential({"scene.gear_contact": "lumped", "carrier.speed_command": 20.0, "effects.strength": True}, fmu=fmu_file) as driven:
+        found = [driven.run(loads, sorted(rated), 0.09, step)[-1] for step in (1e-3, 10e-3, 45e-3)]
+    for name in rated:
+        assert [row[name] for row in found] == pytest.approx([found[0][name]] * 3, rel=0.01), name
+    assert found[0]["damage.planet"] > 0.0 and found[0]["safety.root_min"] < 1.0
 
 
 def test_countless_jumps_are_refused(fmu_file):

@@ -49,17 +49,20 @@ void bd_free(char *reply);
 /**
  * Writes the schedule of a run: one row for its start and one for each of its steps, up to `room` numbers in total.
  *
- * A row contains the start and size of the step for `fmi2DoStep`, its end (s), the total number of changes made before
- * it, the value of each table just after the start, and the slope of each table per second. The row of the start
- * contains zeros and the values at the start.
+ * A row contains the start and size of the step for `fmi2DoStep`, its end (s), and the total number of changes made
+ * before it. The next number is 1 if values jump at the start, so that outputs are recorded after values are set. The
+ * next is 1 if outputs are recorded at the end, and 0 if only the slope of a table changes there. The value of each
+ * table just after the start and the slope of each table per second follow. The row of the start contains the values
+ * at the start. Its first number is the number of points between communication points if they make the run much
+ * longer, or else 0.
  *
  * The `count` numbers of `question` are the end of the run, the step or 0 for none (s), the number of changes, and
- * their ascending times. For each table follow the number of points, the period or 0 for none, 1 for held or 0 for
- * interpolated values, the times and the values.
+ * their ascending times. For each table follow the number of points, the period or 0 for none, a rule, the times and
+ * the values. The rule is 0 for an input that is linear within steps, 1 for values that are held up to the next point,
+ * or 2 for values that are linear between points and held within a step.
  *
  * Returns the number of rows; rows without room are not written. Returns 0 if the question cannot be read, -1 if the
- * run has more than 1e8 steps, and -2 - i if table i has more than 1e8 jumps, or more than 1e8 points in a run without
- * a step.
+ * run has more than 1e8 steps, and -2 - i if table i has more than 1e8 jumps and points at which steps end.
  *
  * # Safety
  * `question` points to `count` numbers and `rows` to room for `room` numbers. Neither may be null, even if its size is

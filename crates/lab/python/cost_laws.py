@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from bevel_differential import Differential, Scene
+from bevel_differential.points import from_time
 from bevel_differential.text import markdown
 from bevel_differential.want import Want
 from tools import percent, say
@@ -34,7 +35,7 @@ def figures(fmu, scene, values, law, bodies):
     names = list(dict.fromkeys(want.name for want in wants))
     with Differential({**values, "contact.law": law, "effects.body_compliance": bodies}, fmu=fmu.file) as turn:
         record = turn.run(outputs=names, stop=scene.stop, step=scene.step)
-    record = record[record["time"] > (START + 1e-9) * scene.stop]
+    record = from_time(record, START * scene.stop, scene.step)
     for want in wants:
         value = want.of(record, values["geometry.planet_teeth"])
         wholes = {"mean": Want.parse(fmu, f"{want.name}:rms").of(record, 1), "max": float(np.abs(record[want.name]).max())}

@@ -23,6 +23,7 @@ import numpy as np
 from fmpy.ssp.ssd import read_ssv
 
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, accuracy, shipped_scenes
+from bevel_differential.points import from_time
 from bevel_differential.scene_file import find, read_scene
 from bevel_differential.text import aligned, markdown
 from bevel_differential.want import Want
@@ -90,7 +91,7 @@ class Runs:
         """Record of a run with these start values, without its start."""
         with Differential(values, fmu=self.fmu) as differential:
             record = differential.run(outputs=self.outputs, stop=self.scene.stop, step=self.scene.step)
-        return record[record["time"] > START * self.scene.stop + 0.5 * self.scene.step]
+        return from_time(record, START * self.scene.stop, self.scene.step)
 
     def figure(self, want, record):
         with Differential(fmu=self.fmu) as differential:

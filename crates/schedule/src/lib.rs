@@ -6,13 +6,14 @@
 
 #[allow(unsafe_code)] // the one place that handles foreign pointers
 mod c;
+mod stops;
 mod table;
 
 use std::{iter, ops::Range};
 
 pub use c::bd_schedule;
-use table::Stops;
-pub use table::Table;
+use stops::{Reason, Stops};
+pub use table::{Rule, Table};
 
 /// Times that differ by less than this fraction of a step are equal.
 const SAME: f64 = 1e-9;
@@ -21,8 +22,14 @@ const SAME: f64 = 1e-9;
 const FINEST: f64 = 1e-12;
 /// Maximum number of steps, and of stops of a table. Larger numbers are mistakes.
 pub const MOST: f64 = 1e8;
+/// Points between communication points make a run much longer if there are more than this number per step, and more
+/// than `MANY`.
+const PER_STEP: usize = 4;
+/// Number of points that no run notices.
+const MANY: usize = 100;
 
-/// Steps of a run: to multiples of a step, to changes and jumps of inputs, and to the end.
+/// Steps of a run: to multiples of a step, to changes and jumps of inputs, to points at which the slope of an input
+/// changes, and to the end.
 #[derive(Clone)]
 pub struct Schedule {
     /// End of the run [s].
@@ -47,16 +54,21 @@ pub struct Step {
     pub end: f64,
     /// Indices of the changes made before the step.
     pub changes: Range<usize>,
+    /// True if values jump at the start, so that the record has a row with the values after the jump.
+    pub begins_with_jump: bool,
+    /// True if the record has a row at the end. It has none if only the slope of a table changes there.
+    pub is_recorded: bool,
     slack: f64,
 }
 
 impl Schedule {
     /// Creates the schedule of a run to `stop` [s] in steps of `step` [s]. Inputs change at `changes` [s], in ascending
-    /// order, and follow `tables`. Without `step`, steps end only at changes and at points of tables.
+    /// order, and follow `tables`. Without `step`, steps end only at changes and at points of tables, and the record has
+    /// a row at each.
     pub fn new<'a>(stop: f64, step: Option<f64>, changes: Vec<f64>, tables: impl Iterator<Item = &'a Table>) -> Self {
         let slack = step.map_or(FINEST * stop, |step| SAME * step.min(stop));
-        let of_tables = tables.map(|table| table.stops(step.is_none()));
-        let stops = iter::once(Stops { times: changes, period: None, passed: 0 }).chain(of_tables).collect();
+        let of_tables = tables.map(|table| Stops::of(table, step.is_none()));
+        let stops = iter::once(Stops::at_changes(changes)).chain(of_tables).collect();
         Self { stop, step, slack, time: 0.0, done: 0, stops }
     }
 
@@ -67,8 +79,14 @@ impl Schedule {
 
     /// Returns the index of the first table with more than [`MOST`] stops, which is a mistake in its period.
     pub fn table_with_too_many_stops(&self) -> Option<usize> {
-        let count = |stops: &Stops| stops.times.len() as f64 * stops.period.map_or(1.0, |period| self.stop / period);
-        self.stops[1..].iter().position(|stops| count(stops) > MOST)
+        self.stops[1..].iter().position(|stops| stops.count(self.stop) > MOST)
+    }
+
+    /// Number of points of tables between the communication points, if these points make the run much longer.
+    pub fn points_that_prolong(&self) -> Option<usize> {
+        let (mut points, mut others) = (0, 0);
+        self.clone().for_each(|step| *(if step.is_recorded { &mut others } else { &mut points }) += 1);
+        Some(points).filter(|_| points > MANY && points > PER_STEP * others)
     }
 }
 
@@ -84,12 +102,18 @@ impl Iterator for Schedule {
         let regular = if regular < self.stop - slack { regular } else { self.stop };
         // changes made so far are complete
         let made = self.stops[0].passed;
-        self.stops.iter_mut().for_each(|stops| stops.pass(begin + slack));
+        let jumps = self.stops.iter_mut().map(|stops| stops.pass(begin + slack)).fold(false, |any, jumps| any | jumps);
+        let changes = made..self.stops[0].passed;
+        // tables start with the values after a jump
+        let begins_with_jump = if begin > 0.0 { jumps } else { !changes.is_empty() };
         let stop = self.stops.iter().filter_map(Stops::upcoming).min_by(f64::total_cmp);
         let stop = stop.filter(|&time| time < regular - slack);
         self.done += u64::from(stop.is_none());
-        self.time = stop.unwrap_or(regular);
-        Some(Step { begin, end: self.time, changes: made..self.stops[0].passed, slack })
+        let end = stop.unwrap_or(regular);
+        self.time = end;
+        let mut reasons = self.stops.iter().flat_map(|stops| stops.reasons_until(end + slack));
+        let is_recorded = stop.is_none() || reasons.any(|reason| reason != Reason::Corner);
+        Some(Step { begin, end, changes, begins_with_jump, is_recorded, slack })
     }
 }
 
@@ -124,10 +148,11 @@ mod tests {
 
     #[test]
     fn values_and_slopes_give_the_impulse_of_a_table_in_any_steps() {
+        let triangle = Table::straight(vec![0.0, 0.13, 0.17, 0.23], vec![0.0, 0.0, 13.5, 0.0], Some(0.45));
         let saw = Table::straight(vec![0.0, 0.3], vec![0.0, 3.0], Some(0.3));
         let pulses = Table::straight(vec![0.0, 0.15, 0.15], vec![3.0, 3.0, 0.0], Some(0.3));
         for (table, step) in
-            [saw, pulses].iter().flat_map(|table| [Some(0.25), Some(0.07), None].map(|step| (table, step)))
+            [saw, pulses, triangle].iter().flat_map(|table| [Some(0.25), Some(0.07), None].map(|step| (table, step)))
         {
             let impulse = |step: Step| {
                 let ([begin, size], [value, slope]) = (step.call(), step.follow(table));
@@ -162,6 +187,50 @@ mod tests {
         assert_eq!(ends(schedule(0.7, None, &[0.6], &[&once])), [1e5, 4e5, 6e5, 7e5]);
         let again = Table::straight(vec![0.1], vec![5.0], Some(0.3));
         assert_eq!(ends(schedule(0.7, None, &[], &[&again])), [1e5, 3e5, 4e5, 6e5, 7e5]);
+    }
+
+    #[test]
+    fn a_corner_ends_a_step_without_a_row_and_a_jump_has_two_rows() {
+        let given = Table::straight(vec![0.0, 0.15, 0.3, 0.45, 0.45], vec![0.0, 1.5, 0.0, 0.0, 9.0], None);
+        let rows = |table: &Table, step, changes: &[f64]| {
+            let steps = schedule(0.6, step, changes, &[table]);
+            steps.map(|step| ((step.end * 1e3).round(), step.is_recorded, step.begins_with_jump)).collect::<Vec<_>>()
+        };
+        // the change at the end is not made; the corner at 0.3 s is also a communication point
+        let found = rows(&given, Some(0.1), &[0.25, 0.6]);
+        let wanted = [
+            (100.0, true, false),
+            (150.0, false, false),
+            (200.0, true, false),
+            (250.0, true, false),
+            (300.0, true, true),
+            (400.0, true, false),
+            (450.0, true, false),
+            (500.0, true, true),
+            (600.0, true, false),
+        ];
+        assert_eq!(found, wanted);
+        // a change at the start has a row; a table starts with its values after a jump
+        let jump = Table::straight(vec![0.0, 0.0], vec![0.0, 1.0], None);
+        assert_eq!(rows(&jump, Some(0.6), &[0.0]), [(600.0, true, true)]);
+        assert_eq!(rows(&jump, Some(0.6), &[]), [(600.0, true, false)]);
+        // values that are held within steps have no other stops than jumps
+        let sampled = Table { rule: Rule::Sampled, ..given };
+        assert_eq!(rows(&sampled, Some(0.3), &[]).iter().map(|row| row.0).collect::<Vec<_>>(), [300.0, 450.0, 600.0]);
+    }
+
+    #[test]
+    fn points_that_make_a_run_much_longer_are_counted() {
+        let zigzag = |points: u32, period| {
+            let times = (0..points).map(|i| f64::from(i) / f64::from(points)).collect();
+            Table::straight(times, (0..points).map(|i| f64::from(i % 2)).collect(), period)
+        };
+        // points at communication points do not prolong the run
+        assert_eq!(schedule(1.0, Some(0.1), &[], &[&zigzag(1000, None)]).points_that_prolong(), Some(990));
+        assert_eq!(schedule(3.0, Some(0.1), &[], &[&zigzag(100, Some(1.0))]).points_that_prolong(), Some(270));
+        assert_eq!(schedule(1.0, Some(0.1), &[], &[&zigzag(100, None)]).points_that_prolong(), None);
+        assert_eq!(schedule(1.0, Some(0.01), &[], &[&zigzag(300, None)]).points_that_prolong(), None);
+        assert_eq!(schedule(1.0, None, &[], &[&zigzag(1000, None)]).points_that_prolong(), None);
     }
 
     #[test]

@@ -9,14 +9,25 @@ pub struct Table {
     pub values: Vec<f64>,
     /// Time after which the table repeats [s]; `None` = the last value stays.
     pub period: Option<f64>,
-    /// True if a value is held up to the next point, false if the table is linear between points.
-    pub is_held: bool,
+    /// Rule for the values between points.
+    pub rule: Rule,
+}
+
+/// Rule for the values of a table between its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rule {
+    /// The table is linear between points, and the input follows it within a step. Steps end where its slope changes.
+    Linear,
+    /// The table is linear between points, but the value at the start of a step is held up to its end.
+    Sampled,
+    /// The value of a point is held up to the next point, and the value at the start of a step is held up to its end.
+    Held,
 }
 
 impl Table {
     /// Creates a table that is linear between `times` [s], which must not decrease, with a value for each time.
     pub fn straight(times: Vec<f64>, values: Vec<f64>, period: Option<f64>) -> Self {
-        Self { times, values, period, is_held: false }
+        Self { times, values, period, rule: Rule::Linear }
     }
 
     /// Value at `time` [s], just after a jump.
@@ -30,19 +41,8 @@ impl Table {
         (self.before(end) - self.at(begin)) / (end - begin)
     }
 
-    /// Jumps of the table, or all its points if `points` is true. Jumps are two points at one time, and the end of a
-    /// period whose last value differs from its first one.
-    pub(crate) fn stops(&self, points: bool) -> Stops {
-        let is_stop = |(i, time): &(usize, &f64)| points || self.times.get(i + 1) == Some(time);
-        let inside = self.times.iter().enumerate().filter(is_stop).map(|(_, &time)| time);
-        let at_end = self.period.filter(|&period| points || self.before(period) != self.at(0.0)).map(|_| 0.0);
-        let end = self.period.unwrap_or(f64::INFINITY);
-        let times = at_end.into_iter().chain(inside).filter(|time| (0.0..end).contains(time)).collect();
-        Stops { times, period: self.period, passed: 0 }
-    }
-
     /// Value at `time` [s], just before a jump.
-    fn before(&self, time: f64) -> f64 {
+    pub(crate) fn before(&self, time: f64) -> f64 {
         let within = self.within_period(time);
         // the end of a period, not the start of the next one
         let time = if within == 0.0 && time > 0.0 { self.period.unwrap_or(time) } else { within };
@@ -58,38 +58,12 @@ impl Table {
         match (after.checked_sub(1), self.times.get(after)) {
             (None, _) => self.values[0],
             (Some(i), None) => self.values[i],
-            (Some(i), Some(_)) if self.is_held => self.values[i],
+            (Some(i), Some(_)) if self.rule == Rule::Held => self.values[i],
             (Some(i), Some(&next)) if next == time => self.values[i + 1],
             (Some(i), Some(next)) => {
                 let share = (time - self.times[i]) / (next - self.times[i]);
                 self.values[i] + share * (self.values[i + 1] - self.values[i])
             }
-        }
-    }
-}
-
-/// Times at which steps end in addition to regular steps.
-#[derive(Clone)]
-pub(crate) struct Stops {
-    /// Times [s] in ascending order, within the first period if they repeat.
-    pub(crate) times: Vec<f64>,
-    pub(crate) period: Option<f64>,
-    /// Number of passed times.
-    pub(crate) passed: usize,
-}
-
-impl Stops {
-    /// The next time [s], or `None` if all times have passed.
-    pub(crate) fn upcoming(&self) -> Option<f64> {
-        let Some(period) = self.period else { return self.times.get(self.passed).copied() };
-        let count = self.times.len();
-        (count > 0).then(|| (self.passed / count) as f64 * period + self.times[self.passed % count])
-    }
-
-    /// Passes all times up to `time` [s].
-    pub(crate) fn pass(&mut self, time: f64) {
-        while self.upcoming().is_some_and(|next| next <= time) {
-            self.passed += 1;
         }
     }
 }
@@ -100,30 +74,6 @@ mod tests {
 
     fn table(times: &[f64], values: &[f64], period: Option<f64>) -> Table {
         Table::straight(times.to_vec(), values.to_vec(), period)
-    }
-
-    fn first(table: &Table, count: usize) -> Vec<f64> {
-        let mut jumps = table.stops(false);
-        let mut found = Vec::new();
-        while let Some(next) = jumps.upcoming().filter(|_| found.len() < count) {
-            jumps.pass(next);
-            found.push(next);
-        }
-        found
-    }
-
-    #[test]
-    fn a_jump_comes_again_in_every_period() {
-        let square = table(&[0.0, 1.0, 1.0, 3.0], &[1.0, 1.0, 0.0, 0.0], Some(3.0));
-        assert_eq!(first(&square, 6), [0.0, 1.0, 3.0, 4.0, 6.0, 7.0]);
-        // the last point is after the end of the period, and so is the second jump
-        let cut = table(&[0.0, 1.0, 1.0, 4.0, 4.0], &[0.0, 1.0, 0.0, 0.0, 9.0], Some(2.0));
-        assert_eq!(first(&cut, 3), [1.0, 3.0, 5.0]);
-        // a period with equal first and last values
-        let smooth = table(&[0.0, 0.1, 0.3], &[0.1, 0.7, 0.1], Some(0.3));
-        assert!(first(&smooth, 1).is_empty());
-        let once = table(&[0.0, 1.0, 1.0, 3.0], &[1.0, 1.0, 0.0, 0.0], None);
-        assert_eq!(first(&once, 6), [1.0]);
     }
 
     #[test]
@@ -147,12 +97,10 @@ mod tests {
 
     #[test]
     fn a_held_value_changes_at_its_points() {
-        let held = Table { is_held: true, ..table(&[0.0, 1.0, 3.0], &[1.0, 2.0, 5.0], Some(4.0)) };
+        let held = Table { rule: Rule::Held, ..table(&[0.0, 1.0, 3.0], &[1.0, 2.0, 5.0], Some(4.0)) };
         assert_eq!(
             [0.0, 0.5, 1.0, 2.9, 3.0, 3.9, 4.0, 5.5].map(|time| held.at(time)),
             [1., 1., 2., 2., 5., 5., 1., 2.]
         );
-        // the end of the period
-        assert_eq!(first(&held, 2), [0.0, 4.0]);
     }
 }

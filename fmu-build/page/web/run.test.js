@@ -7,8 +7,9 @@ const SCENE = {
   stop: 1, step: 0.5, set: [{ reference: 7, value: 3 }], changes: [[0, ["a"]], [0.2, ["b"]], [0.2, ["c"]]],
   tables: [{ reference: 1, table: [[0, 1], [0, 8], null] }, { reference: 2, table: [[0], [5], 0.5] }],
 };
-// answer of the library: start, size, end, number of changes, values, slopes
-const ROWS = [[0, 0, 0, 0, 0, 5, 0, 0], [0, 0.2, 0.2, 1, 0, 5, 8, 0], [0.2, 0.8, 1, 3, 1.6, 5, 8, 0]];
+// answer of the library: start, size, end, number of changes, 1 for a jump at the start, 1 for a row at the end, values, slopes
+const ROWS = [[0, 0, 0, 0, 0, 1, 0, 5, 0, 0], [0, 0.2, 0.2, 1, 1, 1, 0, 5, 8, 0], [0.2, 0.3, 0.5, 3, 1, 0, 1.6, 5, 8, 0],
+  [0.5, 0.5, 1, 3, 0, 1, 4, 5, 8, 0]];
 
 // All calls of the library in a run, each with its arguments.
 function called(slopes) {
@@ -27,19 +28,23 @@ function called(slopes) {
     run.advance();
     times.push(run.time);
   }
-  assert.deepEqual(times, [0, 0.2, 1]);
+  // a jump has two rows, and the end of a step at a point of a table has none
+  assert.deepEqual(times, [0, 0, 0.2, 0.2, 1]);
   return calls;
 }
 
 test("a run requests the schedule of its scene and executes its calls in order", () => {
   assert.deepEqual(called(true), [
-    ["schedule", [1, 0.5, 3, 0, 0.2, 0.2, 2, 0, 0, 0, 1, 0, 8, 1, 0.5, 0, 0, 5], 8],
+    ["schedule", [1, 0.5, 3, 0, 0.2, 0.2, 2, 0, 0, 0, 1, 0, 8, 1, 0.5, 0, 0, 5], 10],
     ["start", [[7, 3], [1, 0], [2, 5]], 1],
     ["set", ["a"]], ["set", [[1, 0], [2, 5]]], ["setSlopes", [[1, 8], [2, 0]]], ["step", 0, 0.2],
-    ["set", ["b"]], ["set", ["c"]], ["set", [[1, 1.6], [2, 5]]], ["setSlopes", [[1, 8], [2, 0]]], ["step", 0.2, 0.8],
+    ["set", ["b"]], ["set", ["c"]], ["set", [[1, 1.6], [2, 5]]], ["setSlopes", [[1, 8], [2, 0]]], ["step", 0.2, 0.3],
+    ["set", [[1, 4], [2, 5]]], ["setSlopes", [[1, 8], [2, 0]]], ["step", 0.5, 0.5],
   ]);
 });
 
 test("a scene without slopes holds the values of its tables", () => {
-  assert.deepEqual(called(false), called(true).filter(([call]) => call !== "setSlopes"));
+  const [[, question], ...calls] = called(false);
+  assert.deepEqual([question[8], question[15]], [2, 2]);
+  assert.deepEqual(calls, called(true).slice(1).filter(([call]) => call !== "setSlopes"));
 });

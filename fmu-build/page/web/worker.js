@@ -81,7 +81,7 @@ const warned = () => library.said().filter(({ status }) => status > 0).map(({ te
 // Runs the displayed scene.
 async function noted(number, scene, reader) {
   const run = new Run(library, scene);
-  postMessage({ kind: "started", number, warnings: warned() });
+  postMessage({ kind: "started", number, warnings: [...run.warnings, ...warned()] });
   const batch = new Batch(reader);
   batch.note(run);
   let busy = 0;

@@ -9,7 +9,7 @@ import numpy as np
 from .batches import Batches
 from .extras import require
 from .fmu import Fmu
-from .inputs import Inputs, Signals
+from .inputs import Inputs, Signals, prolonged, times_of_rows
 from .instance import Closing, Instance
 from .plot import plot
 from .points import TimeValue, duration, span
@@ -45,8 +45,8 @@ class Runner(Closing):
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of the FMU in the last run of this thread."""
-        return list(self._instance().messages)
+        """Warnings of the FMU in the last run of this thread, and of a run that points of tables make much longer."""
+        return [*getattr(self._instances, "notes", ()), *self._instance().messages]
 
     @property
     def unfelt(self) -> dict[str, str]:
@@ -60,7 +60,7 @@ class Runner(Closing):
         self._instances = threading.local()
 
     def _simulate(self, steps, signals, outputs, values=None):
-        """Initialises an instance, steps from point to point, and records."""
+        """Initialises an instance, steps from point to point, and records. A jump of inputs has two rows, before and after it."""
         variables = self.fmu.named(outputs)
         if len(set(variables)) < len(variables):
             twice = next(variable.name for variable in variables if variables.count(variable) > 1)
@@ -68,10 +68,11 @@ class Runner(Closing):
         start = self._values | dict(self.fmu.numbers(values)) | dict(signals.start(steps))
         instance = self._instance()
         instance.start(list(start.items()), steps["end"][-1])
-        batches = Batches.of(variables)
-        record = batches.record(len(steps))
+        self._instances.notes = prolonged(steps)
+        batches, times = Batches.of(variables), times_of_rows(steps)
+        record = batches.record(len(times))
         _advance(instance, batches, record, steps, signals)
-        return _structured(steps["end"], variables, outputs, batches, record)
+        return _structured(times, variables, outputs, batches, record)
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -109,10 +110,11 @@ class Differential(Runner):
         """Simulates from 0 to `stop` and records `outputs` every `step` (both s, or text such as "5 ms"). With `stop=0` the record is
         the state at the start.
 
-        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the same meaning as in scenes: steps
-        end at jumps, and inputs are linear between points. With `input_slopes=False` inputs are held within a step; parameters always
-        are. `values`: parameters for this run only. Returns a structured array in SI, shape (points,), with a field "time" (s) and a
-        field for each output. `step=None` takes one step to the end, or from corner to corner of the tables, and records these points.
+        `inputs` by name: values, or pairs of arrays (times, values); see `Signals.of`. Tables have the same meaning as in scenes: inputs
+        are linear between points, where the FMU stops without a record. A jump is recorded twice, before and after it. With
+        `input_slopes=False` inputs are held within a step; parameters always are. `values`: parameters for this run only. Returns a
+        structured array in SI, shape (points,), with a field "time" (s) and a field for each output. `step=None` takes one step to the
+        end, or from point to point of the tables, and records these points.
         With `frame`, the result is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. Warnings of the FMU
         become Python warnings, `DifferentialWarning`; `warnings` contains their texts."""
         record = self._record(inputs, outputs, stop, step, values, input_slopes)
@@ -149,15 +151,24 @@ def as_frame(record: np.ndarray) -> "pandas.DataFrame":
 
 
 def _advance(instance, batches, record, steps, signals):
-    """Steps through all points and records. Sets changed values before each step."""
+    """Steps through all points and records. Sets changed values before each step, and records again if they jump."""
     readers = batches.readers(instance, record)
     variables = [table.variable for table in signals.tables]
     driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[place] for place in signals.straight))
     # writers store only addresses, so the blocks must stay alive here
     blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
     writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
-    made = 0
-    for row, (begin, size, due) in enumerate(zip(*(steps[name].tolist() for name in ("begin", "size", "due")))):
+    made = place = 0
+
+    def read(time):
+        nonlocal place
+        for get, component, references, count, address, width in readers:
+            if get(component, references, count, address + place * width) >= DISCARD:
+                instance.check(DISCARD, f"reading outputs at {time:g} s", "failed")
+        place += 1
+
+    columns = (steps[name].tolist() for name in ("begin", "size", "end", "due", "jumps", "recorded"))
+    for row, (begin, size, end, due, jumps, recorded) in enumerate(zip(*columns)):
         if row:
             while made < due:
                 changed = dict(signals.changes[made][1])
@@ -167,10 +178,11 @@ def _advance(instance, batches, record, steps, signals):
                 status = write(component, references, count, address + row * width)
                 if status >= DISCARD:
                     instance.check(status, f"setting inputs at {begin:g} s")
+            if jumps:
+                read(begin)
             instance.do_step(begin, size)
-        for get, component, references, count, address, width in readers:
-            if get(component, references, count, address + row * width) >= DISCARD:
-                instance.check(DISCARD, f"reading outputs at {begin + size:g} s", "failed")
+        if recorded:
+            read(end)
 
 
 def field(variable: Variable, asked: str, kind: Any) -> tuple:

@@ -15,6 +15,10 @@ Values: TypeAlias = Sequence[Value] | np.ndarray
 Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 
+# rules for the values of a table in a question for a schedule
+LINEAR, HELD, SAMPLED = 0, 1, 2
+
+
 class Table:
     """Input or tunable parameter over time. Real values are interpolated linearly, others are held. Before the first point and after the
     last one the value is constant, unless the table repeats after `period` (s). Two points at the same time are a jump."""
@@ -28,9 +32,10 @@ class Table:
         if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
             raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
 
-    def numbers(self) -> np.ndarray:
-        """Numbers of the table in a question for a schedule."""
-        return np.concatenate([[len(self.times), self.period or 0.0, self.variable.kind != "Real"], self.times, self.values])
+    def numbers(self, is_straight: bool) -> np.ndarray:
+        """Numbers of the table in a question for a schedule; `is_straight`: true if the input follows the table within steps."""
+        rule = HELD if self.variable.kind != "Real" else LINEAR if is_straight else SAMPLED
+        return np.concatenate([[len(self.times), self.period or 0.0, rule], self.times, self.values])
 
     @property
     def is_piecewise_constant(self) -> bool:
@@ -55,8 +60,8 @@ class Signals:
         self._cache: Any = None, None
 
     def steps(self, stop: float, step: float | None) -> np.ndarray:
-        """Steps to `stop`. They end at multiples of `step`, at changes and at jumps of tables; without `step` at changes and at points of
-        tables. See `library.schedule`. The last steps are cached, because the designs of a sweep share them."""
+        """Steps to `stop`. They end at multiples of `step`, at changes, at jumps of tables, and at points of tables between which an input
+        is linear; without `step` at changes and at points of tables. See `library.schedule`. The last steps are cached, because the designs of a sweep share them."""
         cached = self._cache
         if cached[0] != (stop, step):
             cached = self._cache = (stop, step), self._scheduled(stop, step)
@@ -67,7 +72,7 @@ class Signals:
             if step is None and place not in self.straight and not table.is_piecewise_constant:
                 why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
                 raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
-        times, tables = [time for time, _ in self.changes], [table.numbers() for table in self.tables]
+        times, tables = [time for time, _ in self.changes], [table.numbers(place in self.straight) for place, table in enumerate(self.tables)]
         try:
             count, steps = schedule(np.concatenate([[stop, step or 0.0, len(times)], times, *tables]), len(tables))
         except OSError as missing:
@@ -98,6 +103,19 @@ class Signals:
     def start(self, steps: np.ndarray) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""
         return self.constants + [(table.variable, value) for table, value in zip(self.tables, steps["values"][0].tolist())]
+
+
+def times_of_rows(steps: np.ndarray) -> np.ndarray:
+    """Times of the rows of a record, s: the start, the recorded ends of steps, and second rows at jumps."""
+    ends = np.column_stack([np.roll(steps["end"], 1), steps["end"]])
+    return ends[np.column_stack([steps["jumps"], steps["recorded"]]) != 0.0]
+
+
+def prolonged(steps: np.ndarray) -> list[str]:
+    """Warning of a run that points of tables make much longer."""
+    points = int(steps["begin"][0])
+    return [f"the run ends a step at each of {points} points of tables between its communication points, which makes it much longer; "
+            "tables with fewer points make it shorter"] if points else []
 
 
 def input_variable(fmu: Variables, name: str) -> Variable:

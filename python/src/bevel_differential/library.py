@@ -33,7 +33,7 @@ def schedule(question: np.ndarray, tables: int) -> tuple[int, np.ndarray]:
     """Number of rows, and the rows of a run's schedule: its start, then each step. bd_answers.h describes question, rows and a number
     below 1. Raises `OSError` if the library is missing."""
     library = _library()
-    kinds = [*((name, float) for name in ("begin", "size", "end", "due")), *((name, float, tables) for name in ("values", "slopes"))]
+    kinds = [*((name, float) for name in ("begin", "size", "end", "due", "jumps", "recorded")), *((name, float, tables) for name in ("values", "slopes"))]
     count = library.bd_schedule(question.ctypes.data, len(question), question.ctypes.data, 0)
     rows = np.empty(max(count, 0), kinds)
     library.bd_schedule(question.ctypes.data, len(question), rows.ctypes.data, rows.nbytes // 8)

@@ -92,4 +92,4 @@ def _quantity(names, unit):
 
 
 def _caption(record):
-    return f"{len(record)} communication points from {record['time'][0]:g} s to {record['time'][-1]:g} s; one panel for each unit"
+    return f"{len(np.unique(record['time']))} communication points from {record['time'][0]:g} s to {record['time'][-1]:g} s; one panel for each unit"

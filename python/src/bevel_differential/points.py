@@ -11,6 +11,9 @@ TimeValue: TypeAlias = float | str
 # size of a second in each unit
 PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
+# communication points are rounded: times that differ by less than this fraction of a step are equal
+SAME = 1e-6
+
 
 def seconds(what: str, time: TimeValue) -> float:
     """Time in seconds from a number in s, or from text such as "5 ms". `what` names the time in errors."""
@@ -45,6 +48,24 @@ def duration(what: str, time: TimeValue) -> float:
     return time
 
 
-def mean_over_time(values: np.ndarray, times: np.ndarray) -> float:
-    """Mean of values over time, weighted by the time between them. For a run without duration, the last value."""
-    return float(np.trapezoid(values, times) / (times[-1] - times[0]) if times[-1] > times[0] else values[-1])
+def at_times(times: np.ndarray, rows: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Values at `times` (s) of a series with `values` at the times `rows` (s), linear between them. At a jump, a time has the value before
+    it, and its second occurrence in `times` has the value after it."""
+    before, after = -np.interp(-times, -rows[::-1], -values[::-1]), np.interp(times, rows, values)
+    return np.where(np.append(False, np.diff(times) == 0.0), after, before)
+
+
+def from_time(record: np.ndarray, start: float, step: float) -> np.ndarray:
+    """Rows of a record with the communication step `step` (s) from `start` (s) on. The first one is interpolated, or the second row of a
+    jump."""
+    slack = SAME * step
+    first = int(np.searchsorted(record["time"], start + slack, side="right")) - 1
+    if start <= 0.0 or first + 1 >= len(record):
+        return record
+    found = record[first:].copy()
+    if start - found["time"][0] > slack:
+        share = (start - found["time"][0]) / (found["time"][1] - found["time"][0])
+        for name in found.dtype.names:
+            if found.dtype[name].kind == "f":
+                found[name][0] += share * (found[name][1] - found[name][0])
+    return found

@@ -14,11 +14,12 @@ from .inputs import Signals, Table, Values, input_variable
 from .instance import LOGGED
 from .output_file import checked
 from .plot import plot
-from .points import TimeValue, duration, mean_over_time, seconds, span
+from .points import TimeValue, duration, seconds, span
 from .records import write
 from .scene_file import find, read_scene
 from .text import aligned
 from .values import NOBODY_SET, DifferentialError, FileName, Number, Value
+from .want import mean_over_time
 from .warned import warn
 from .writing import whole
 
@@ -91,8 +92,8 @@ class Scene(Runner):
             frame: bool = False) -> "np.ndarray | pandas.DataFrame":
         """Simulates; `values` change parameters for this run, `stop` changes the end.
 
-        Returns a structured array in SI, shape (points,), with a field "time" (s) and a field for each output. With `frame`, the result is
-        a pandas DataFrame, by time."""
+        Returns a structured array in SI, shape (points,), with a field "time" (s) and a field for each output. A jump of inputs has two
+        rows at its time, before and after it. With `frame`, the result is a pandas DataFrame, by time."""
         record = self._record(outputs, values, stop)
         warn(self.warnings)
         return as_frame(record) if frame else record

@@ -58,6 +58,11 @@ def figures(words: Sequence[str], times: np.ndarray, values: np.ndarray, phase: 
     return ask({"ask": "statistics", "points": len(times), "figures": asked}, np.array(series, float))["figures"]
 
 
+def mean_over_time(values: np.ndarray, times: np.ndarray) -> float:
+    """Mean of values over time (s), linear between the rows. For a run without duration, the last value."""
+    return figures(["mean"], times, values)[0]
+
+
 @dataclass(frozen=True)
 class Want:
     """Statistic of an output."""

@@ -38,6 +38,6 @@ pub struct Question {
     pub wants: Vec<String>,
     /// Wanted accuracy, as a fraction.
     pub within: f64,
-    /// Outputs count after this time [s].
+    /// Outputs count from this time on [s].
     pub from: f64,
 }

@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt;
 
 use super::record::Record;
+use crate::scene::time_mean::TimeMean;
 
 /// A statistic of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,8 +111,8 @@ impl Statistic {
         let (times, values) = (&record.times, &record.values[i]);
         let extreme = |pick: fn(f64, f64) -> f64| values.iter().copied().reduce(pick).unwrap_or(0.0);
         Ok(match self {
-            Self::Mean => over_time(times, values, |x| x),
-            Self::Rms => over_time(times, values, |x| x * x).max(0.0).sqrt(),
+            Self::Mean => TimeMean::of(times, values.iter().copied()),
+            Self::Rms => TimeMean::of(times, values.iter().map(|x| x * x)).max(0.0).sqrt(),
             Self::Min => extreme(f64::min),
             Self::Max => extreme(f64::max),
             Self::PeakToPeak => extreme(f64::max) - extreme(f64::min),
@@ -125,17 +126,10 @@ impl Statistic {
     }
 }
 
-/// Mean over time of `of` applied to the values, by the trapezoidal rule.
-fn over_time(times: &[f64], values: &[f64], of: fn(f64) -> f64) -> f64 {
-    let span = times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0);
-    if span <= 0.0 {
-        return values.first().copied().map_or(0.0, of);
-    }
-    let pieces = times.windows(2).zip(values.windows(2));
-    pieces.map(|(t, v)| 0.5 * (t[1] - t[0]) * (of(v[0]) + of(v[1]))).sum::<f64>() / span
-}
-
 /// Time of the largest magnitude [s], interpolated by a parabola through it and its neighbours.
+///
+/// The parabola counts only within half of the shorter neighbouring interval. It is always there on even points. On
+/// uneven points, a long interval would draw it away from the peak; at a jump, there is no parabola.
 fn time_of_peak(times: &[f64], values: &[f64]) -> f64 {
     let Some(k) = (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs())) else { return 0.0 };
     if k == 0 || k + 1 == values.len() {
@@ -144,11 +138,13 @@ fn time_of_peak(times: &[f64], values: &[f64]) -> f64 {
     let [before, at, after] = [k - 1, k, k + 1].map(|k| values[k].abs());
     let (down, up) = (times[k] - times[k - 1], times[k + 1] - times[k]);
     let (left, right) = ((at - before) / down, (after - at) / up);
-    if left - right <= 0.0 {
+    // also refuses the infinite slope of a jump
+    if !(left - right > 0.0 && left - right < f64::INFINITY) {
         return times[k];
     }
     // zero of the parabola's slope, interpolated between the midpoints of the left and the right interval
-    (times[k] - 0.5 * down) + 0.5 * (down + up) * left / (left - right)
+    let shift = 0.5 * (down + up) * left / (left - right) - 0.5 * down;
+    if shift.abs() <= 0.5 * down.min(up) * (1.0 + 1e-9) { times[k] + shift } else { times[k] }
 }
 
 /// Amplitude of order `number` of `phase` in `values`, over the last whole periods. Returns the reason if it is
@@ -235,6 +231,22 @@ mod tests {
         let record = Record { times, values, ..Record::default() };
         let found = Statistic::TimeOfPeak.of(&record, 0).expect("a time");
         assert!((found - 0.27).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn a_peak_next_to_a_long_interval_or_a_jump_stays_at_its_point() {
+        for sign in [1.0, -1.0] {
+            for (times, values, wanted) in [
+                ([1.4, 1.5, 1.6, 4.0], [0.0, 9.0, 10.0, 8.8], 1.6),
+                ([0.0, 2.4, 2.5, 2.6], [8.8, 10.0, 9.0, 0.0], 2.4),
+                ([0.0, 1.0, 1.0, 2.0], [9.0, 10.0, 0.0, 0.0], 1.0),
+                ([0.0, 1.0, 1.0, 2.0], [0.0, 0.0, 10.0, 9.0], 1.0),
+            ] {
+                let values = vec![values.iter().map(|value| sign * value).collect()];
+                let record = Record { times: times.to_vec(), values, ..Record::default() };
+                assert_eq!(Statistic::TimeOfPeak.of(&record, 0), Ok(wanted), "{times:?}");
+            }
+        }
     }
 
     #[test]

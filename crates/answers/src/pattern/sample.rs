@@ -89,8 +89,13 @@ impl Engagement {
         let (mut first, mut last) = (true, Vec::new());
         while !run.is_over() {
             if !first {
+                let before = run.time();
                 run.advance()?;
                 progress.check_stopped()?;
+                // an instant has one set of sections, those before a jump
+                if run.time() == before {
+                    continue;
+                }
             }
             let now = flanks.instant(&run.simulation);
             for c in &now {

@@ -33,7 +33,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variable};
-use schedule::{MOST, Schedule};
+use schedule::{MOST, Rule, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
 
@@ -120,6 +120,9 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         notes.extend(add_input_file(input_file, file, &mut input_tables, &mut problems));
     }
     let input_slopes = input_slopes(entry, &mut problems);
+    if !input_slopes {
+        input_tables.iter_mut().for_each(|driven| driven.table.rule = Rule::Sampled);
+    }
     let outputs = outputs(&entry.outputs, &mut problems);
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);

@@ -13,6 +13,7 @@ pub mod run;
 pub mod script;
 pub mod set;
 pub mod ssv;
+pub mod time_mean;
 pub mod times;
 pub mod units;
 pub mod warnings;

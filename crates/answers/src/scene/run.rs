@@ -10,6 +10,7 @@ use bevel_differential::variables::{Access, Variable, check_ranges};
 use schedule::{Schedule, Step};
 
 use super::display_units::DisplayUnits;
+use super::time_mean::TimeMean;
 use super::units;
 use super::warnings::at_start;
 use super::{InputTable, Scene};
@@ -23,6 +24,12 @@ pub struct SceneRun<'a> {
     parameters: Parameters,
     inputs: Inputs,
     schedule: Schedule,
+    /// Step that begins with a jump, if its values are set and the simulation has not advanced, with inputs that ramp.
+    begun: Option<(Step, Option<HostInputs>)>,
+    /// Number of points of tables between communication points, if these points make the run much longer.
+    prolonged_by: Option<usize>,
+    /// Number of completed steps.
+    steps: usize,
     reported: Reported,
     /// Warnings since the start.
     found: Vec<Problem>,
@@ -48,8 +55,9 @@ impl<'a> SceneRun<'a> {
         let (events, tables) = (scene.events.iter().map(|event| event.time), scene.input_tables.iter());
         let schedule = Schedule::new(scene.stop_time, Some(step), events.collect(), tables.map(|driven| &driven.table));
         let Scene { parameters, inputs, .. } = *scene;
+        let (prolonged_by, begun, steps) = (schedule.points_that_prolong(), None, 0);
         let (reported, found) = (Reported::default(), Vec::new());
-        Ok(Self { scene, parameters, inputs, schedule, reported, found, simulation })
+        Ok(Self { scene, parameters, inputs, schedule, begun, prolonged_by, steps, reported, found, simulation })
     }
 
     /// Time [s].
@@ -59,14 +67,40 @@ impl<'a> SceneRun<'a> {
 
     /// True if the scene is finished.
     pub fn is_over(&self) -> bool {
-        self.schedule.is_over()
+        self.schedule.is_over() && self.begun.is_none()
     }
 
-    /// Advances to the next communication point, or to an earlier change of inputs.
+    /// Number of steps so far. Steps end at communication points, and at points of tables between them.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Advances to the next row of a record: to the next communication point, or to an earlier jump of inputs. A jump
+    /// has a second row, with the values after it, to which this method advances without a step in time.
     pub fn advance(&mut self) -> Result<()> {
-        let Some(step) = self.schedule.next() else { return Ok(()) };
-        let ramp = self.feed(&step);
+        loop {
+            let (step, ramp) = match self.begun.take() {
+                Some(begun) => begun,
+                None => {
+                    let Some(step) = self.schedule.next() else { return Ok(()) };
+                    let ramp = self.feed(&step);
+                    if step.begins_with_jump {
+                        self.begun = Some((step, ramp));
+                        return Ok(());
+                    }
+                    (step, ramp)
+                }
+            };
+            self.end_step(&step, ramp)?;
+            if step.is_recorded {
+                return Ok(());
+            }
+        }
+    }
+
+    fn end_step(&mut self, step: &Step, ramp: Option<HostInputs>) -> Result<()> {
         self.simulation.advance(step.end).map_err(|why| anyhow!("{why}")).with_context(|| refused(self.scene))?;
+        self.steps += 1;
         ramp.iter().for_each(|host| self.simulation.end_ramp(host));
         self.found.extend(self.simulation.unreported(&mut self.reported));
         if self.is_over() {
@@ -78,7 +112,13 @@ impl<'a> SceneRun<'a> {
     /// Warnings about the scene and its run so far.
     pub fn warnings(&self) -> Vec<String> {
         let found = self.found.iter().map(Problem::to_string);
-        at_start(self.scene, &self.simulation).into_iter().chain(found).collect()
+        let prolonged = self.prolonged_by.map(|points| {
+            format!(
+                "the run ends a step at each of {points} points of tables between its communication points, which makes it much \
+                 longer; tables with fewer points make it shorter"
+            )
+        });
+        at_start(self.scene, &self.simulation).into_iter().chain(prolonged).chain(found).collect()
     }
 
     /// Warnings about the run so far.
@@ -142,7 +182,7 @@ pub struct Summary {
     pub min: f64,
     /// Largest value at a communication point.
     pub max: f64,
-    /// Mean over time, interpolated linearly between communication points.
+    /// Mean over time, interpolated linearly between the rows of the record.
     pub mean: f64,
     /// Final value.
     pub end: f64,
@@ -172,12 +212,10 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
     let recorded: Vec<Variable> = scene.outputs.iter().map(|row| scene.display_units.row_in_files(row)).collect();
     let mut csv = csv.map(|out| record(scene, &recorded, out).context("the record cannot be written")).transpose()?;
     let mut values: Vec<f64> = scene.outputs.iter().map(|row| run.read(row)).collect();
-    let mut outputs: Vec<Summary> = scene
-        .outputs
-        .iter()
-        .zip(&values)
-        .map(|(&row, &value)| Summary { row, min: value, max: value, mean: 0.0, end: value })
-        .collect();
+    let of_start = |(&row, &value)| Summary { row, min: value, max: value, mean: value, end: value };
+    let mut outputs: Vec<Summary> = scene.outputs.iter().zip(&values).map(of_start).collect();
+    let mut means = vec![TimeMean::default(); values.len()];
+    means.iter_mut().zip(&values).for_each(|(mean, &value)| mean.add(0.0, value));
     line(&mut csv, 0.0, &recorded, &values)?;
     let (mut exchanged, mut seen) = (0.0, 0.0);
     let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
@@ -185,12 +223,12 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
         let before = run.time();
         run.advance()?;
         let span = run.time() - before;
-        for (summary, last) in outputs.iter_mut().zip(&mut values) {
+        for ((summary, mean), last) in outputs.iter_mut().zip(&mut means).zip(&mut values) {
             let value = run.read(summary.row);
-            summary.min = summary.min.min(value);
-            summary.max = summary.max.max(value);
-            summary.mean += 0.5 * span * (*last + value);
-            (summary.end, *last) = (value, value);
+            mean.add(run.time(), value);
+            let (min, max) = (summary.min.min(value), summary.max.max(value));
+            *summary = Summary { row: summary.row, min, max, mean: mean.value(), end: value };
+            *last = value;
         }
         let now = exchange(&mut run);
         exchanged += 0.5 * span * (power + now);
@@ -203,8 +241,6 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
         rows.flush().context("the record cannot be written")?;
     }
     progress.warn(run.warnings());
-    let end = run.time();
-    outputs.iter_mut().for_each(|summary| summary.mean = if end > 0.0 { summary.mean / end } else { summary.end });
     Ok(SceneResult {
         outputs,
         account: run.simulation.account(),

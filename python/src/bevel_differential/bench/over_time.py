@@ -60,13 +60,12 @@ def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Measures temperatures and loss after a cold start."""
     record, (*_, warmth) = scene.run(), axes(scene)
     time, loss = record["time"], record["power.loss"]
-    # without the first steps, in which everything starts to move
-    half = time[np.argmax(loss[1:] < 0.5 * (loss[1] + loss[-1])) + 1]
-    says = (f"the loss is {loss[1]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
+    half = time[np.argmax(loss < 0.5 * (loss[0] + loss[-1]))]
+    says = (f"the loss is {loss[0]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
             f"{half:.0f} s, in which the oil warms up from {warmth.text(record['temperature.oil'][0], 3)} to "
             f"{warmth.text(float(np.interp(half, time, record['temperature.oil'])), 3)}")
     _written(scene, record, out, says, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("oil", "gears", "case"))),
-                                ("power loss, W", {"loss": (time[1:], loss[1:])})])
+                                ("power loss, W", {"loss": (time, loss)})])
     return says
 
 

@@ -27,7 +27,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="a quantity to record, such as left.speed:mean; the final value without a statistic")
     parser.add_argument("--condition", metavar="CONDITION", action="append", default=[],
                         help="a condition that a feasible design meets, such as \"safety.root_min >= 1.2\"")
-    parser.add_argument("--from", dest="start", metavar="TIME", help="quantities count after this time, such as \"0.14 s\"")
+    parser.add_argument("--from", dest="start", metavar="TIME", help="quantities count from this time on, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
     add_file(parser, "--out", "Parquet file", "results; --resume continues from this file")
     add_file(parser, "--csv", "table", "write all runs as a table")

@@ -9,12 +9,13 @@ import numpy as np
 
 from ..extras import require
 from ..fmu import Fmu
-from ..points import TimeValue, duration, mean_over_time
+from ..points import TimeValue, duration
 from ..records import write
 from ..scene import Scene
 from ..scene_file import find
 from ..text import aligned
 from ..values import DifferentialError, FileName, Value
+from ..want import mean_over_time
 from ..warned import warn
 from .differing import differing
 

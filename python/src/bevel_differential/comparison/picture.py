@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import style
+from ..points import at_times
 from ..readable import time_scale
 from ..report import words
 from ..values import FileName
@@ -94,11 +95,11 @@ def _apart(found, output):
     size = max(float(np.max(np.abs(record[output].astype(float)))) for record in records.values()) or 1.0
     best = (0.0, "")
     for name in others:
-        at = np.interp(time, records[name]["time"], records[name][output].astype(float))
+        at = at_times(time, records[name]["time"], records[name][output].astype(float))
         away = np.abs(at - records[first][output].astype(float))
         place = int(np.argmax(away))
         if away[place] / size > best[0]:
-            shown = [float(np.interp(time[place], records[each]["time"], curves[each])) for each in (first, name)]
+            shown = [float(at_times(time, records[each]["time"], curves[each])[place]) for each in (first, name)]
             best = (float(away[place]) / size, f"at {words.moment(time[place], found.end)} it is "
                     f"{words.quantity(shown[0], unit)} in {first} and {words.quantity(shown[1], unit)} in {name}")
     return best

@@ -4,6 +4,7 @@ import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..points import from_time
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
@@ -30,8 +31,8 @@ class Row:
 class Task:
     """Scene with the figures and conditions of its designs. It can be sent to other processes.
 
-    `wants` and `conditions` are text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count communication points
-    after `start` (s). `figures` are those of wants and conditions, in this order. If all of them are final values, the scene takes
+    `wants` and `conditions` are text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count from
+    `start` (s) on. `figures` are those of wants and conditions, in this order. If all of them are final values, the scene takes
     one long step."""
 
     def __init__(self, scene: Scene, wants: Sequence[str | Want], conditions: Sequence[str | Condition] = (),
@@ -77,6 +78,5 @@ class Task:
         outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
         record = self.scene._record(outputs, values)
         teeth = int(record["geometry.planet_teeth"][0])
-        # half a step of tolerance, because communication points are rounded; the start itself does not count
-        record = record[record["time"] > self.start + 0.5 * self.scene.step]
+        record = from_time(record, self.start, self.scene.step)
         return {str(want): want.of(record, teeth) for want in self.figures}

@@ -98,7 +98,7 @@ def _draw_power(picture, run):
 
 def _power_caption(run):
     residual, throughput = energy_balance(run)
-    work, out = (float(np.trapezoid(run.series(name), run.time)) for name in ("power.in", "power.out"))
+    work, out = (run.mean(name) * float(run.time[-1]) for name in ("power.in", "power.out"))
     heats = {name: float(run.record[name][-1]) for name in _heats(run)}
     total = sum(heats.values())
     by_cause = ", ".join(f"{name.removeprefix('heat.').replace('_', ' ')} {words.quantity(heat, 'J', 3)}"

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..plot import shown_times
 from ..values import DifferentialError
-from ..want import COARSEST, figures
+from ..want import COARSEST, figures, mean_over_time
 from . import svg_style, words
 from .blocks import Picture, Section
 from .simulated import Simulated
@@ -106,8 +106,10 @@ def transmission_error(run: Simulated) -> Section:
 
 def rolling(times: np.ndarray, angle: np.ndarray, teeth: int) -> slice:
     """Longest interval in which the planet turns in one direction, by at least one pitch. Raises `DifferentialError` with the reason."""
-    sense = np.sign(np.diff(angle))
-    edges = np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])
+    # the second row of a jump is not a standstill
+    rows = np.flatnonzero(np.append(True, np.diff(times) > 0.0))
+    sense = np.sign(np.diff(angle[rows]))
+    edges = rows[np.concatenate([[0], np.flatnonzero(np.diff(sense)) + 1, [len(sense)]])]
     best, turned = slice(0, 0), 0.0
     for begin, end in pairwise(edges):
         if abs(angle[end] - angle[begin]) > turned:
@@ -154,12 +156,13 @@ def _draw_error(picture, run, part, orders, sizes):
 
 def _over_time(run):
     error = UM * run.series(SIGNAL)
-    loaded = error[error > 0.0]
-    lifted = (f"; below 0, {words.percent(float(np.mean(error < 0.0)), 2)} of the points, the drive flanks are apart"
+    touches = error > 0.0
+    lifted = (f"; below 0, {words.percent(mean_over_time(error < 0.0, run.time), 2)} of the time, the drive flanks are apart"
               if error.min() < 0.0 else "")
-    if not len(loaded):
+    if not np.any(touches):
         return f"Approach of the drive flanks: they never touch, {words.number(-error.max(), 3)} µm apart at least."
-    return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(float(np.mean(loaded)), 'µm')} on the "
+    mean = mean_over_time(error * touches, run.time) / mean_over_time(touches, run.time)
+    return (f"Approach of the drive flanks at the mean cone distance: {words.quantity(mean, 'µm')} on the "
             f"mean while they touch, {words.quantity(error.max(), 'µm')} at most{lifted}.")
 
 

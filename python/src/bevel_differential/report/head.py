@@ -7,6 +7,7 @@ import numpy as np
 from ..extras import version
 from ..fmu import Fmu
 from ..scene import Scene
+from ..want import mean_over_time
 from . import strength, svg_style, words
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
@@ -45,14 +46,13 @@ def verdicts(run: Simulated) -> list[Text]:
 
 def energy_balance(run: Simulated) -> tuple[float, float]:
     """Largest residual of the energy balance, and the larger of input work and heat, J."""
-    power = np.abs(run.series("power.in"))
-    work = float(np.trapezoid(power, run.time))
+    work = mean_over_time(np.abs(run.series("power.in")), run.time) * float(run.time[-1])
     heat = sum(float(run.record[name][-1]) for name in run.scene.fmu.variables if name.startswith("heat."))
     return float(np.max(np.abs(run.series("solver.energy_residual")))), max(work, heat)
 
 
 def _split(run):
-    left, right = (float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right"))
+    left, right = (run.mean(f"{side}.shaft_torque") for side in ("left", "right"))
     if max(abs(left), abs(right)) < 1e-9:
         return "The half-shafts carry no torque on the mean, so that there is no bias."
     torque = run.scene.fmu.variable("left.shaft_torque")
@@ -79,7 +79,7 @@ def _facts(run):
     rows = [
         *program(run.scene.fmu),
         ("solver", f"{solver}; {steps}"),
-        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(run.time) - 1} communication steps of "
+        ("simulated time", f"{words.quantity(run.scene.stop, 's')} in {len(np.unique(run.time)) - 1} communication steps of "
                            f"{words.quantity(1e3 * run.scene.step, 'ms')}"),
         ("took", f"{words.quantity(1e3 * run.seconds, 'ms', 3)}: {words.number(real, 2)} × real time"),
     ]

@@ -12,6 +12,7 @@ from ..answers import Progress
 from ..progress import silent
 from ..scene import Scene
 from ..values import DifferentialError, Number
+from ..want import mean_over_time
 from . import words
 from .simulated import Simulated
 
@@ -85,7 +86,7 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
         record = _simulate(run.scene, values, commands, seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
             break
-    left, right = (float(np.mean(record[name])) for name in SHAFTS)
+    left, right = (mean_over_time(record[name], record["time"]) for name in SHAFTS)
     return RunUp(record, ratio, imposed, (left, right), changed, turns, seconds, bool(why_imposed))
 
 
@@ -115,15 +116,16 @@ def ratio_of(run: Simulated) -> tuple[float, list[str]]:
     spin, carrier = run.series("planet[1].spin_speed"), run.series("carrier.speed")
     rolls = np.abs(spin) > ROLLING * np.max(np.abs(carrier), initial=1e-9)
     one_way = np.all(carrier > 0.0) or np.all(carrier < 0.0)
-    if one_way and np.mean(rolls) > 0.1 and abs(np.mean(spin[rolls])) > 0.9 * np.mean(np.abs(spin[rolls])):
-        return float(np.mean(spin[rolls]) / np.mean(carrier[rolls])), []
+    rolling, spins, speeds, sizes = (mean_over_time(rolls * values, run.time) for values in (1.0, spin, carrier, np.abs(spin)))
+    if one_way and rolling > 0.1 and abs(spins) > 0.9 * sizes:
+        return spins / speeds, []
     reason = "the carrier turns to and fro" if not one_way else "the planets of the scene do not roll steadily"
     return USUAL_RATIO, [f"the planets spin at {USUAL_RATIO:g} of the carrier's speed, as {reason}"]
 
 
 def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
     """Mean torques of the half-shafts in the scene, or else usual loads and a sentence about them."""
-    means = [float(np.mean(run.series(f"{side}.shaft_torque"))) for side in ("left", "right")]
+    means = [run.mean(f"{side}.shaft_torque") for side in ("left", "right")]
     if min(abs(mean) for mean in means) >= LEAST_LOAD and means[0] * means[1] > 0.0:
         return (means[0], means[1]), []
     return (USUAL_LOAD, USUAL_LOAD), [f"each half-shaft carries {USUAL_LOAD:g} N·m, as in the scene at least one of them has "

@@ -6,8 +6,10 @@ from typing import Self
 
 import numpy as np
 
+from ..points import at_times
 from ..scene import Scene
 from ..values import DifferentialError, Number
+from ..want import mean_over_time
 
 # effects that only add outputs, without influence on motion; a test checks that the command `accuracy` has the same list
 ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history", "effects.coupling_advice")
@@ -93,8 +95,12 @@ class Simulated:
 
     @property
     def time(self) -> np.ndarray:
-        """Communication points, s."""
+        """Times of the rows, s: communication points, and jumps of inputs twice."""
         return self.record["time"]
+
+    def mean(self, name: str) -> float:
+        """Mean of an output over time, SI."""
+        return mean_over_time(self.series(name), self.time)
 
     @property
     def has_teeth(self) -> bool:
@@ -129,7 +135,7 @@ def _drawn(scene):
 def _is_straight(record, closer, names):
     for name in names:
         values = closer[name].astype(float)
-        off = np.abs(np.interp(closer["time"], record["time"], record[name].astype(float)) - values)
+        off = np.abs(at_times(closer["time"], record["time"], record[name].astype(float)) - values)
         if np.mean(off > LEFT * np.ptp(values)) > MISSED:
             return False
     return True

@@ -54,6 +54,8 @@ def rolls(run: Simulated) -> np.ndarray:
     found = np.zeros(len(run.time), dtype=bool)
     for planet in range(1, int(run.value("geometry.planet_count")) + 1):
         found[1:] |= pushed_along(run.series(f"planet[{planet}].spin_angle"), pitch) > 0.0
+    # the second row of a jump continues the first one
+    found[1:] |= found[:-1] & (np.diff(run.time) == 0.0)
     return found
 
 

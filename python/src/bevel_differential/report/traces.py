@@ -4,6 +4,7 @@ import numpy as np
 
 from ..want import Statistic, Want
 from ..want import figures as figures_of
+from ..want import mean_over_time
 from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import SPEEDS, TORQUES, Simulated
@@ -72,7 +73,7 @@ def _speeds(run):
 def _torques(run):
     left, right, carrier = (run.shown(name) for name in ("left.shaft_torque", "right.shaft_torque", "carrier.torque"))
     unit = words.unit_text(run.unit("carrier.torque"))
-    means = [words.number(float(np.mean(values))) for values in (carrier, left, right)]
+    means = [words.number(mean_over_time(values, run.time)) for values in (carrier, left, right)]
     return (f"Torque of the drive on the carrier and of the half-shafts on the wheels; on the mean carrier {means[0]}, left "
             f"{means[1]} and right {means[2]} {unit}; the difference accelerates bodies or is lost. Largest: carrier "
             f"{words.number(np.max(np.abs(carrier)))}, left "

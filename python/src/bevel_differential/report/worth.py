@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..answers import Progress
-from ..points import mean_over_time
 from ..progress import silent
 from ..values import DifferentialError, Number
+from ..want import mean_over_time
 from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of

@@ -2,21 +2,22 @@
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..fmu import Fmu
-from ..inputs import Signals
+from ..inputs import prolonged, times_of_rows
 from ..instance import Instance
 from ..plot import plot
-from ..points import TimeValue, duration, span
+from ..points import SAME, TimeValue, duration, span
 from ..values import DifferentialError, FileName, Number, Value, variable_suggestion
 from ..warned import warn
 from .equations import motor_torque
 from .motion import Motion
 from .parts import Body, Motor, Tyre
-from .signals import Course, course, speed_value
+from .signals import Course, Requests, course, speed_value
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -68,37 +69,48 @@ class Car:
     def run(self, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
             steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
         """Simulates from 0 to `stop` in communication steps of `step` (s, or text such as "1 ms"). Records `outputs` of the
-        differential and of the parts (`UNITS`) at each, SI.
+        differential and of the parts (`UNITS`) at each, SI. Between them, it stops at the points of `request` and `steer` without a
+        record; a jump is recorded twice, before and after it.
 
         `request`: torque of the motor, N.m; `steer`: angle of the front wheels, rad, positive to the left. Each is a number, a pair (times,
         values) or a function of time. `speed`: speed of the car at the start, m/s, or text such as "54 km/h". The motor then starts with
         the part of the torque `request` that it can give at that speed, without a lag. `controller(time, values)` is called before each
-        step with the recorded outputs, and returns the values to set: inputs and tunable parameters of the differential, `motor.request`,
+        communication step with the recorded outputs, and returns the values to set: inputs and tunable parameters of the differential, `motor.request`,
         `body.steer`. Returns a structured array with a field "time"."""
         stop, step = duration("stop", stop), span("step", step)
         self._warn_unset()
         self._check_step(step)
-        ask, turn = course("request", request), course("steer", steer)
+        requests = Requests({"request": request, "steer": steer})
         names = self._recorded(outputs)
         begin = speed_value(speed)
         motion = Motion(self.motor, self.tyres, self.body, begin)
-        points = Signals().steps(stop, step)["end"].tolist()
-        record = np.empty(len(points), [("time", np.float64), *((name, np.float64) for name in names)])
+        steps = requests.steps(stop, step)
+        rows = []
         with self.fmu.open() as instance:
-            run = _Run(instance, motion, [name for name in names if name not in UNITS])
+            run = _Run(instance, motion, [name for name in names if name not in UNITS], step)
+            ask, turn = requests.within(steps[0], 0.0).values()
             run.start(self._start(motion, begin, ask(0.0)), stop)
-            for row, time in enumerate(points):
-                values = run.values(turn(time))
-                record[row] = (time, *(values[name] for name in names))
-                if row + 1 == len(points):
-                    break
-                wanted = controller(time, {name: values[name] for name in names}) if controller else None
+            values = run.values(turn(0.0))
+            rows.append([values[name] for name in names])
+            wanted: Mapping[str, Value] = {}
+            for before, row in pairwise(steps):
+                time = float(before["end"])
+                ask, turn = requests.within(row, time).values()
+                if row["jumps"]:
+                    values = run.values(turn(time))
+                    rows.append([values[name] for name in names])
+                if before["recorded"]:
+                    wanted = (controller(time, {name: values[name] for name in names}) if controller else None) or {}
+                    instance.set({name: value for name, value in wanted.items() if name not in REQUESTS})
                 asked = dict(zip(REQUESTS, (ask, turn)))
-                asked.update((name, course(name, value)) for name, value in (wanted or {}).items() if name in REQUESTS)
-                instance.set({name: value for name, value in (wanted or {}).items() if name not in REQUESTS})
-                run.step(time, points[row + 1] - time, [asked[name] for name in REQUESTS])
-            warn(instance.messages)
-        return record
+                asked.update((name, course(name, value)) for name, value in wanted.items() if name in REQUESTS)
+                run.step(time, float(row["end"]) - time, [asked[name] for name in REQUESTS])
+                if row["recorded"]:
+                    values = run.values(turn(float(row["end"])))
+                    rows.append([values[name] for name in names])
+            warn([*prolonged(steps), *instance.messages])
+        columns = zip(times_of_rows(steps).tolist(), rows)
+        return np.array([(time, *values) for time, values in columns], [("time", np.float64), *((name, np.float64) for name in names)])
 
     def plot(self, record: np.ndarray, file: FileName | None = None, title: str = "", caption: str = "") -> "Figure":
         """Draws a record, with a panel for each unit; see `Differential.plot`."""
@@ -197,31 +209,37 @@ def _times(tyre):
 class _Run:
     """One run: from step to step, the differential receives lines of torque, and the parts receive lines of speed."""
 
-    def __init__(self, instance: Instance, motion: Motion, names: list[str]):
+    def __init__(self, instance: Instance, motion: Motion, names: list[str], communication_step: float):
         real = [name for name in names if instance.fmu.variable(name).kind == "Real"]
         self.instance, self.motion, self.names = instance, motion, real
         self.port = instance.port(LOADS, [*SPEEDS, *real])
         # variables of other kinds are fixed parameters
         self.fixed: dict[str, Number] = {name: 0 for name in names if name not in real}
-        self.speeds: list[list[float]] = []
+        # times and speeds: the last point that is a communication step or more ago, and all points since then
+        self.past: list[tuple[float, list[float]]] = []
+        self.communication_step = communication_step * (1.0 - SAME)
         self.read: list[float] = []
 
     def start(self, values, stop):
         at = values.get("carrier.speed_command", 0.0)
         self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
         self.fixed = dict(zip(self.fixed, self.instance.read(self.fixed)))
-        self._keep(self.port.read())
+        self._keep(0.0, self.port.read())
 
-    def _keep(self, outputs):
-        self.speeds, self.read = [*self.speeds[-1:], outputs[:3]], outputs[3:]
+    def _keep(self, time, outputs):
+        self.past.append((time, outputs[:3]))
+        # a line through points that are close together would be a rounding error
+        while len(self.past) > 2 and time - self.past[1][0] >= self.communication_step:
+            self.past.pop(0)
+        self.read = outputs[3:]
 
     def values(self, steer):
-        return self.fixed | dict(zip(self.names, self.read)) | self.motion.outputs(self.speeds[-1], steer)
+        return self.fixed | dict(zip(self.names, self.read)) | self.motion.outputs(self.past[-1][1], steer)
 
     def step(self, time, size, asked):
-        """Advances the parts first, along the line through the last two speeds. The torques at both ends of the step are then known."""
-        before, now = self.speeds[0], self.speeds[-1]
-        slopes = [(b - a) / size for a, b in zip(before, now)]
+        """Advances the parts first, along the line through the speeds of the last communication step. The torques at both ends of the step are then known."""
+        (since, before), (_, now) = self.past[0], self.past[-1]
+        slopes = [(b - a) / (time - since or 1.0) for a, b in zip(before, now)]
 
         def line(t):
             return [value + slope * t for value, slope in zip(now, slopes)]
@@ -232,7 +250,7 @@ class _Run:
         if not all(map(math.isfinite, end)):
             raise DifferentialError(f"at {time:g} s: the tyres' loads are not numbers; use shorter steps, or check the parameters",
                                     kind="failed")
-        self._keep(self.port.do_step(begin, time, size, [(b - a) / size for a, b in zip(begin, end)]))
+        self._keep(time + size, self.port.do_step(begin, time, size, [(b - a) / size for a, b in zip(begin, end)]))
 
 
 class _Names:

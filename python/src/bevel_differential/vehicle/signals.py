@@ -1,11 +1,13 @@
 """Requests over time, for the motor's torque and the steering angle."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
 
+from ..csv_table import Quantity
+from ..inputs import Signals, Table
 from ..values import DifferentialError, split
 
 # a number, a pair (times, values) with linear interpolation, or a function of time
@@ -30,6 +32,27 @@ def course(name: str, given: Course) -> Callable[[float], float]:
     if not math.isfinite(value):
         raise DifferentialError(f"{name} = {given!r}: it is a finite number, a pair (times, values) or a function of time")
     return lambda _: value
+
+
+class Requests:
+    """Requests of a run by name. A step ends at every point of those that are tables."""
+
+    def __init__(self, given: Mapping[str, Course]):
+        self._courses = {name: course(name, each) for name, each in given.items()}
+        self._tables = [name for name, each in given.items() if isinstance(each, tuple)]
+        self._signals = Signals((), [Table(Quantity(name, {"": 1.0}), *given[name]) for name in self._tables])
+
+    def steps(self, stop: float, step: float) -> np.ndarray:
+        """Steps to `stop`; see `Signals.steps`."""
+        return self._signals.steps(stop, step)
+
+    def within(self, step: np.void, begin: float) -> dict[str, Callable[[float], float]]:
+        """Functions of time (s) in one of the steps, from `begin` (s) on. Tables are lines, so that a jump at the end does not count."""
+        def line(value, slope):
+            return lambda time: value + slope * (time - begin)
+
+        lines = zip(self._tables, step["values"].tolist(), step["slopes"].tolist())
+        return self._courses | {name: line(value, slope) for name, value, slope in lines}
 
 
 # m/s by unit
