@@ -6,10 +6,12 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..designs.farm import Farm
 from ..designs.task import Row, Task
 from ..values import DifferentialError, Number
-from ..want import Condition, Statistic, Want
+from ..want import ANGLES, Condition, Statistic, Want
 from .pair import Pair, violations
 from .problem import Problem
 from .quantities import QUANTITIES
@@ -18,6 +20,8 @@ from .quantities import QUANTITIES
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
 # outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
 HISTORY = "_peak_to_peak"
+# largest part of a mesh cycle between two points at which loads of pins and washers are read, so that no peak is missed
+FINEST = 1.0 / 32.0
 # a figure below this fraction of another one counts as zero, so that there is no relative difference
 VANISHES = 1e-9
 
@@ -50,8 +54,9 @@ class DesignTask(Task):
         self.on_figures = [each for each in problem.conditions if not _on_dimensions(each.want)]
         final = Statistic("final")
         simulated = [want for want in self.wanted if want.name not in QUANTITIES]
-        simulated += [Want(name, final) for want in self.wanted if want.name in QUANTITIES
-                      for name in QUANTITIES[want.name].outputs]
+        quantities = [QUANTITIES[want.name] for want in self.wanted if want.name in QUANTITIES]
+        simulated += [Want(name, final) for quantity in quantities for name in quantity.outputs]
+        self.loads = list(dict.fromkeys(name for quantity in quantities for name in quantity.loads))
         super().__init__(problem.scene, simulated or [Want("geometry.contact_ratio", final)])
         self.known = problem.known({})
 
@@ -93,7 +98,8 @@ class DesignTask(Task):
 
     def _simulated(self, row, complete):
         """Runs the scene and adds its figures to the row. Returns outputs by name."""
-        figures, row.warnings = self._figures(complete), tuple(self.scene.warnings)
+        figures, loads = self._run(complete)
+        row.warnings = tuple(self.scene.warnings)
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
         if without:
@@ -104,7 +110,23 @@ class DesignTask(Task):
                   # the checks of the dimensions may already have found it
                   and (not row.refused or text.startswith("geometry.root_fillet"))]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
-        return {name.rpartition(":")[0]: value for name, value in figures.items()}
+        return {**{name.rpartition(":")[0]: value for name, value in figures.items()}, **loads}
+
+    def _run(self, complete):
+        """Runs the scene. Returns figures by want, and the largest value of each load since rating began, by output. Loads that change
+        fast between the points of the scene are read at more points."""
+        if not self.loads:
+            return self._figures(complete), {}
+        outputs = dict.fromkeys([*self._recorded(), ANGLES["mesh"], *self.loads])
+        record = self.scene._record(list(outputs), complete)
+        figures = self._statistics(record)
+        cycles = np.abs(np.diff(record[ANGLES["mesh"]])).max(initial=0.0) * record["geometry.planet_teeth"][0] / (2.0 * np.pi)
+        # a shorter step changes the motion only if inputs are held within steps
+        if cycles > FINEST and (self.scene.input_slopes or not self.scene.tables):
+            record = self.scene._record(self.loads, complete, step=self.scene.step / math.ceil(cycles / FINEST))
+        rated_from = {**self.known, **complete}["strength.rate_from"]
+        rated = record[record["time"] >= min(rated_from, record["time"][-1])]
+        return figures, {name: float(rated[name].max()) for name in self.loads}
 
     def _fails(self, row, found, stage):
         """Adds violations to the row. Returns true if the evaluation of the design ends here."""
@@ -119,7 +141,7 @@ class DesignTask(Task):
 
 
 def _on_dimensions(want: Want) -> bool:
-    return want.name in QUANTITIES and not QUANTITIES[want.name].outputs
+    return want.name in QUANTITIES and QUANTITIES[want.name].is_dimension
 
 
 def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:
