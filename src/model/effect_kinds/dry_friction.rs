@@ -4,12 +4,13 @@
 //! the element of P. R. Dahl and of Jenkins: a spring in series with a Coulomb slider. The rotation z is a position of
 //! the model minus an anchor, so sticking adds no state, and a constant load is held without creep. While the body
 //! slides, the spring drags the anchor along, step by step. A body therefore stops with the present torque of the
-//! spring, never with more. The integrator ends a step at each transition. The energy that the spring loses at a
-//! transition becomes heat.
+//! spring, never with more. The integrator ends a step at each transition. The spring keeps its energy while the body
+//! slides: the work of sliding winds the spring first, and the rest becomes heat. So does energy that the spring loses.
+//! No heat ever returns.
 
 use super::body_friction::BodyFriction;
 use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
-use crate::numeric::TAU;
+use crate::numeric::{TAU, sqrt};
 
 /// Damping of the spring over its stiffness τ if the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
@@ -156,10 +157,10 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Energy in the spring [J].
+    /// Energy in the spring [J]. The spring of a sliding body remains wound.
     pub fn energy(&self, state: &FrictionState, position: f64) -> f64 {
         let z = position - state.anchor;
-        if state.mode == Mode::Stuck { 0.5 * state.stiffness * z * z } else { 0.0 }
+        0.5 * state.stiffness * z * z
     }
 
     /// Spring torque that corresponds to the rounding of the position [N·m]. The position is a sum of angles of up to
@@ -302,6 +303,33 @@ impl<'a> DryFriction<'a> {
         position - (position - anchor).max(-most).min(most)
     }
 
+    /// Returns the anchor after a body has slid from `start` to `end` [rad], and the energy that its spring gains [J].
+    /// `limits` are the limit torques at the start, in the middle and at the end of the slide [N·m]. The spring gains
+    /// at most the work of sliding, so that a limit that rises faster than the body slides takes no energy from the
+    /// heat.
+    pub fn slide(&self, anchor: f64, [start, end]: [f64; 2], limits: [f64; 3]) -> (f64, f64) {
+        let stiffness = self.of.stiffness;
+        let stored = |wound: f64| 0.5 * stiffness * wound * wound;
+        let (before, dragged) = (stored(start - anchor), self.drag(anchor, end, limits[2]));
+        let most = before + limits[0].min(limits[1]).min(limits[2]) * (end - start).abs();
+        let wound = end - dragged;
+        if stored(wound) > most {
+            return (end - sqrt(2.0 * most / stiffness).copysign(wound), most - before);
+        }
+        (dragged, stored(wound) - before)
+    }
+
+    /// Adds the energy `amount` [J] to the heat of this friction's causes, in proportion to the heat `of_step` that a
+    /// step has added to each cause [J].
+    pub fn add_in_proportion(&self, amount: f64, of_step: impl Fn(usize) -> f64, heat: &mut [f64]) {
+        let parts = self.of.parts();
+        let whole: f64 = parts.iter().map(|part| of_step(part.heat_index)).sum();
+        for part in parts {
+            let share = if whole > 0.0 { of_step(part.heat_index) / whole } else { 1.0 / parts.len() as f64 };
+            heat[part.heat_index] += amount * share;
+        }
+    }
+
     /// Distance to the switch, positive before it: the remaining torque while stuck [N·m], the speed while sliding
     /// [rad/s].
     pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
@@ -317,8 +345,7 @@ impl<'a> DryFriction<'a> {
         if state.stiffness == self.of.stiffness {
             return;
         }
-        let wound = slip.position - state.anchor;
-        let before = if state.mode == Mode::Stuck { 0.5 * state.stiffness * wound * wound } else { 0.0 };
+        let (wound, before) = (slip.position - state.anchor, self.energy(state, slip.position));
         if self.of.stiffness > 0.0 {
             if state.stiffness == 0.0 {
                 state.mode = match slip.speed {
