@@ -20,8 +20,9 @@ from .quantities import QUANTITIES
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
 # outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
 HISTORY = "_peak_to_peak"
-# largest part of a mesh cycle between two points at which loads of pins and washers are read, so that no peak is missed
-FINEST = 1.0 / 32.0
+# points at which loads of pins and washers are read in a run, because each costs about half a step of the solver; and the largest part
+# of a mesh cycle between two points, so that no peak is missed
+POINTS, FINEST = 128, 1.0 / 32.0
 # a figure below this fraction of another one counts as zero, so that there is no relative difference
 VANISHES = 1e-9
 
@@ -113,20 +114,26 @@ class DesignTask(Task):
         return {**{name.rpartition(":")[0]: value for name, value in figures.items()}, **loads}
 
     def _run(self, complete):
-        """Runs the scene. Returns figures by want, and the largest value of each load since rating began, by output. Loads that change
-        fast between the points of the scene are read at more points."""
+        """Runs the scene. Returns figures by want, and the largest value of each load since rating began, by output."""
         if not self.loads:
             return self._figures(complete), {}
-        outputs = dict.fromkeys([*self._recorded(), ANGLES["mesh"], *self.loads])
-        record = self.scene._record(list(outputs), complete)
-        figures = self._statistics(record)
+        scene, is_short = self.scene, self._only_final() and not self.scene.tables
+        step = max(scene.step, scene.stop / POINTS) if is_short else scene.step
+        outputs = dict.fromkeys([ANGLES["mesh"], "geometry.planet_teeth", *self.loads, *([] if is_short else self._recorded())])
+        record = scene._record(list(outputs), complete, step=step)
+        figures = self._final_figures() if is_short else self._statistics(record)
         cycles = np.abs(np.diff(record[ANGLES["mesh"]])).max(initial=0.0) * record["geometry.planet_teeth"][0] / (2.0 * np.pi)
         # a shorter step changes the motion only if inputs are held within steps
-        if cycles > FINEST and (self.scene.input_slopes or not self.scene.tables):
-            record = self.scene._record(self.loads, complete, step=self.scene.step / math.ceil(cycles / FINEST))
+        if cycles > FINEST and (scene.input_slopes or not scene.tables):
+            record = scene._record(self.loads, complete, step=step / math.ceil(cycles / FINEST))
         rated_from = {**self.known, **complete}["strength.rate_from"]
         rated = record[record["time"] >= min(rated_from, record["time"][-1])]
         return figures, {name: float(rated[name].max()) for name in self.loads}
+
+    def _final_figures(self):
+        """Figures at the end of the last run, if all of them are final values."""
+        names = [want.name for want in self.figures]
+        return {str(want): float(value) for want, value in zip(self.figures, self.scene._instance().read(names))}
 
     def _fails(self, row, found, stage):
         """Adds violations to the row. Returns true if the evaluation of the design ends here."""
