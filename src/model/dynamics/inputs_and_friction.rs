@@ -4,7 +4,7 @@ use std::iter::Chain;
 use std::ops::Range;
 
 use super::State;
-use super::ledger_rates::{LedgerRates, simpson};
+use super::ledger_rates::LedgerRates;
 use crate::integrate::{Matrix, Point, Step};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
@@ -406,11 +406,17 @@ pub trait FrictionEquations<const N: usize> {
         if !self.has_dry_friction() {
             return;
         }
+        let mut loads = None;
         for i in bodies_with_friction(self).filter(|&i| self.applied().friction_state[i].mode != Mode::Stuck) {
-            let (friction, _, count) = self.friction_on(i);
-            let ends = [step.start, step.end].map(|at| self.slip(at, i).position);
-            let (anchor, gained) = friction.slide(anchors[i], ends, step.ledger_rates.each_ref().map(|p| p.limit[i]));
-            friction.add_in_proportion(-count * gained, |cause| simpson(step, |p| p.heat[cause]), heat);
+            let (friction, state, count) = self.friction_on(i);
+            let [start, end] = [step.start, step.end].map(|at| self.slip(at, i));
+            let limits = step.ledger_rates.each_ref().map(|p| p.limit[i]);
+            let (anchor, gained) = friction.slide(anchors[i], [start.position, end.position], limits);
+            let sliding = || {
+                let loads = loads.get_or_insert_with(|| self.surface_loads(step.end, step.time));
+                (state.mode.direction() * end.speed, loads[i])
+            };
+            friction.take_heat(count * gained, sliding, heat);
             anchors[i] = anchor;
         }
     }

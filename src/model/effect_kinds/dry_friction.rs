@@ -319,14 +319,20 @@ impl<'a> DryFriction<'a> {
         (dragged, stored(wound) - before)
     }
 
-    /// Adds the energy `amount` [J] to the heat of this friction's causes, in proportion to the heat `of_step` that a
-    /// step has added to each cause [J].
-    pub fn add_in_proportion(&self, amount: f64, of_step: impl Fn(usize) -> f64, heat: &mut [f64]) {
+    /// Takes the energy `amount` [J] from the heat of a body that slides, in proportion to the torques of its parts, so
+    /// that the heat of none of them falls. `slip` and `by` are evaluated only if the parts have different heats.
+    pub fn take_heat(&self, amount: f64, sliding: impl FnOnce() -> (f64, SurfaceLoad), heat: &mut [f64]) {
         let parts = self.of.parts();
-        let whole: f64 = parts.iter().map(|part| of_step(part.heat_index)).sum();
-        for part in parts {
-            let share = if whole > 0.0 { of_step(part.heat_index) / whole } else { 1.0 / parts.len() as f64 };
-            heat[part.heat_index] += amount * share;
+        let Some(first) = parts.first() else { return };
+        if parts.iter().all(|part| part.heat_index == first.heat_index) {
+            heat[first.heat_index] -= amount;
+            return;
+        }
+        let (speed, by) = sliding();
+        let whole: f64 = self.parts().map(|(part, source)| part.sliding(source, speed, &by)[0]).sum();
+        for (part, source) in self.parts() {
+            let torque = part.sliding(source, speed, &by)[0];
+            heat[part.heat_index] -= amount * if whole > 0.0 { torque / whole } else { 1.0 / parts.len() as f64 };
         }
     }
 
