@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::State;
 use super::ledger_rates::LedgerRates;
-use crate::integrate::{Matrix, Point, Step};
+use crate::integrate::{Matrix, Point};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
@@ -317,24 +317,13 @@ pub trait FrictionEquations<const N: usize> {
         })
     }
 
-    /// Energy in the springs of stuck friction [J]. It is the one that does work within a step.
+    /// Energy in the springs of stuck friction [J].
     fn friction_energy(&self, at: &Point<N>) -> f64 {
-        self.spring_energy(at, true)
-    }
-
-    /// Energy in the springs of sliding friction [J], whose anchors are those of `at`.
-    fn sliding_energy(&self, at: &Point<N>) -> f64 {
-        self.spring_energy(at, false)
-    }
-
-    /// Energy in the springs of friction that is stuck, or that slides [J].
-    fn spring_energy(&self, at: &Point<N>, stuck: bool) -> f64 {
-        let counts = |state: &FrictionState| state.stiffness > 0.0 && (state.mode == Mode::Stuck) == stuck;
         let energy = |i: usize| {
             let (friction, state, count) = self.friction_on(i);
             count * friction.energy(state, self.slip(at, i).position)
         };
-        self.bodies_that_stick().filter(|&i| counts(&self.applied().friction_state[i])).map(energy).sum()
+        self.bodies_that_stick().filter(|&i| self.applied().friction_state[i].stiffness > 0.0).map(energy).sum()
     }
 
     /// True if loads decide whether friction switches at `at`.
@@ -399,25 +388,14 @@ pub trait FrictionEquations<const N: usize> {
         direction * self.slip(&Point { q: at.q, v }, i).speed <= 0.0
     }
 
-    /// Drags the anchors of sliding bodies along a completed step. The springs take the energy that they gain from the
-    /// `heat` of the step.
+    /// Drags the anchors of sliding bodies to the point `at`. `ledger_rates` contain the limit torques at this point.
     #[inline]
-    fn drag_anchors(&self, step: &Step<N, LedgerRates>, anchors: &mut [f64; FRICTION_BODIES], heat: &mut [f64]) {
+    fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
         if !self.has_dry_friction() {
             return;
         }
-        let mut loads = None;
         for i in bodies_with_friction(self).filter(|&i| self.applied().friction_state[i].mode != Mode::Stuck) {
-            let (friction, state, count) = self.friction_on(i);
-            let [start, end] = [step.start, step.end].map(|at| self.slip(at, i));
-            let limits = step.ledger_rates.each_ref().map(|p| p.limit[i]);
-            let (anchor, gained) = friction.slide(anchors[i], [start.position, end.position], limits);
-            let sliding = || {
-                let loads = loads.get_or_insert_with(|| self.surface_loads(step.end, step.time));
-                (state.mode.direction() * end.speed, loads[i])
-            };
-            friction.take_heat(count * gained, sliding, heat);
-            anchors[i] = anchor;
+            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, ledger_rates.limit[i]);
         }
     }
 

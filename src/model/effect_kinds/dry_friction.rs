@@ -4,13 +4,12 @@
 //! the element of P. R. Dahl and of Jenkins: a spring in series with a Coulomb slider. The rotation z is a position of
 //! the model minus an anchor, so sticking adds no state, and a constant load is held without creep. While the body
 //! slides, the spring drags the anchor along, step by step. A body therefore stops with the present torque of the
-//! spring, never with more. The integrator ends a step at each transition. The spring keeps its energy while the body
-//! slides: the work of sliding winds the spring first, and the rest becomes heat. So does energy that the spring loses.
-//! No heat ever returns.
+//! spring, never with more. The integrator ends a step at each transition. The energy that the spring loses at a
+//! transition becomes heat.
 
 use super::body_friction::BodyFriction;
 use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
-use crate::numeric::{TAU, sqrt};
+use crate::numeric::TAU;
 
 /// Damping of the spring over its stiffness τ if the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
@@ -157,10 +156,10 @@ impl<'a> DryFriction<'a> {
         }
     }
 
-    /// Energy in the spring [J]. The spring of a sliding body remains wound.
+    /// Energy in the spring [J].
     pub fn energy(&self, state: &FrictionState, position: f64) -> f64 {
         let z = position - state.anchor;
-        0.5 * state.stiffness * z * z
+        if state.mode == Mode::Stuck { 0.5 * state.stiffness * z * z } else { 0.0 }
     }
 
     /// Spring torque that corresponds to the rounding of the position [N·m]. The position is a sum of angles of up to
@@ -303,39 +302,6 @@ impl<'a> DryFriction<'a> {
         position - (position - anchor).max(-most).min(most)
     }
 
-    /// Returns the anchor after a body has slid from `start` to `end` [rad], and the energy that its spring gains [J].
-    /// `limits` are the limit torques at the start, in the middle and at the end of the slide [N·m]. The spring gains
-    /// at most the work of sliding, so that a limit that rises faster than the body slides takes no energy from the
-    /// heat.
-    pub fn slide(&self, anchor: f64, [start, end]: [f64; 2], limits: [f64; 3]) -> (f64, f64) {
-        let stiffness = self.of.stiffness;
-        let stored = |wound: f64| 0.5 * stiffness * wound * wound;
-        let (before, dragged) = (stored(start - anchor), self.drag(anchor, end, limits[2]));
-        let most = before + limits[0].min(limits[1]).min(limits[2]) * (end - start).abs();
-        let wound = end - dragged;
-        if stored(wound) > most {
-            return (end - sqrt(2.0 * most / stiffness).copysign(wound), most - before);
-        }
-        (dragged, stored(wound) - before)
-    }
-
-    /// Takes the energy `amount` [J] from the heat of a body that slides, in proportion to the torques of its parts, so
-    /// that the heat of none of them falls. `slip` and `by` are evaluated only if the parts have different heats.
-    pub fn take_heat(&self, amount: f64, sliding: impl FnOnce() -> (f64, SurfaceLoad), heat: &mut [f64]) {
-        let parts = self.of.parts();
-        let Some(first) = parts.first() else { return };
-        if parts.iter().all(|part| part.heat_index == first.heat_index) {
-            heat[first.heat_index] -= amount;
-            return;
-        }
-        let (speed, by) = sliding();
-        let whole: f64 = self.parts().map(|(part, source)| part.sliding(source, speed, &by)[0]).sum();
-        for (part, source) in self.parts() {
-            let torque = part.sliding(source, speed, &by)[0];
-            heat[part.heat_index] -= amount * if whole > 0.0 { torque / whole } else { 1.0 / parts.len() as f64 };
-        }
-    }
-
     /// Distance to the switch, positive before it: the remaining torque while stuck [N·m], the speed while sliding
     /// [rad/s].
     pub fn margin(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
@@ -351,7 +317,8 @@ impl<'a> DryFriction<'a> {
         if state.stiffness == self.of.stiffness {
             return;
         }
-        let (wound, before) = (slip.position - state.anchor, self.energy(state, slip.position));
+        let wound = slip.position - state.anchor;
+        let before = if state.mode == Mode::Stuck { 0.5 * state.stiffness * wound * wound } else { 0.0 };
         if self.of.stiffness > 0.0 {
             if state.stiffness == 0.0 {
                 state.mode = match slip.speed {

@@ -111,7 +111,7 @@ impl Simulation {
                     }
                 }
                 let mut anchors = equations.applied().anchors();
-                equations.drag_anchors(&step, &mut anchors, heat);
+                equations.drag_anchors(&end, &last, &mut anchors);
                 equations.applied_mut().set_anchors(&anchors);
                 is_due = equations.is_friction_due(&end, 0.0);
                 state.friction = equations.applied().friction_state;

@@ -12,10 +12,7 @@ use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
 pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
-    with_equations!(model, state, inputs, |equations| {
-        let at = state.point::<N>();
-        equations.energy(&at).iter().sum::<f64>() + equations.sliding_energy(&at)
-    })
+    with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
 }
 
 /// Breaks the tooth if its time has come or the fault input triggers it. The energy stored in the tooth becomes heat.

@@ -183,7 +183,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 rattle.add_step(equations.check_deflection(step.end)?);
             }
             equations.record(model, (&step, motion), &mut sums);
-            equations.drag_anchors(&step, &mut anchors, sums.heat);
+            equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })

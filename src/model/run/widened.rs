@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::completed_step::CompletedStep;
 use super::failure::ExcessiveDeflection;
 use super::ledger::{LedgerEquations, LedgerSums, record_without_teeth};
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, Step};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -81,14 +81,8 @@ impl FrictionEquations<MEDIUM_SIZE> for Widened<'_> {
         self.0.is_friction_due(&narrow(at), time)
     }
 
-    fn drag_anchors(
-        &self,
-        &Step { h, time, start, end, ledger_rates }: &Step<MEDIUM_SIZE, LedgerRates>,
-        anchors: &mut [f64; FRICTION_BODIES],
-        heat: &mut [f64],
-    ) {
-        let (start, end) = (&narrow(start), &narrow(end));
-        self.0.drag_anchors(&Step { h, time, start, end, ledger_rates }, anchors, heat);
+    fn drag_anchors(&self, at: &Point<MEDIUM_SIZE>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
+        self.0.drag_anchors(&narrow(at), ledger_rates, anchors);
     }
 
     fn settle_friction(&mut self, at: &Point<MEDIUM_SIZE>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
