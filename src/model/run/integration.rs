@@ -229,7 +229,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 clock.now = course.time;
             }
         }
-        switched = (switched || is_warmer || is_slow) && course.time < set_back_at && course.end - course.time > RESOLUTION;
+        switched =
+            (switched || is_warmer || is_slow) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
     // store the result and the pending step
     state.friction = equations.applied().friction_state;
