@@ -11,6 +11,9 @@ const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Largest number of pairs searched in a motion. A motion past more pairs is longer than a whole turn of a gear and
 /// resolves no kink. At absurd speeds the search would not end.
 const MAX_PAIRS: i64 = 256;
+/// Fraction of the way to a touch at which a step ends. Beyond the touch, even a depth of some 1e-9 rad would be an error
+/// far above the tolerance.
+const BEFORE_TOUCH: f64 = 1.0 - 1e-9;
 /// Number of bisections that locate a kink, to some 1e-5 of the step.
 const HALVINGS: u32 = 15;
 
@@ -54,13 +57,17 @@ impl Engagement {
     }
 
     /// Fraction of the straight motion from `q` to `q + change` at which touching flanks separate or separate flanks
-    /// touch, or `None`.
+    /// touch, or `None`. Separate flanks fly without forces, so that the prediction is exact, and the step ends just
+    /// before the touch.
     pub fn kink_of_touch(&self, q: f64, change: f64) -> Option<f64> {
-        let touching = self.approach(q) > 0.0;
+        if self.approach(q) <= 0.0 {
+            let touch = (self.half_backlash().copysign(change) - q) / change;
+            return (touch > WORTHWHILE.0 && touch <= WORTHWHILE.1).then_some(touch * BEFORE_TOUCH);
+        }
         first_change(|t| {
             let end = q + t * change;
             // the flanks across the backlash are different ones
-            (self.approach(end) > 0.0 && (!touching || end * q > 0.0)) != touching
+            self.approach(end) <= 0.0 || end * q <= 0.0
         })
     }
 

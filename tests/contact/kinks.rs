@@ -38,6 +38,19 @@ fn flanks_touch_and_separate_at_the_ends_of_the_backlash_on_both_sides() {
 }
 
 #[test]
+fn a_step_to_a_touch_ends_just_before_it() {
+    let (engagement, half) = teeth();
+    for side in [-1.0, 1.0] {
+        for (from, to) in [(0.0, 1.5), (-0.999, 1.001), (0.3, 40.0)] {
+            let (q, change) = (side * half * from, side * half * (to - from));
+            let end = q + engagement.kink_of_touch(q, change).unwrap() * change;
+            let gap = half - side * end;
+            assert!(gap > 0.0 && gap < 1e-7 * half, "{side} from {from} to {to}: {gap:e}");
+        }
+    }
+}
+
+#[test]
 fn across_the_whole_backlash_the_flanks_that_touched_first_separate_first() {
     for side in [-1.0, 1.0] {
         let (from, to) = (side * (1.0 + INTO), -side * (1.0 + INTO));

@@ -48,3 +48,26 @@ def test_ten_minutes_in_the_study_s_turn_keep_the_phase_of_the_teeth(drive):
     wind_up = scene["carrier.angle"] + ratio * scene["planet[1].spin_angle"] - scene["left.angle"]
     assert wind_up == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
     assert scene.imbalance() < UNDAMPED
+
+
+# attempts at steps without progress after which the FMU discards a communication step, with effects on bodies
+ATTEMPTS = 500_000
+# a car at standstill: brakes hold its wheels, and the free carrier rattles in the backlash
+HELD = {"scene.gear_contact": "lumped", "scene.carrier_drive": "torque", "carrier.torque_command": 0.0, "scene.start": "rolling",
+        "carrier.speed_command": 5.0, "effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 100.0,
+        "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0, "contact.law": "line"}
+
+
+def test_a_step_may_take_more_attempts_than_are_allowed_without_progress(drive):
+    rattling = drive(HELD).to(120.0, 120.0)
+    assert sum(rattling.read(["solver.steps", "solver.rejected"])) > ATTEMPTS
+    assert rattling["held.wheels"] == 2.0 and rattling.imbalance() < UNDAMPED
+
+
+def test_between_impacts_a_rattle_costs_few_steps(drive):
+    standing = drive(HELD | {"effects.thrust_friction": True}).to(2.0, 0.1)
+    before, speeds = standing["solver.steps"], []
+    standing.to(4.0, 1e-3, lambda driven: speeds.append(driven["carrier.speed"]))
+    # the wheels ring after each impact of the carrier
+    impacts = np.count_nonzero(np.diff(np.sign(speeds)))
+    assert impacts > 10 and standing["solver.steps"] - before < 75 * impacts

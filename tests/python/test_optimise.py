@@ -103,6 +103,8 @@ def test_quantities_are_their_closed_forms():
         "washer.planet_width": 1e-3 * (back - 8.0),
         "washer.planet_pressure": 5e3 / (math.pi * 1e-6 * (back**2 - 8.0**2)),
     }
+    # the largest load of all planets counts
+    values |= {"planet[3].pin_force": 20e3, "planet[4].pin_force": 0.0, "planet[2].thrust_force": 4e3}
     for name, value in expected.items():
         assert QUANTITIES[name].of(values, pair) == pytest.approx(value, rel=1e-12), name
 
@@ -329,6 +331,49 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
     assert abs(told.difference(model, "planet[1].left_transmission_error_peak_to_peak:final")) < 0.09
     assert abs(told.difference(model, "gears.mass:final")) == 0.0
     assert not told.models[model].refused and list(told.models) == [model]
+
+
+def test_loads_of_pins_and_washers_are_the_largest_over_all_planets_and_the_whole_run(fmu_file):
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+    # four planets between 10 and 18 teeth mesh half a pitch apart, and their loads swing in each mesh cycle of 160 ms
+    design = {"geometry.planet_teeth": 10, "geometry.side_teeth": 18, "geometry.planet_count": 4, "geometry.module": 4e-3,
+              "geometry.pressure_angle": 0.40, "geometry.face_width": 13e-3, "geometry.planet_addendum": 1.2,
+              "geometry.side_addendum": 0.8, "geometry.planet_bore": 14e-3, "strength.tool_radius": 0.2}
+    names = {"pin.shear": [f"planet[{k}].pin_force" for k in range(1, 5)],
+             "pin.pressure": [f"planet[{k}].pin_force" for k in range(1, 5)],
+             "washer.planet_pressure": [f"planet[{k}].thrust_force" for k in range(1, 5)],
+             "washer.side_pressure": ["left.thrust_force", "right.thrust_force"]}
+    problem.scene.stop = 0.25
+    values = problem.complete(design)
+    record = problem.scene._record(sorted({name for each in names.values() for name in each}), values, step=2e-4)
+    known = problem.known(values)
+    swing = record["planet[1].pin_force"]
+    assert swing.max() > 1.2 * swing[record["time"] > 0.15].min()
+    for stop in (0.25, 0.2375, 0.225, 0.21):
+        problem.scene.stop = stop
+        task = DesignTask(problem, thorough=True)
+        row = task.evaluate(0, design)
+        task.close()
+        for quantity, loads in names.items():
+            largest = {name: max(record[other].max() for other in loads) for name in loads}
+            expected = QUANTITIES[quantity].of({**known, **largest}, Pair.of(known))
+            assert row.figures[f"{quantity}:final"] == pytest.approx(expected, rel=2e-3), (quantity, stop)
+
+
+def test_a_fast_mesh_cycle_is_read_at_more_points(fmu_file):
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+    # the sides turn fifty times faster against each other, so that a step of the scene is a third of a mesh cycle
+    problem.scene.stop, problem.scene.step = 0.04, 0.02
+    problem.scene.set({"left.speed_command": "7000 deg/s", "right.speed_command": "-5000 deg/s"})
+    task = DesignTask(problem, thorough=True)
+    row = task.evaluate(0, problem.compare["the study's gears"])
+    task.close()
+    values = problem.complete(problem.compare["the study's gears"])
+    record = problem.scene._record(["planet[1].pin_force", "planet[2].pin_force"], values, step=5e-5)
+    largest = {name: record[name].max() for name in record.dtype.names[1:]}
+    known = problem.known(values)
+    expected = QUANTITIES["pin.shear"].of({**known, **largest}, Pair.of(known))
+    assert row.figures["pin.shear:final"] == pytest.approx(expected, rel=0.02)
 
 
 def test_a_run_without_a_whole_mesh_cycle_is_not_a_quiet_design(fmu_file):

@@ -75,11 +75,28 @@ def test_in_the_written_order_events_follow_each_other_without_unloading():
     histories = [np.array([6.0]), np.array([4.0]), np.array([-3.0])]
     found = count_slow_cycles(histories, [1.0, 1.0, 1.0], "written")
     assert _merged(zip(found.low, found.high, found.count)) == [(-3.0, 6.0, 1.0)]
-    # with the second event twice, the load returns to zero between the two, before and after
+    # an event that occurs twice keeps its load between the two
     found = count_slow_cycles(histories, [1.0, 2.0, 1.0], "written")
-    assert sorted(_merged(zip(found.low, found.high, found.count))) == [(-3.0, 6.0, 1.0), (0.0, 4.0, 2.0)]
+    assert _merged(zip(found.low, found.high, found.count)) == [(-3.0, 6.0, 1.0)]
+    # teeth that roll out of mesh are unloaded
+    found = count_slow_cycles([*histories, np.empty(0)], [1.0, 2.0, 1.0, 2.0], "written")
+    assert sorted(_merged(zip(found.low, found.high, found.count))) == [(-3.0, 6.0, 1.0)]
+    found = count_slow_cycles([histories[1], np.empty(0)], [3.0, 2.0], "written")
+    assert _merged(zip(found.low, found.high, found.count)) == [(0.0, 4.0, 1.0)]
     with pytest.raises(DifferentialError, match="whole number"):
         count_slow_cycles(histories, [1.0, 0.5, 1.0], "written")
+
+
+def test_in_the_written_order_a_count_is_that_many_equal_lines():
+    draw = np.random.default_rng(5)
+    for _ in range(200):
+        histories = [draw.integers(-5, 6, draw.integers(0, 5)).astype(float) for _ in range(draw.integers(1, 5))]
+        counts = draw.integers(0, 4, len(histories))
+        together = count_slow_cycles(histories, counts.astype(float), "written")
+        lines = [history for history, count in zip(histories, counts) for _ in range(count)]
+        apart = count_slow_cycles(lines, [1.0] * len(lines), "written")
+        assert sorted(_merged(zip(together.low, together.high, together.count))) == \
+            sorted(_merged(zip(apart.low, apart.high, apart.count))), (histories, counts)
 
 
 def test_drive_and_overrun_straight_ahead_by_hand(cycle, stress):

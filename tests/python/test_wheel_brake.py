@@ -82,6 +82,23 @@ def test_a_stop_takes_the_angle_and_the_heat_of_its_closed_form(drive):
     assert driven.imbalance() < 1e-6
 
 
+@pytest.mark.parametrize("contact", CONTACTS)
+def test_at_a_stop_only_the_energy_of_the_springs_returns_from_the_heat(drive, contact):
+    brake = 300.0
+    driven = drive(BRAKED | EXACT | brakes(brake) | drive_torque(0.0)
+                   | {"scene.gear_contact": contact, "effects.half_shaft": True, "carrier.speed_command": 10.0, "scene.start": "rolling"})
+    names = ["heat.brake", "heat.contact", "heat.half_shaft", "heat.drag", "heat.thrust", "heat.clutch"]
+    rows = []
+    while driven.time < 0.1:
+        driven.step(2e-4)
+        rows.append(driven.read(names))
+    falls = dict(zip(names, (np.maximum.accumulate(rows) - rows).max(axis=0)))
+    assert driven["held.wheels"] == 2.0
+    # two springs that are wound to the torque of the brakes
+    assert falls.pop("heat.brake") == pytest.approx(brake**2 / STIFFNESS, rel=0.05)
+    assert max(falls.values()) < 1e-6 * max(map(max, rows)), falls
+
+
 @pytest.mark.parametrize("shafts", [False, True])
 @pytest.mark.parametrize("contact", CONTACTS)
 def test_heat_of_a_slip_is_its_torque_times_its_angle(drive, contact, shafts):

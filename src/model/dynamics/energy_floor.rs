@@ -7,8 +7,9 @@
 //!   rounding    Σ |F| δ, with the force F of all springs on a body at the end of the step, and the rounding δ of the
 //!               body's position. A shift by δ changes the stored energy by F δ, and no input does this work.
 //!   tolerance   ½ Σ J (tol/w)², with the weights w of the error norm at rest, which does not resolve speeds below
-//!               tol/w. It counts only near rest, where it exceeds the tolerance of the whole kinetic energy. In faster
-//!               motion, a small energy may be the beginning of a large one, as at the start of an impact.
+//!               tol/w. It counts near rest, where it exceeds the tolerance of the whole kinetic energy, and while no
+//!               flanks touch. Otherwise, a small energy may be the beginning of a large one, as at the start of an
+//!               impact. Between impacts, only held bodies exchange energy: they ring until they are at rest.
 
 use super::FrictionEquations;
 use crate::integrate::{POSITION_ROUNDING, Point, SecondOrder};
@@ -20,12 +21,12 @@ use crate::model::scene::{CARRIER, Layout, MAX_DOF};
 const ROUNDED_SHARE: f64 = 1e-9;
 
 /// Returns the energy [J] below which a `residual` [J] of the balance of a step between `ends` is not resolved, if the
-/// motion has the relative `tolerance`. `spring_forces` are the forces on all bodies at the end, at rest and without
-/// inputs, and `kinetic_energy` is in J.
+/// motion has the relative `tolerance`. `is_apart` is true if no flanks touch at either end. `spring_forces` are the
+/// forces on all bodies at the end, at rest and without inputs, and `kinetic_energy` is in J.
 pub fn energy_floor<const N: usize>(
     equations: &(impl FrictionEquations<N> + SecondOrder<N>),
     [start, end]: [&Point<N>; 2],
-    tolerance: f64,
+    (tolerance, is_apart): (f64, bool),
     residual: f64,
     spring_forces: impl Fn() -> [f64; MAX_DOF],
     kinetic_energy: impl Fn(&Point<N>) -> f64,
@@ -34,7 +35,7 @@ pub fn energy_floor<const N: usize>(
     let rest = Point { q: end.q, v: [0.0; N] };
     let unresolved = Point { v: equations.weights(&rest).v.map(|weight| tolerance / weight), ..rest };
     let [unresolved, kinetic] = [&unresolved, end].map(kinetic_energy);
-    let is_near_rest = tolerance * kinetic < unresolved;
+    let is_near_rest = is_apart || tolerance * kinetic < unresolved;
     if !is_near_rest && residual > ROUNDED_SHARE * kinetic {
         return 0.0;
     }

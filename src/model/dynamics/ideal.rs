@@ -394,7 +394,7 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
             let (force, _) = self.forces(&rest, (&Inputs::ZERO, &Inputs::ZERO), &mut LedgerRates::default());
             std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
         };
-        energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
+        energy_floor(self, ends, (tolerance, false), residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
     #[inline]

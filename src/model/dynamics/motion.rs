@@ -192,7 +192,8 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
             free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default());
             std::array::from_fn(|i| sum[i])
         };
-        energy_floor(self, ends, tolerance, residual, spring_forces, |at| self.kinetic_energy(at))
+        let is_apart = ends.iter().all(|at| self.deepest(at).0 <= 0.0);
+        energy_floor(self, ends, (tolerance, is_apart), residual, spring_forces, |at| self.kinetic_energy(at))
     }
 
     fn safe_fraction(&self, from: &Point<N>, to: &Point<N>) -> f64 {

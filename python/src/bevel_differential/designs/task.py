@@ -74,9 +74,15 @@ class Task:
         if self._only_final():
             last = self.scene._final([want.name for want in self.figures], values)
             return {str(want): float(last[want.name]) for want in self.figures}
+        return self._statistics(self.scene._record(self._recorded(), values))
+
+    def _recorded(self):
+        """Outputs that the figures need."""
         angles = {want.statistic.angle for want in self.figures} - {None}
-        outputs = list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
-        record = self.scene._record(outputs, values)
+        return list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
+
+    def _statistics(self, record):
+        """Figures of a record, by want."""
         teeth = int(record["geometry.planet_teeth"][0])
         record = from_time(record, self.start, self.scene.step)
         return {str(want): want.of(record, teeth) for want in self.figures}

@@ -6,10 +6,12 @@ import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..designs.farm import Farm
 from ..designs.task import Row, Task
 from ..values import DifferentialError, Number
-from ..want import Condition, Statistic, Want
+from ..want import ANGLES, Condition, Statistic, Want
 from .pair import Pair, violations
 from .problem import Problem
 from .quantities import QUANTITIES
@@ -18,6 +20,9 @@ from .quantities import QUANTITIES
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
 # outputs of effects.mesh_history are 0 until a whole mesh cycle has passed
 HISTORY = "_peak_to_peak"
+# points at which loads of pins and washers are read in a run, because each costs about half a step of the solver; and the largest part
+# of a mesh cycle between two points, so that no peak is missed
+POINTS, FINEST = 128, 1.0 / 32.0
 # a figure below this fraction of another one counts as zero, so that there is no relative difference
 VANISHES = 1e-9
 
@@ -50,8 +55,9 @@ class DesignTask(Task):
         self.on_figures = [each for each in problem.conditions if not _on_dimensions(each.want)]
         final = Statistic("final")
         simulated = [want for want in self.wanted if want.name not in QUANTITIES]
-        simulated += [Want(name, final) for want in self.wanted if want.name in QUANTITIES
-                      for name in QUANTITIES[want.name].outputs]
+        quantities = [QUANTITIES[want.name] for want in self.wanted if want.name in QUANTITIES]
+        simulated += [Want(name, final) for quantity in quantities for name in quantity.outputs]
+        self.loads = list(dict.fromkeys(name for quantity in quantities for name in quantity.loads))
         super().__init__(problem.scene, simulated or [Want("geometry.contact_ratio", final)])
         self.known = problem.known({})
 
@@ -93,7 +99,8 @@ class DesignTask(Task):
 
     def _simulated(self, row, complete):
         """Runs the scene and adds its figures to the row. Returns outputs by name."""
-        figures, row.warnings = self._figures(complete), tuple(self.scene.warnings)
+        figures, loads = self._run(complete)
+        row.warnings = tuple(self.scene.warnings)
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
         if without:
@@ -104,7 +111,29 @@ class DesignTask(Task):
                   # the checks of the dimensions may already have found it
                   and (not row.refused or text.startswith("geometry.root_fillet"))]
         self._fails(row, {_refusal(text): 1.0 for text in warned}, 0)
-        return {name.rpartition(":")[0]: value for name, value in figures.items()}
+        return {**{name.rpartition(":")[0]: value for name, value in figures.items()}, **loads}
+
+    def _run(self, complete):
+        """Runs the scene. Returns figures by want, and the largest value of each load since rating began, by output."""
+        if not self.loads:
+            return self._figures(complete), {}
+        scene, is_short = self.scene, self._only_final() and not self.scene.tables
+        step = max(scene.step, scene.stop / POINTS) if is_short else scene.step
+        outputs = dict.fromkeys([ANGLES["mesh"], "geometry.planet_teeth", *self.loads, *([] if is_short else self._recorded())])
+        record = scene._record(list(outputs), complete, step=step)
+        figures = self._final_figures() if is_short else self._statistics(record)
+        cycles = np.abs(np.diff(record[ANGLES["mesh"]])).max(initial=0.0) * record["geometry.planet_teeth"][0] / (2.0 * np.pi)
+        # a shorter step changes the motion only if inputs are held within steps
+        if cycles > FINEST and (scene.input_slopes or not scene.tables):
+            record = scene._record(self.loads, complete, step=step / math.ceil(cycles / FINEST))
+        rated_from = {**self.known, **complete}["strength.rate_from"]
+        rated = record[record["time"] >= min(rated_from, record["time"][-1])]
+        return figures, {name: float(rated[name].max()) for name in self.loads}
+
+    def _final_figures(self):
+        """Figures at the end of the last run, if all of them are final values."""
+        names = [want.name for want in self.figures]
+        return {str(want): float(value) for want, value in zip(self.figures, self.scene._instance().read(names))}
 
     def _fails(self, row, found, stage):
         """Adds violations to the row. Returns true if the evaluation of the design ends here."""
@@ -119,7 +148,7 @@ class DesignTask(Task):
 
 
 def _on_dimensions(want: Want) -> bool:
-    return want.name in QUANTITIES and not QUANTITIES[want.name].outputs
+    return want.name in QUANTITIES and QUANTITIES[want.name].is_dimension
 
 
 def _broken(conditions: list[Condition], figures: Mapping) -> dict[str, float]:

@@ -149,7 +149,8 @@ class Problem:
 
     def start_warning(self) -> str:
         """Warning about wanted figures that belong to a start out of equilibrium, with the remedy; empty if there are none."""
-        rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)))
+        rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)
+                                   or want.name in QUANTITIES and QUANTITIES[want.name].loads))
         known = self.known({})
         settled = known["scene.start"] == self.scene.fmu.variable("scene.start").literals["equilibrium"]
         chosen = {each.variable for each in self.space.dimensions} | {each.name for each in self.followers}

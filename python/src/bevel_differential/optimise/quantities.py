@@ -16,11 +16,18 @@ from .pair import Pair, tool_room
 @dataclass(frozen=True)
 class Quantity:
     """Definition of a quantity. `like`: a variable of the FMU with the same unit. `of`: value in SI, from all parameters and outputs by
-    name, and the pair. `outputs`: the outputs of the FMU that it needs."""
+    name, and the pair. `outputs`: outputs of the FMU that it needs and that do not change in a run. `loads`: outputs of which it needs
+    the largest value in the run."""
 
     like: str
     of: Callable[[Mapping, Pair], float]
     outputs: tuple[str, ...] = ()
+    loads: tuple[str, ...] = ()
+
+    @property
+    def is_dimension(self) -> bool:
+        """True if the quantity needs no run."""
+        return not self.outputs and not self.loads
 
 
 def _rim(pair, i):
@@ -36,6 +43,11 @@ def _pin(values):
     return diameter
 
 
+def _largest(values, names):
+    """Largest load of identical parts, N."""
+    return max(values[name] for name in names if name in values)
+
+
 def _envelope(pair):
     """Envelope diameter, m: 2 √(R_e² + h²), with h the larger of the planet's addendum and dedendum. The corner of the back cone is the
     point farthest from the apex; the side gears are smaller."""
@@ -44,7 +56,10 @@ def _envelope(pair):
 
 
 NUMBER, LENGTH, STRESS = "geometry.contact_ratio", "geometry.module", "stress.contact_max"
-PIN_FORCE, PLANET_THRUST, SIDE_THRUST = "planet[1].pin_force", "planet[1].thrust_force", "left.thrust_force"
+# the FMU has at most four planets; the loads of planets that a design does not have are 0
+PIN_FORCES = tuple(f"planet[{k}].pin_force" for k in range(1, 5))
+PLANET_THRUSTS = tuple(f"planet[{k}].thrust_force" for k in range(1, 5))
+SIDE_THRUSTS = ("left.thrust_force", "right.thrust_force")
 QUANTITIES = {
     # all planets and both side gears: N m_p + 2 m_s
     "gears.mass": Quantity("geometry.planet_mass", lambda values, pair:
@@ -70,18 +85,19 @@ QUANTITIES = {
     "shaft.rim": Quantity(NUMBER, lambda _, pair: _rim(pair, 1)),
     # largest shear stress of the pin next to the planet: 4/3 F/(π d²/4), of a solid round section (Shigley, Mechanical Engineering
     # Design). The case supports the pin outside each planet, so one section transmits the planet's whole force
-    "pin.shear": Quantity(STRESS, lambda values, _: 16.0 * values[PIN_FORCE] / (3.0 * pi * _pin(values) ** 2), (PIN_FORCE,)),
+    "pin.shear": Quantity(STRESS, lambda values, _: 16.0 * _largest(values, PIN_FORCES) / (3.0 * pi * _pin(values) ** 2),
+                          loads=PIN_FORCES),
     # mean pressure between pin and planet: F/(d l), l = b cos δ_f the length of the bore
-    "pin.pressure": Quantity(STRESS, lambda values, pair: values[PIN_FORCE] / (
-        _pin(values) * pair.face_width * cos(pair.gears[0].root)), (PIN_FORCE,)),
+    "pin.pressure": Quantity(STRESS, lambda values, pair: _largest(values, PIN_FORCES) / (
+        _pin(values) * pair.face_width * cos(pair.gears[0].root)), loads=PIN_FORCES),
     # width of a washer from the pin to the planet's root circle at the heel: R_e sin δ_f − d/2
     "washer.planet_width": Quantity(LENGTH, lambda values, pair: pair.back_face(0) - 0.5 * _pin(values)),
     # mean pressure of that washer: F_a/(π (r_o² − r_i²))
-    "washer.planet_pressure": Quantity(STRESS, lambda values, pair: values[PLANET_THRUST] / (
-        pi * (pair.back_face(0) ** 2 - 0.25 * _pin(values) ** 2)), (PLANET_THRUST,)),
+    "washer.planet_pressure": Quantity(STRESS, lambda values, pair: _largest(values, PLANET_THRUSTS) / (
+        pi * (pair.back_face(0) ** 2 - 0.25 * _pin(values) ** 2)), loads=PLANET_THRUSTS),
     # mean pressure of the side gear's washer, from its bore to its root circle at the heel
-    "washer.side_pressure": Quantity(STRESS, lambda values, pair: values[SIDE_THRUST] / (
-        pi * (pair.back_face(1) ** 2 - 0.25 * pair.gears[1].bore ** 2)), (SIDE_THRUST,)),
+    "washer.side_pressure": Quantity(STRESS, lambda values, pair: _largest(values, SIDE_THRUSTS) / (
+        pi * (pair.back_face(1) ** 2 - 0.25 * pair.gears[1].bore ** 2)), loads=SIDE_THRUSTS),
 }
 
 

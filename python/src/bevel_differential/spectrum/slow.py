@@ -127,8 +127,8 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
     up to `least` [Pa] are left out.
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
-    worst order. "written": events follow each other as listed, without unloading in between. Between the occurrences of an event with
-    several occurrences, the teeth are unloaded."""
+    worst order. "written": events follow each other as listed, without unloading in between, and so do the occurrences of an event:
+    a count of n has the same cycles as n equal events in a row."""
     if order == "unknown":
         rows = _in_the_worst_order(histories, counts)
     elif order == "written":
@@ -193,10 +193,10 @@ def _as_written(histories, counts):
                                     "or take the order \"unknown\"")
         if count == 0:
             continue
-        if count > 1:
-            rows += [(low, high, n * (count - 1), event, event) for low, high, n, *_ in closed_cycles(_occurrence(history))]
         # teeth that roll out of mesh are unloaded
-        block = _occurrence(history) if count > 1 or len(history) == 0 else history
+        block = history if len(history) else np.zeros(1)
+        # each further occurrence starts where the one before it ended, so it adds the cycles of a history that repeats
+        rows += [(low, high, n * (count - 1), event, event) for low, high, n, *_ in closed_cycles(block)]
         stress += list(block)
         events += [event] * len(block)
     if stress:
