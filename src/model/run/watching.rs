@@ -12,8 +12,8 @@ use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, RatedPlanet, RatedStep, Sample};
-use crate::model::scene::layout::LEFT;
 use crate::model::scene::MAX_PLANETS;
+use crate::model::scene::layout::LEFT;
 use crate::numeric::Finite;
 
 /// Fatigue damage of the teeth, and peak-to-peak values over mesh cycles.
@@ -164,8 +164,7 @@ fn count_fatigue(
     let last = last.get_or_insert_default();
     let (planets, count) = rated_planets(equations, model);
     let numbers = &equations.teeth.contact.perfect;
-    let mut rated =
-        RatedStep { begin: *begin, h: *h, from, planets: &planets[..count], numbers, sample: &mut sample };
+    let mut rated = RatedStep { begin: *begin, h: *h, from, planets: &planets[..count], numbers, sample: &mut sample };
     strength.count(fatigue, &mut rated, &mut last.loads, are_known);
     (last.at, last.teeth) = (extension.at(*accepted_fraction), teeth);
 }
