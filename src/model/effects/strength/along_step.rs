@@ -265,8 +265,16 @@ impl GearStrength {
                 for gear in [0, 1] {
                     if gear == 1 || member.represents {
                         let index = self.index(fatigue, member, s, gear, teeth[gear]);
-                        let (stress, span) = span.map_or(([0.0; 3], [0.0; 2]), |span| (stresses[gear], span));
-                        self.bend(fatigue, (step, interval), (index, gear, member, s), (stress, span, weight));
+                        match span {
+                            Some(span) => {
+                                let load = (stresses[gear], span, weight);
+                                self.bend(fatigue, (step, interval), (index, gear, member, s), load);
+                            }
+                            None => {
+                                let stress = fatigue.tooth_mut(index).bend(&self.rating.bending, 0.0, weight);
+                                self.watch_root(fatigue, (step, interval), (gear, member, s), (stress, until));
+                            }
+                        }
                     }
                 }
             }
@@ -298,7 +306,6 @@ impl GearStrength {
         (stress, [from, to], weight): (Three, [f64; 2], f64),
     ) {
         let bending = &self.rating.bending;
-        let tooth = fatigue.tooth_mut(index);
         let within = |part: f64| part > from && part < to;
         let turn = extremum(stress).filter(|_| interval.is_smooth && is_loaded_throughout(stress));
         let turn = turn.map(|(_, part)| part).filter(|&part| within(part));
@@ -307,23 +314,26 @@ impl GearStrength {
         let (mut largest, mut when) = (0.0f64, from);
         for part in [Some(from), between[0], between[1], Some(to)].into_iter().flatten() {
             let now = load_at(stress, part);
-            let found = now.abs().max(tooth.bend(bending, now, weight));
+            fatigue.tally.largest_stress = fatigue.tally.largest_stress.max(now.abs());
+            let found = now.abs().max(fatigue.tooth_mut(index).bend(bending, now, weight));
             if found > largest {
                 (largest, when) = (found, part);
             }
         }
-        if largest > fatigue.tally.largest_stress {
-            fatigue.tally.largest_stress = largest;
-        }
-        let what = if gear == 0 { Stressed::PlanetRoot } else { Stressed::SideRoot };
-        let load = Overload {
-            time: time(step, interval, when),
-            stress: largest,
-            strength: bending.curve.strength,
-            group: planet.histories,
-            side,
-        };
-        fatigue.tally.watch(what, load);
+        self.watch_root(fatigue, (step, interval), (gear, planet, side), (largest, when));
+    }
+
+    /// Records a root `stress` [Pa] at the fraction `part` of an interval if it is the largest so far.
+    fn watch_root(
+        &self,
+        fatigue: &mut Fatigue,
+        (step, interval): (&RatedStep, &Interval),
+        (gear, planet, side): (usize, &RatedPlanet, usize),
+        (stress, part): (f64, f64),
+    ) {
+        let (strength, group) = (self.rating.bending.curve.strength, planet.histories);
+        let load = Overload { time: time(step, interval, part), stress, strength, group, side };
+        fatigue.tally.watch(if gear == 0 { Stressed::PlanetRoot } else { Stressed::SideRoot }, load);
     }
 
     /// Removes the load from teeth that no pair of `begin` loads. Loads jump where the inputs do.

@@ -74,6 +74,11 @@ impl GearStrength {
         Fatigue::new(&self.rating, groups, times, in_equilibrium)
     }
 
+    /// Remembers the damage of all teeth, because it is read.
+    pub fn remember(&self, fatigue: &mut Fatigue) {
+        fatigue.remember(&self.rating.bending);
+    }
+
     /// True if `fatigue` is the damage of these gears with `groups` groups of planets.
     pub fn fits(&self, fatigue: &Fatigue, groups: usize) -> bool {
         fatigue.fits(&self.rating, groups)
