@@ -53,11 +53,9 @@ def pulses(drive, low, high, values=None):
     return ours, [max(miner(stress), miner(-stress)) for stress in np.transpose(history)]
 
 
-@pytest.mark.parametrize("law", ["impact", "line"])
-def test_damage_of_teeth_at_rest_agrees_with_another_rainflow_count_on_either_flank(drive, law):
-    values = {"contact.law": law}
-    # free planets away from the middle move when a reversal unloads all flanks
-    held = values | {"scene.planet_spin": "imposed"}
+def test_damage_of_teeth_at_rest_agrees_with_another_rainflow_count_on_either_flank(drive):
+    # the largest stress of all pairs is always that of one tooth if one spring represents them, and nearly so under the law impact
+    values, held = {"contact.law": "impact"}, {"scene.planet_spin": "imposed", "scene.gear_contact": "lumped"}
     planet = {}
     for low, high, scene in [(50.0, 900.0, values), (-50.0, -900.0, values), (-400.0, 900.0, held), (400.0, -900.0, held)]:
         ours, theirs = pulses(drive, low, high, scene)
