@@ -3,6 +3,8 @@
 //! Positions are in pitches, and tooth n is in the middle of the mesh at position n. Positions within an interval are a
 //! parabola through three values. All rules are the same for both directions of rolling.
 
+use std::cmp::Ordering;
+
 use serde::{Deserialize, Serialize};
 
 use super::interval::{Three, at, extremum, reaching};
@@ -135,8 +137,8 @@ impl ToothInMesh {
             loop {
                 let edge = (way * self.entry + SLACK).max(0.5);
                 let place = middle + way * (passed + edge);
-                // written so that NaN ends the loop
-                if !(way * place < way * end) {
+                // NaN ends the loop
+                if (way * place).partial_cmp(&(way * end)) != Some(Ordering::Less) {
                     break;
                 }
                 tooth = tooth.wrapping_add(way as i64);

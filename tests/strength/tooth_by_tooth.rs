@@ -28,11 +28,14 @@ fn damage(simulation: &mut Simulation) -> [f64; 4] {
 /// A tooth: gear (left, right, then planets) and number.
 type Tooth = (usize, usize);
 
+/// A loaded pair: planet, side, true on the drive flank, and numbers of the teeth.
+type PairKey = (usize, usize, bool, [usize; 2]);
+
 /// Root stress of every loaded tooth [Pa], positive under load on one flank, and the loaded pairs by mesh, flank and
 /// teeth with their force at the cone distance of the resultant [N] and position [rad].
 struct Now {
     stress: HashMap<Tooth, f64>,
-    pairs: HashMap<(usize, usize, bool, [usize; 2]), (f64, f64)>,
+    pairs: HashMap<PairKey, (f64, f64)>,
 }
 
 fn now(simulation: &Simulation, factors: &[RootStressFactors; 2]) -> Now {

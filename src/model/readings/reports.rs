@@ -213,7 +213,7 @@ impl Simulation {
             return None;
         }
         let tally = self.read_completed(|simulation, _| simulation.watched.fatigue.as_ref().map(|of| of.tally));
-        let Some(Tally { utilisation, counts_start, .. }) = tally else { return None };
+        let Tally { utilisation, counts_start, .. } = tally?;
         if !counts_start || utilisation.root.share == 0.0 {
             return None;
         }

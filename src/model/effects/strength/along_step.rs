@@ -350,7 +350,7 @@ impl GearStrength {
                 });
             }
         }
-        for index in 0..fatigue.len() {
+        for index in 0..fatigue.count() {
             if fatigue.tooth(index).is_loaded() && !loaded[..count].contains(&index) {
                 fatigue.tooth_mut(index).bend(&self.rating.bending, 0.0, 1.0);
             }

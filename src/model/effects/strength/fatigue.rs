@@ -101,7 +101,7 @@ impl Fatigue {
     }
 
     /// Number of teeth.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.teeth.len()
     }
 
