@@ -1,6 +1,6 @@
 //! Fatigue damage and mesh history of completed steps. Damage follows from the loads of the teeth; the history contains
 //! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
-//! count.
+//! count. Without dense output, extremes are those at the ends of the steps.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,7 +9,8 @@ use crate::integrate::{Curve, Extension, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
-use crate::model::effects::strength::{Fatigue, GearStrength, Rated, RatedStep, Rolled, Sample};
+use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, Rated, RatedStep, Rolled, Sample};
+use crate::model::scene::MAX_GROUPS;
 use crate::model::scene::layout::LEFT;
 use crate::numeric::Finite;
 
@@ -66,7 +67,7 @@ pub fn count_fatigue(
     step: &StepMotion,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
-    let StepMotion { h, begin, extension, accepted_fraction } = step;
+    let StepMotion { h, begin, extension, accepted_fraction, ends_only } = step;
     let layout = &equations.teeth.layout;
     let groups = layout.groups;
     let first = layout.planet(0);
@@ -75,13 +76,25 @@ pub fn count_fatigue(
         rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
         rolled
     };
+    let loads = |at: &Point<MAX_SIZE>, mesh: &mut Meshes| {
+        mesh[..groups].fill(Default::default());
+        for g in 0..groups {
+            equations.pair_loads(&model.pair, at, g, |s, load| strength.add_load(&mut mesh[g][s], load));
+        }
+    };
+    let mut ends = None;
     let mut sample = |fraction: f64, sample: &mut Sample| {
         let at = extension.at(fraction * accepted_fraction);
         (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
-        sample.mesh[..groups].fill(Default::default());
-        for g in 0..groups {
-            equations.pair_loads(&model.pair, &at, g, |s, load| strength.add_load(&mut sample.mesh[g][s], load));
+        if !ends_only {
+            return loads(&at, &mut sample.mesh);
         }
+        let [start, end] = ends.get_or_insert_with(|| {
+            let mut ends = [Meshes::default(); 2];
+            ends.iter_mut().zip([&extension.start, &extension.end]).for_each(|(mesh, at)| loads(at, mesh));
+            ends
+        });
+        sample.mesh = between([start, end], fraction);
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
     let members = &layout.members[..groups];
@@ -103,15 +116,24 @@ pub fn count_fatigue(
     }
 }
 
+/// Loads of the meshes, by group and side.
+type Meshes = [[MeshLoad; 2]; MAX_GROUPS];
+
+/// Loads at a fraction of a step of which only both `ends` are known, on straight lines between both. Nothing exceeds
+/// the loads that the solver has computed.
+fn between([start, end]: [&Meshes; 2], fraction: f64) -> Meshes {
+    std::array::from_fn(|g| [0, 1].map(|s| start[g][s].toward(&end[g][s], fraction)))
+}
+
 /// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts.
 pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, history: &mut MeshHistory) {
     let extension = &step.extension;
     let pitch = model.periods[LEFT];
-    let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
-    let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));
+    let rolling = Curve::of(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
+    let speeds = [0, 1].map(|s| Curve::of(extension, |at| at.v[s]));
     let mesh = &equations.teeth.contact.mesh;
     let error = |g: usize, s: usize| {
-        curve(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
+        Curve::of(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
     };
     let mut quantities = [speeds[0]; MOST_QUANTITIES];
     quantities[1] = speeds[1];
@@ -120,17 +142,6 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, his
         *quantity = error(i / 2, i % 2);
     }
     history.add(&rolling, &quantities[..count], step.accepted_fraction);
-}
-
-/// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
-fn curve(extension: &Extension<MAX_SIZE>, of: impl Fn(&Point<MAX_SIZE>) -> f64) -> Curve {
-    let Extension { start, end, coefficients } = extension;
-    let nothing = of(&Point::ZERO);
-    Curve {
-        start: of(start),
-        end: of(end),
-        coefficients: coefficients.each_ref().map(|coefficient| of(coefficient) - nothing),
-    }
 }
 
 #[cfg(test)]

@@ -23,7 +23,25 @@ pub struct MeshLoad {
     flanks: [FlankLoad; 2],
 }
 
+impl FlankLoad {
+    /// Load at the fraction `part` of the straight line from this load to `end`.
+    fn toward(&self, end: &Self, part: f64) -> Self {
+        let between = |of: fn(&Self) -> f64| (1.0 - part) * of(self) + part * of(end);
+        Self {
+            normal: between(|load| load.normal),
+            normal_face_loaded: between(|load| load.normal_face_loaded),
+            bending: between(|load| load.bending),
+            pressure: between(|load| load.pressure),
+        }
+    }
+}
+
 impl MeshLoad {
+    /// Load at the fraction `part` of the straight line from this load to `end`.
+    pub fn toward(&self, end: &Self, part: f64) -> Self {
+        Self { flanks: [0, 1].map(|flank| self.flanks[flank].toward(&end.flanks[flank], part)) }
+    }
+
     /// Load of a flank.
     pub fn flank(&mut self, flank: Flank) -> &mut FlankLoad {
         &mut self.flanks[usize::from(flank == Flank::Coast)]
