@@ -165,10 +165,8 @@ mod tests {
     fn stepped(means: &mut TorqueMeans, [start, end]: [f64; 2], torque: [Curve; 2]) {
         let turned = 2.0 * (end - start);
         let impulse = torque.map(|curve| curve.mean([0.0, 1.0]));
-        CycleCounter { pitch: 2.0 }.add(means, [turned, -turned], (1.0, impulse), || StepCurves {
-            rolling: Curve::line(start, end),
-            torque,
-        });
+        CycleCounter { pitch: 2.0 }
+            .add(means, [turned, -turned], (1.0, impulse), || StepCurves { rolling: Curve::line(start, end), torque });
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Completed steps, and the motion within them.
 
-use crate::integrate::{Extension, Point, Step};
+use crate::integrate::{Extension, Point, SecondOrder, Step};
 use crate::model::dynamics::MAX_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
@@ -17,19 +17,19 @@ pub struct StepMotion {
     pub extension: Extension<MAX_SIZE>,
     /// Fraction of the pending step that was accepted.
     pub accepted_fraction: f64,
-    /// True if the step has no dense output, so that only both ends are known. The extension is then a straight line.
-    /// No curve through both ends describes stiff teeth: its deflections would overshoot.
+    /// True if the step has no dense output, so that only both ends are known. The extension is then a [`cubic`], in
+    /// which deflections of stiff teeth may overshoot.
     pub ends_only: bool,
 }
 
 impl StepMotion {
     /// Motion within a completed step whose times count from `begin` [s].
-    pub fn new<const N: usize>((step, motion): CompletedStep<N>, begin: f64) -> Self {
+    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
         let without;
         let (Extension { start, end, coefficients }, accepted_fraction) = match motion {
             Some(motion) => motion,
             None => {
-                without = Extension { start: *step.start, end: *step.end, ..Extension::NONE };
+                without = cubic(equations, step);
                 (&without, 1.0)
             }
         };
@@ -38,4 +38,18 @@ impl StepMotion {
         let extension = Extension { start: largest(start), end: largest(end), coefficients };
         Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction, ends_only: motion.is_none() }
     }
+}
+
+/// Dense output for a step without one: positions follow the cubic through both ends, velocities are interpolated
+/// linearly.
+fn cubic<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, LedgerRates>) -> Extension<N> {
+    let Step { h, start, end, .. } = *step;
+    let [before, after] = [start, end].map(|at| equations.rates(&at.v));
+    let mut coefficients = [Point::ZERO; 3];
+    for i in 0..N {
+        let change = end.q[i] - start.q[i];
+        let [first, last] = [h * before[i] - change, change - h * after[i]];
+        (coefficients[0].q[i], coefficients[1].q[i]) = (first, last - first);
+    }
+    Extension { start: *start, end: *end, coefficients }
 }

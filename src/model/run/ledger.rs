@@ -137,7 +137,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             warm_up(model, &self.applied, step, sums);
         }
         if let (true, Some(watch)) = (BUILT, &model.watch) {
-            let completed = StepMotion::new((step, motion), sums.begin);
+            let completed = StepMotion::new(self, (step, motion), sums.begin);
             watch_step(&self.largest(), (model, watch), &completed, sums.watched);
         }
     }

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::completed_step::StepMotion;
-use crate::integrate::{Curve, Extension, Point, SecondOrder};
+use crate::integrate::{Curve, Point, SecondOrder};
 use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
@@ -60,7 +60,11 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
     }
 }
 
-/// Adds a completed step to the damage of the teeth.
+/// Loads of the meshes, by group and side.
+type Meshes = [[MeshLoad; 2]; MAX_GROUPS];
+
+/// Adds a completed step to the damage of the teeth. If only the ends of the step are known, loads within it follow a
+/// cubic, limited to the range of the loads at both ends.
 pub fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
@@ -94,7 +98,15 @@ pub fn count_fatigue(
             ends.iter_mut().zip([&extension.start, &extension.end]).for_each(|(mesh, at)| loads(at, mesh));
             ends
         });
-        sample.mesh = between([start, end], fraction);
+        if fraction == 1.0 {
+            sample.mesh = *end;
+            return;
+        }
+        loads(&at, &mut sample.mesh);
+        // the solver has computed no load outside this range
+        for g in 0..groups {
+            sample.mesh[g] = [0, 1].map(|s| sample.mesh[g][s].within([&start[g][s], &end[g][s]]));
+        }
     };
     let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
     let members = &layout.members[..groups];
@@ -116,24 +128,19 @@ pub fn count_fatigue(
     }
 }
 
-/// Loads of the meshes, by group and side.
-type Meshes = [[MeshLoad; 2]; MAX_GROUPS];
-
-/// Loads at a fraction of a step of which only both `ends` are known, on straight lines between both. Nothing exceeds
-/// the loads that the solver has computed.
-fn between([start, end]: [&Meshes; 2], fraction: f64) -> Meshes {
-    std::array::from_fn(|g| [0, 1].map(|s| start[g][s].toward(&end[g][s], fraction)))
-}
-
-/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts.
+/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts. If only the ends of
+/// the step are known, quantities follow straight lines.
 pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, history: &mut MeshHistory) {
-    let extension = &step.extension;
     let pitch = model.periods[LEFT];
-    let rolling = Curve::of(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
-    let speeds = [0, 1].map(|s| Curve::of(extension, |at| at.v[s]));
+    let curve = |of: &dyn Fn(&Point<MAX_SIZE>) -> f64| {
+        let curve = Curve::of(&step.extension, of);
+        if step.ends_only { Curve::line(curve.start, curve.end) } else { curve }
+    };
+    let rolling = curve(&|at| 0.5 * (at.q[0] - at.q[1]) / pitch);
+    let speeds = [0, 1].map(|s| curve(&|at| at.v[s]));
     let mesh = &equations.teeth.contact.mesh;
     let error = |g: usize, s: usize| {
-        Curve::of(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
+        curve(&|at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
     };
     let mut quantities = [speeds[0]; MOST_QUANTITIES];
     quantities[1] = speeds[1];

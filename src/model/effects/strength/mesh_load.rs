@@ -24,22 +24,22 @@ pub struct MeshLoad {
 }
 
 impl FlankLoad {
-    /// Load at the fraction `part` of the straight line from this load to `end`.
-    fn toward(&self, end: &Self, part: f64) -> Self {
-        let between = |of: fn(&Self) -> f64| (1.0 - part) * of(self) + part * of(end);
+    /// This load, with each value limited to the range between the values of two other loads.
+    fn within(&self, [one, other]: [&Self; 2]) -> Self {
+        let limited = |of: fn(&Self) -> f64| of(self).max(of(one).min(of(other))).min(of(one).max(of(other)));
         Self {
-            normal: between(|load| load.normal),
-            normal_face_loaded: between(|load| load.normal_face_loaded),
-            bending: between(|load| load.bending),
-            pressure: between(|load| load.pressure),
+            normal: limited(|load| load.normal),
+            normal_face_loaded: limited(|load| load.normal_face_loaded),
+            bending: limited(|load| load.bending),
+            pressure: limited(|load| load.pressure),
         }
     }
 }
 
 impl MeshLoad {
-    /// Load at the fraction `part` of the straight line from this load to `end`.
-    pub fn toward(&self, end: &Self, part: f64) -> Self {
-        Self { flanks: [0, 1].map(|flank| self.flanks[flank].toward(&end.flanks[flank], part)) }
+    /// This load, with each value of both flanks limited to the range between the values of two other loads.
+    pub fn within(&self, ends: [&Self; 2]) -> Self {
+        Self { flanks: [0, 1].map(|flank| self.flanks[flank].within(ends.map(|end| &end.flanks[flank]))) }
     }
 
     /// Load of a flank.
