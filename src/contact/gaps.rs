@@ -88,6 +88,13 @@ impl FlankGaps {
         )
     }
 
+    /// Number of side gear teeth from `planet` to the planet `other` in their meshes with `side`, from 0.
+    pub fn teeth_between(&self, [planet, other]: [usize; 2], side: usize) -> usize {
+        let tooth = |planet: usize| self.teeth(PairName { planet, side, flank: Flank::Drive, tooth: 0 })[1];
+        let turn = self.teeth_of[1].teeth.get() as usize;
+        (turn + tooth(other) - tooth(planet)) % turn
+    }
+
     /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub fn opposite(&self, planet: usize) -> i64 {

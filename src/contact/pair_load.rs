@@ -7,6 +7,8 @@ use super::{Flank, ToothLoad};
 pub struct PairLoad {
     /// Flank.
     pub flank: Flank,
+    /// Numbers of the planet's and the side gear's tooth, from 0.
+    pub teeth: [usize; 2],
     /// Position on the path of contact [rad].
     pub s: f64,
     /// Sum of the slices' normal forces times their cone distances [N·m].
@@ -22,7 +24,8 @@ pub struct PairLoad {
 impl PairLoad {
     /// Starts a pair with its slice `first`. The law's resultant under an even load is at `cone` [m].
     pub fn new(first: &ToothLoad, cone: f64, face_factor: f64) -> Self {
-        let mut pair = Self { flank: first.flank, s: first.s, moment: 0.0, cone, steepest: 0.0, face_factor };
+        let ToothLoad { flank, teeth, s, .. } = *first;
+        let mut pair = Self { flank, teeth, s, moment: 0.0, cone, steepest: 0.0, face_factor };
         pair.add(first);
         pair
     }

@@ -196,7 +196,7 @@ impl Instance {
     pub fn terminate(&mut self) -> CallResult {
         self.warn_at_end();
         self.now.phase = Phase::Terminated;
-        if let Some(simulation) = &self.now.simulation {
+        if let Some(simulation) = &mut self.now.simulation {
             self.log.event(&simulation.account());
         }
         Ok(())
@@ -289,7 +289,7 @@ impl Instance {
 
     /// Logs warnings that are known only at the end of a run, once.
     pub fn warn_at_end(&mut self) {
-        if let Some(simulation) = self.now.simulation.as_ref().filter(|_| self.log.is_on(Category::Warning))
+        if let Some(simulation) = self.now.simulation.as_mut().filter(|_| self.log.is_on(Category::Warning))
             && let Some(warning) = simulation.unreported_at_end(&mut self.reported)
         {
             self.log.warning(&warning.to_string());

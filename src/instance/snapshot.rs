@@ -19,7 +19,7 @@ use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, ta
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Format version, incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 22;
+const VERSION: u32 = 23;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Data of an instance that change. Cloning copies the state and shares the constants.
@@ -138,7 +138,7 @@ impl Snapshot {
     #[inline(never)] // its frame is large for a small stack
     fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
         let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
-        let state = running.map(|s| Box::new(((*s.state(), *s.watched()), *s.inputs())));
+        let state = running.map(|s| Box::new(((*s.state(), s.watched().clone()), *s.inputs())));
         let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
         let coupling = running.and_then(Simulation::coupling).map(|coupling| Record(coupling.clone()));
         self.simulation = None;
@@ -148,8 +148,9 @@ impl Snapshot {
     /// Continues a `running` simulation, if there is one, with the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
         if let (Some(running), accepted, coupling) = running {
-            let resumed =
-                Simulation::resume_with(&self.effective(&self.parameters), &running.1, running.0, &given(cache));
+            let ((state, watched), inputs) = *running;
+            let parameters = self.effective(&self.parameters);
+            let resumed = Simulation::resume_with(&parameters, &inputs, (state, Some(watched)), &given(cache));
             let mut resumed = resumed.map_err(|p| problem::list(&p))?;
             // steps with input ramps pass the derivatives themselves
             if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {

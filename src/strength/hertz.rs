@@ -103,6 +103,13 @@ impl LineContact {
         self.pressure_at(self.line_load(force, self.mean_cone), self.mean_cone, s)
     }
 
+    /// Position on the path of the point whose pressure is rated [rad]: the end of single contact with the smaller
+    /// radius of curvature.
+    pub fn rated_position(&self) -> f64 {
+        let radius = |end: usize| self.relative_radius(self.single[end]).unwrap_or(0.0);
+        self.single[usize::from(radius(1) < radius(0))]
+    }
+
     /// Pressure [Pa] used in a rating: one pair transmits the whole normal force `force` [N] of the mesh at the worse
     /// inner point of single contact (ISO 10300-2:2001, Z_M-B of teeth without overlap).
     ///

@@ -1,4 +1,6 @@
-//! Values at the start, in the middle and at the end of an interval, and Simpson's parabola through them.
+//! Values at the start, in the middle and at the end of an interval, and the parabola through them.
+
+use crate::numeric::sqrt;
 
 /// Values of one quantity at the start, in the middle and at the end of an interval.
 pub type Three = [f64; 3];
@@ -32,12 +34,43 @@ pub fn at([begin, middle, end]: Three, part: f64) -> f64 {
     begin + part * (end - begin - bend * (1.0 - part))
 }
 
-/// Mean of a quantity by Simpson's rule, with each value weighted by the rate at which the interval is passed.
-pub fn mean(values: Three, rates: Three) -> f64 {
-    let weights = [rates[0].abs(), 4.0 * rates[1].abs(), rates[2].abs()];
-    let passed = weights[0] + weights[1] + weights[2];
-    let weights = if passed > 0.0 { weights.map(|weight| weight / passed) } else { [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0] };
-    weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]
+/// Fraction of the interval, within `span`, at which the parabola reaches `value`. It must be monotonic in the span, and
+/// the value between those at both ends.
+pub fn reaching(values: Three, value: f64, [from, to]: [f64; 2]) -> f64 {
+    // bend t² + slope t + start = 0
+    let bend = 2.0 * second_difference(values);
+    let (slope, start) = (values[2] - values[0] - bend, values[0] - value);
+    let q = -0.5 * (slope + sqrt((slope * slope - 4.0 * bend * start).max(0.0)).copysign(slope));
+    let middle = 0.5 * (from + to);
+    let nearest = |a: f64, b: f64| if (b - middle).abs() < (a - middle).abs() { b } else { a };
+    let part = match [q / bend, start / q] {
+        [a, b] if a.is_finite() && b.is_finite() => nearest(a, b),
+        [a, b] => {
+            if a.is_finite() {
+                a
+            } else {
+                b
+            }
+        }
+    };
+    if part.is_nan() { middle } else { part.clamp(from, to) }
+}
+
+/// True if all values have the same sign. A load that is 0 or changes its flank has a kink, which no parabola describes.
+pub fn is_loaded_throughout(values: Three) -> bool {
+    values.iter().all(|&value| value > 0.0) || values.iter().all(|&value| value < 0.0)
+}
+
+/// Load at the fraction `part` of the interval: on the parabola, or on straight lines if the load has a kink.
+pub fn load_at(values: Three, part: f64) -> f64 {
+    let [begin, middle, end] = values;
+    if is_loaded_throughout(values) {
+        at(values, part)
+    } else if part < 0.5 {
+        begin + 2.0 * part * (middle - begin)
+    } else {
+        middle + (2.0 * part - 1.0) * (end - middle)
+    }
 }
 
 #[cfg(test)]
@@ -66,10 +99,27 @@ mod tests {
     }
 
     #[test]
-    fn a_mean_is_weighted_by_the_rate() {
-        // ∫ t² (1 + t) dt / ∫ (1 + t) dt, exact for Simpson's rule
-        let mean = mean(of(|t| t * t), of(|t| -1.0 - t));
-        assert!((mean - (1.0 / 3.0 + 1.0 / 4.0) / 1.5).abs() < 1e-15);
-        assert_eq!(super::mean([6.0, 0.0, 0.0], [0.0; 3]), 1.0);
+    fn a_value_is_reached_on_either_branch_of_a_parabola() {
+        for place in [0.2, 0.5, 0.7] {
+            for sign in [1.0, -1.0] {
+                let parabola = of(|t| sign * (t - place) * (t - place));
+                for part in [0.05, 0.3, 0.6, 0.9] {
+                    let span = if part < place { [0.0, place] } else { [place, 1.0] };
+                    let found = reaching(parabola, sign * (part - place) * (part - place), span);
+                    assert!((found - part).abs() < 1e-12, "{place} {part}: {found}");
+                }
+            }
+        }
+        for slope in [3.0, -2.0] {
+            assert!((reaching(of(|t| 1.0 + slope * t), 1.0 + 0.25 * slope, [0.0, 1.0]) - 0.25).abs() < 1e-15);
+        }
+        assert_eq!(reaching([1.0; 3], 1.0, [0.0, 1.0]), 0.5);
+    }
+
+    #[test]
+    fn a_load_with_a_kink_follows_straight_lines() {
+        assert_eq!([0.25, 0.75].map(|part| load_at([0.0, 0.0, 8.0], part)), [0.0, 4.0]);
+        assert_eq!([0.25, 0.75].map(|part| load_at([-2.0, 2.0, 4.0], part)), [0.0, 3.0]);
+        assert!((load_at(of(|t| 1.0 + t * t), 0.25) - 1.0625).abs() < 1e-15);
     }
 }

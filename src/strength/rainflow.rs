@@ -1,13 +1,13 @@
 //! Rainflow counting of a load history while it is recorded, ASTM E1049-85 (2017), section 5.4.4.
 //!
-//! It counts the load swings of a tooth while it is in mesh. Peaks and valleys are stored on a stack of fixed size.
-//! Ranges on the stack decrease from the bottom to the top, so only a decaying oscillation fills it. If it is full, the
-//! smallest range is immediately counted as a full cycle. This is exact if the load exceeds the range again, and
-//! conservative otherwise. Nothing is lost, and larger ranges stay unchanged.
+//! It counts the load cycles of a tooth. Peaks and valleys are stored on a stack of fixed size. Ranges on the stack
+//! decrease from the bottom to the top, so only a decaying oscillation fills it. If it is full, the smallest range is
+//! immediately counted as a full cycle. This is exact if the load exceeds the range again, and conservative otherwise.
+//! Nothing is lost, and larger ranges stay unchanged.
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::finite;
+use crate::numeric::Finite;
 
 /// Capacity for turning points, including one for the newest. 32 is the longest array that serde supports.
 pub const CAPACITY: usize = 32;
@@ -30,7 +30,8 @@ impl LoadCycle {
 }
 
 /// Load history so far, reduced to the turning points that are still needed. The type is `Copy` and allocates nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[serde(from = "Points", into = "Points")]
 pub struct Rainflow {
     /// Peaks and valleys not yet discarded, starting with the first value.
     points: [f64; CAPACITY],
@@ -43,11 +44,51 @@ pub struct Rainflow {
     direction: i8,
     /// Largest reversal that is not a turning point.
     gate: f64,
-    /// True if the history ends at its first value, so that every cycle closes.
-    returns: bool,
+    /// Last value.
+    last: f64,
 }
 
-finite!(Rainflow { points, candidate, gate; length, direction, returns });
+/// Saved form of a history: only the points in use.
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
+struct Points {
+    points: Vec<f64>,
+    candidate: f64,
+    direction: i8,
+    gate: f64,
+    last: f64,
+}
+
+impl From<Rainflow> for Points {
+    fn from(history: Rainflow) -> Self {
+        let Rainflow { candidate, direction, gate, last, .. } = history;
+        Self { points: history.points().to_vec(), candidate, direction, gate, last }
+    }
+}
+
+impl From<Points> for Rainflow {
+    /// Limits the fields, because foreign bytes may contain any number of points and any direction.
+    fn from(saved: Points) -> Self {
+        let Points { candidate, direction, gate, last, .. } = saved;
+        let length = saved.points.len().min(CAPACITY - 1);
+        let mut points = [0.0; CAPACITY];
+        points[..length].copy_from_slice(&saved.points[..length]);
+        Self { points, length, candidate, direction: direction.signum(), gate, last }
+    }
+}
+
+impl PartialEq for Rainflow {
+    /// Compares the points in use.
+    fn eq(&self, other: &Self) -> bool {
+        let rest = |of: &Self| (of.candidate, of.direction, of.gate, of.last);
+        self.points() == other.points() && rest(self) == rest(other)
+    }
+}
+
+impl Finite for Rainflow {
+    fn is_finite(&self) -> bool {
+        self.points().iter().chain(&[self.candidate, self.gate, self.last]).all(|value| value.is_finite())
+    }
+}
 
 impl Rainflow {
     /// Returns an empty history that ignores reversals up to `gate` (unit of the history); 0 counts all.
@@ -55,15 +96,14 @@ impl Rainflow {
         Self { gate: if gate > 0.0 && gate.is_finite() { gate } else { 0.0 }, ..Self::default() }
     }
 
-    /// Returns an empty history that must end at its first value. It has no half cycles; [`Self::rest_of_return`]
-    /// closes all cycles.
-    pub fn returning(gate: f64) -> Self {
-        Self { returns: true, ..Self::new(gate) }
+    /// Last value; 0 before the first.
+    pub fn last(&self) -> f64 {
+        self.last
     }
 
-    /// True if the history ends at its first value.
-    pub fn returns(&self) -> bool {
-        self.returns
+    /// Turning points in use.
+    fn points(&self) -> &[f64] {
+        &self.points[..self.length]
     }
 
     /// True if no value has been added yet.
@@ -76,7 +116,7 @@ impl Rainflow {
         if !value.is_finite() {
             return;
         }
-        self.limit_fields();
+        self.last = value;
         if self.length == 0 {
             self.points[0] = value;
             self.length = 1;
@@ -113,39 +153,12 @@ impl Rainflow {
     /// itself is unchanged and may continue.
     pub fn rest(&self, mut visit: impl FnMut(LoadCycle)) {
         let mut last = *self;
-        last.limit_fields();
         if last.direction != 0 {
             last.turn(&mut visit);
         }
-        for pair in last.points[..last.length].windows(2) {
+        for pair in last.points().windows(2) {
             visit(LoadCycle::between(pair[0], pair[1], 0.5));
         }
-    }
-
-    /// Calls `visit` with the remaining cycles of a history that returns from its present value to its first value, the
-    /// largest cycle last. The history itself is unchanged.
-    pub fn rest_of_return(&self, mut visit: impl FnMut(LoadCycle)) {
-        let mut last = *self;
-        last.limit_fields();
-        if last.length == 0 {
-            return;
-        }
-        last.push(self.points[0], &mut visit);
-        if last.direction != 0 {
-            last.turn(&mut visit);
-        }
-        // the same points are repeated once: between two of the largest peaks everything closes, and the remainder
-        // equals the previous one
-        let mut twice = Self { gate: 0.0, ..Self::returning(0.0) };
-        for &point in last.points[..last.length].iter().chain(&last.points[..last.length]) {
-            twice.push(point, &mut visit);
-        }
-    }
-
-    /// Limits the fields, because a state read from foreign bytes may contain any length and direction.
-    fn limit_fields(&mut self) {
-        self.length = self.length.min(CAPACITY - 1);
-        self.direction = self.direction.signum();
     }
 
     /// Turns the candidate into a turning point and counts the ranges that it closes.
@@ -166,33 +179,17 @@ impl Rainflow {
         if self.length < CAPACITY {
             return;
         }
-        let [first, second] = [self.points[0], self.points[1]];
-        let last = self.points[CAPACITY - 2] - self.points[CAPACITY - 1];
-        if self.returns && (second - first).abs() < last.abs() {
-            // ranges grow from the bottom before they decrease toward the top
-            visit(LoadCycle::between(first, second, 0.5));
-            self.points.copy_within(1.., 0);
-            self.length -= 1;
-        } else {
-            // ranges decrease toward the top: the last one is the smallest
-            visit(LoadCycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
-            self.length -= 1;
-        }
+        // ranges decrease toward the top: the last one is the smallest
+        visit(LoadCycle::between(self.points[CAPACITY - 2], self.points[CAPACITY - 1], 1.0));
+        self.length -= 1;
     }
 
-    /// Steps 2 to 5 of the standard: X is the last range, Y the previous one. In a history that returns, ranges may
-    /// grow from the start, and Y must also be no larger than the range before it.
+    /// Steps 2 to 5 of the standard: X is the last range, Y the previous one.
     fn close(&mut self, visit: &mut impl FnMut(LoadCycle)) {
         while self.length >= 3 {
             let [a, b, c] = [self.points[self.length - 3], self.points[self.length - 2], self.points[self.length - 1]];
             if (c - b).abs() < (b - a).abs() {
                 break;
-            }
-            if self.returns {
-                let before = self.length.checked_sub(4).map(|place| (a - self.points[place]).abs());
-                if before.is_none_or(|before| (b - a).abs() > before) {
-                    break;
-                }
             }
             if self.length == 3 {
                 // Y contains the starting point: count half a cycle and move the start

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{LineContact, RootStressFactors, SnCurve, ToothStrength, face_load};
+use super::{Bending, LineContact, RootStressFactors, SnCurve, ToothStrength, face_load};
 use crate::geometry::Pair;
 
 /// Contact, roots and S–N curves of a planet (index 0) and a side gear (index 1).
@@ -12,12 +12,10 @@ pub struct Rating {
     pub contact: LineContact,
     /// Roots.
     pub root: [RootStressFactors; 2],
-    /// S–N curves of the roots; that of the planet is for idlers.
-    pub bending: [SnCurve; 2],
+    /// Strength of the roots.
+    pub bending: Bending,
     /// S–N curve of the flanks.
     pub pitting: SnCurve,
-    /// Sensitivity of the roots to mean stress M.
-    pub sensitivity: f64,
     /// Exponent N_F from the face load factor to the root factor.
     pub face_exponent: f64,
     /// Angular pitches [rad].
@@ -38,9 +36,8 @@ impl Rating {
         Some(Self {
             contact: LineContact::new(pair, young_modulus, poisson_ratio),
             root: [RootStressFactors::new(pair, 0, tool_radius)?, RootStressFactors::new(pair, 1, tool_radius)?],
-            bending: [material.idler_bending(), material.bending],
+            bending: Bending { curve: material.bending, sensitivity: material.mean_stress_sensitivity() },
             pitting: material.pitting,
-            sensitivity: material.mean_stress_sensitivity(),
             face_exponent: face_load::exponent_of(pair),
             pitch: pair.gears.map(|g| g.tooth_pitch()),
             teeth: pair.gears.map(|g| g.teeth.max(0) as usize),

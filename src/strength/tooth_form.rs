@@ -69,14 +69,26 @@ impl Profile {
         sqrt((d * d - base * base).max(0.0)) / 2.0
     }
 
+    /// Diameter whose distance along the line of action from the base circle's tangent point is `length`, all in
+    /// modules.
+    pub fn diameter_at(&self, length: f64) -> f64 {
+        let base = self.teeth * cos(self.pressure_angle);
+        sqrt(base * base + 4.0 * length * length)
+    }
+
+    /// Smallest and largest distance of the contact with `mate` along the line of action from the base circle's tangent
+    /// point [modules]: at the mate's tip and at the tip of this gear.
+    pub fn contact_lengths(&self, mate: &Self) -> [f64; 2] {
+        let line = (self.teeth + mate.teeth) / 2.0 * sin(self.pressure_angle);
+        let lowest = (line - mate.action_length(mate.tip_diameter())).max(0.0);
+        [lowest, self.action_length(self.tip_diameter())]
+    }
+
     /// Diameter [modules] of the outer point of single contact with `mate`: one base pitch above the lowest point of
     /// contact of this gear, at which the mate's tip touches. It is the tip diameter without double contact.
     pub fn outer_single_contact(&self, mate: &Self) -> f64 {
-        let alpha = self.pressure_angle;
-        let line = (self.teeth + mate.teeth) / 2.0 * sin(alpha);
-        let lowest = (line - mate.action_length(mate.tip_diameter())).max(0.0);
-        let (at, base) = (lowest + PI * cos(alpha), self.teeth * cos(alpha));
-        sqrt(base * base + 4.0 * at * at).min(self.tip_diameter())
+        let [lowest, _] = self.contact_lengths(mate);
+        self.diameter_at(lowest + PI * cos(self.pressure_angle)).min(self.tip_diameter())
     }
 }
 

@@ -154,7 +154,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Number of pitches by which planets of group `g` have been wrapped, in the direction of x of the mesh with side
     /// `s`.
     #[inline]
-    pub(super) fn wrapped(&self, g: usize, s: usize) -> i64 {
+    pub(in crate::model) fn wrapped(&self, g: usize, s: usize) -> i64 {
         if s == 0 { self.wrapped[g] } else { -self.wrapped[g] }
     }
 

@@ -45,7 +45,7 @@ impl Simulation {
     /// Moves to `states`, except imposed motions, which follow their commands. If a step is pending, it is first
     /// completed up to the present time.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
-        complete(&self.model, (&mut self.state, &mut self.watched));
+        complete(&self.model, (&mut self.state, Some(&mut self.watched)));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
@@ -104,7 +104,8 @@ impl Simulation {
                 let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
-                    let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched };
+                    let sums =
+                        &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched: Some(watched) };
                     equations.record(model, (&step, None), sums);
                     if sums.thermal.is_update_due() {
                         sums.thermal.use_temperatures();

@@ -18,13 +18,16 @@ impl Simulation {
     }
 
     /// Ledger and solver statistics.
-    pub fn ledger(&self) -> LedgerReadings {
-        let s = &self.state.statistics;
-        let (state, watched) = &self.completed();
+    pub fn ledger(&mut self) -> LedgerReadings {
+        self.read_completed(Self::ledger_at)
+    }
+
+    /// Ledger in `state`, in which the pending step is completed up to the present.
+    fn ledger_at(&self, state: &State) -> LedgerReadings {
+        let (s, watched) = (&self.state.statistics, &self.watched);
         let mut readings = [0.0; STEP_READINGS];
-        if let Some(strength) = self.model.strength() {
-            let (fatigue, planets) = (&watched.fatigue, self.model.ideal.plan.planets);
-            strength.read_damage(fatigue, planets, &mut readings[const { places_of("strength", Changes::ByStep) }]);
+        if let (Some(strength), Some(fatigue)) = (self.model.strength(), &watched.fatigue) {
+            strength.read_damage(fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
         if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
             watched
@@ -60,11 +63,12 @@ impl Simulation {
     }
 
     /// Describes the solver's steps and rejections in one line, by cause.
-    pub fn account(&self) -> String {
+    pub fn account(&mut self) -> String {
+        let energy_residual = self.ledger().energy_residual;
         let s = &self.state.statistics;
         format!(
             "solver: {} steps accepted, {} rejected for their error, {} for their ledger, {} for values that are not \
-             finite, {} cut at a switch; {} evaluations of the tooth forces, {} Jacobians; energy residual {:e} J",
+             finite, {} cut at a switch; {} evaluations of the tooth forces, {} Jacobians; energy residual {energy_residual:e} J",
             s.accepted,
             s.rejected_error,
             s.rejected_ledger,
@@ -72,7 +76,6 @@ impl Simulation {
             s.rejected_switch,
             s.evaluations,
             s.jacobians,
-            self.ledger().energy_residual
         )
     }
 }

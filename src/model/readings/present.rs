@@ -3,7 +3,7 @@
 use crate::model::dynamics::State;
 use crate::model::run::events::{has_brakes, with_brakes};
 use crate::model::run::progress::complete;
-use crate::model::run::{Simulation, Watched, imposed};
+use crate::model::run::{Simulation, imposed};
 use crate::model::scene::Inputs;
 
 impl Simulation {
@@ -50,7 +50,8 @@ impl Simulation {
     pub fn shown(&self) -> Option<Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
-            let completed = self.completed().0;
+            let mut completed = self.state;
+            complete(&self.model, (&mut completed, None));
             let state = &mut shown.get_or_insert_with(|| self.clone()).state;
             state.torque_means = completed.torque_means;
             state.thermal.rises = completed.thermal.rises;
@@ -58,10 +59,15 @@ impl Simulation {
         shown
     }
 
-    /// State and watched values with the pending step completed up to the present.
-    pub(in crate::model) fn completed(&self) -> (State, Watched) {
-        let (mut state, mut watched) = (self.state, self.watched);
-        complete(&self.model, (&mut state, &mut watched));
-        (state, watched)
+    /// Reads the state and the watched values with the pending step completed up to the present. The simulation itself
+    /// is unchanged.
+    pub(in crate::model) fn read_completed<T>(&mut self, read: impl FnOnce(&Self, &State) -> T) -> T {
+        let (mut state, last_loads) = (self.state, self.watched.last_loads);
+        let checkpoint = self.watched.checkpoint();
+        complete(&self.model, (&mut state, Some(&mut self.watched)));
+        let found = read(self, &state);
+        self.watched.roll_back(checkpoint);
+        self.watched.last_loads = last_loads;
+        found
     }
 }

@@ -6,7 +6,7 @@ use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest};
 use crate::model::effect_kinds::{FrictionSource, Surface};
-use crate::model::effects::strength::{Fatigue, Stressed};
+use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::outputs::pv::each_pv;
 use crate::model::run::{Simulation, effort, six_digits};
@@ -54,7 +54,7 @@ impl Simulation {
         }
         if self.model.strength().is_some() {
             for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
-                if let Some(overload) = self.watched.fatigue.overloads.of(what) {
+                if let Some(overload) = self.watched.fatigue.as_ref().and_then(|of| of.tally.overloads.of(what)) {
                     *reported = true;
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }
@@ -208,11 +208,12 @@ impl Simulation {
 
     /// Returns a warning if safety and damage include a start that was not in equilibrium, with the times of the
     /// smallest safety factors. It is reported once in a run, at its end.
-    pub fn unreported_at_end(&self, reported: &mut Reported) -> Option<Problem> {
+    pub fn unreported_at_end(&mut self, reported: &mut Reported) -> Option<Problem> {
         if reported.start || self.model.strength().is_none() {
             return None;
         }
-        let Fatigue { utilisation, counts_start, .. } = self.completed().1.fatigue;
+        let tally = self.read_completed(|simulation, _| simulation.watched.fatigue.as_ref().map(|of| of.tally));
+        let Some(Tally { utilisation, counts_start, .. }) = tally else { return None };
         if !counts_start || utilisation.root.share == 0.0 {
             return None;
         }

@@ -51,8 +51,8 @@ pub struct Integration<'a> {
     /// Time on the clock [s] and jump of the accelerations [rad/s²], if only torques have changed within the pending
     /// step.
     pub change: Option<(f64, f64)>,
-    /// Fatigue damage and mesh history, to which completed steps add.
-    pub watched: &'a mut Watched,
+    /// Fatigue damage and mesh history, to which completed steps add; `None` if nothing reads them.
+    pub watched: Option<&'a mut Watched>,
 }
 
 /// Integrates `state` until the pending step contains the clock's `now`, the equations end, or the clock must be reset.
@@ -150,7 +150,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_returned, pauses, inputs, change, watched } = integration;
+    let Integration { clock, begin, is_returned, pauses, inputs, change, mut watched } = integration;
     let before = state.statistics;
     let mut course = Course {
         longest: LONGEST,
@@ -182,7 +182,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
-        let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: &mut *watched };
+        let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: watched.as_deref_mut() };
         // records an accepted step and decides whether the method stops
         let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
             if !is_returned {

@@ -28,8 +28,8 @@ pub struct LedgerSums<'a> {
     pub thermal: &'a mut Thermal,
     /// Means of the shaft torques over mesh cycles.
     pub torque_means: &'a mut TorqueMeans,
-    /// Damage of the teeth and values over mesh cycles.
-    pub watched: &'a mut Watched,
+    /// Damage of the teeth and values over mesh cycles; `None` if nothing reads them.
+    pub watched: Option<&'a mut Watched>,
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
@@ -136,9 +136,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if BUILT {
             warm_up(model, &self.applied, step, sums);
         }
-        if let (true, Some(watch)) = (BUILT, &model.watch) {
+        if let (true, Some(watch), Some(watched)) = (BUILT, &model.watch, &mut sums.watched) {
             let completed = StepMotion::new(self, (step, motion), sums.begin);
-            watch_step(&self.largest(), (model, watch), &completed, sums.watched);
+            watch_step(&self.largest(), (model, watch), &completed, watched);
         }
     }
 }

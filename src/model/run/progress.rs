@@ -18,7 +18,7 @@ use crate::model::scene::{Inputs, Method};
 /// Restarts the integration at the present, because inputs or something else have changed.
 pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
     let is_jump = state.pending_step.is_some();
-    complete(model, (state, watched));
+    complete(model, (state, Some(watched)));
     if is_jump {
         state.control.jump(None);
     }
@@ -29,8 +29,8 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &m
 }
 
 /// Completes the pending step up to the present, under the inputs that acted in it. Also switches friction that is due
-/// to switch at the present.
-pub fn complete(model: &Model, (state, watched): (&mut State, &mut Watched)) {
+/// to switch at the present. Without `watched`, damage and mesh history are left out.
+pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watched>)) {
     let Some(pending_step) = &state.pending_step else { return };
     let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
     clock.end = clock.now;
@@ -180,7 +180,7 @@ fn integrate_interval(
     (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched };
+    let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched: Some(watched) };
     if let Some(teeth) = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);

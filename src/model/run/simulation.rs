@@ -14,7 +14,6 @@ use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::State;
 use crate::model::dynamics::event::{AdvanceOptions, Events, Pause};
 use crate::model::effects::coupling_advice::Coupling;
-use crate::model::effects::strength::Fatigue;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};
 use crate::model::setup::Parameters;
@@ -57,19 +56,23 @@ impl Simulation {
     /// Simulation of `parameters` that continues from `state`, without damage and mesh history. Fails with all problems
     /// of the parameters.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
-        let fatigue = Fatigue::new(state.time(), parameters.specs.strength.rate_from, true);
-        Self::resume_with(parameters, inputs, (state, Watched { fatigue, ..Watched::default() }), &Given::default())
+        Self::resume_with(parameters, inputs, (state, None), &Given::default())
     }
 
-    /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`.
-    /// `given` contains optional data. Fails with all problems of the parameters.
+    /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`, or
+    /// without. `given` contains optional data. Fails with all problems of the parameters, or if the damage belongs to
+    /// other gears.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
-        (state, watched): (State, Watched),
+        (state, watched): (State, Option<Watched>),
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
+        let watched = watched.unwrap_or_else(|| Watched::new(&model, state.time(), true));
+        if !watched.fits(&model) {
+            return Err(vec![Problem::new("effects.strength", "the saved damage belongs to other gears")]);
+        }
         let coupling = new_record(parameters);
         Ok(Self { model, state, watched, inputs: *inputs, forces: None, accepted: None, coupling })
     }
@@ -109,7 +112,7 @@ impl Simulation {
 
     /// Applies changed tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
-        progress::complete(&self.model, (&mut self.state, &mut self.watched));
+        progress::complete(&self.model, (&mut self.state, Some(&mut self.watched)));
         Arc::make_mut(&mut self.model).tune(parameters);
         if self.model.thermal.is_none() {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
@@ -224,18 +227,19 @@ impl Simulation {
             return Ok(());
         }
         let before = (*inputs, *state);
-        // a scene without fatigue and mesh history has nothing to restore
-        let saved = model.watch.as_ref().map(|_| Watched { last_loads: None, ..*watched });
+        let checkpoint = watched.checkpoint();
         let mut outcome = progress::integrate(model, (inputs, state, watched), (until, options, jump));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // the pending step cannot be completed: restart at the present, from where another step may succeed
-            restore((inputs, state, watched), &before, &saved);
+            (*inputs, *state) = before;
+            watched.roll_back(checkpoint);
             restart(model, inputs, (state, watched));
             outcome = progress::integrate(model, (inputs, state, watched), (until, options, None));
         }
         if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
-            restore((inputs, state, watched), &before, &saved);
+            (*inputs, *state) = before;
+            watched.roll_back(checkpoint);
         }
         outcome
     }
@@ -287,18 +291,5 @@ impl Simulation {
     /// Fatigue damage and mesh history, for snapshots.
     pub fn watched(&self) -> &Watched {
         &self.watched
-    }
-}
-
-/// Restores inputs, state, damage and mesh history to their values `before` the step.
-#[cold]
-fn restore(
-    (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
-    before: &(Inputs, State),
-    saved: &Option<Watched>,
-) {
-    (*inputs, *state) = *before;
-    if let Some(saved) = saved {
-        *watched = *saved;
     }
 }

@@ -2,23 +2,25 @@
 //! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
 //! count. Without dense output, extremes are those at the ends of the steps.
 
-use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::completed_step::StepMotion;
-use crate::integrate::{Curve, Point, SecondOrder};
+use crate::integrate::{Curve, Point};
 use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
-use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, Rated, RatedStep, Rolled, Sample};
-use crate::model::scene::MAX_GROUPS;
+use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RatedPlanet, RatedStep, Sample};
 use crate::model::scene::layout::LEFT;
+use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
 use crate::numeric::Finite;
 
 /// Fatigue damage of the teeth, and peak-to-peak values over mesh cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Watched {
-    /// Fatigue damage of the teeth.
-    pub fatigue: Fatigue,
+    /// Fatigue damage of the teeth, in scenes with strength. Copies share it until one of them changes it.
+    pub fatigue: Option<SharedFatigue>,
     /// Peak-to-peak values over mesh cycles.
     pub mesh_history: MeshHistory,
     /// Cache of the loads at the start of the next step. Saved states omit it, because loads follow from the state.
@@ -34,15 +36,89 @@ pub struct LastLoads {
     /// Number of planet groups, and true if a tooth is broken. Together with the point, both determine the loads.
     pub teeth: (usize, bool),
     /// Loads at this point.
-    pub loads: Rated,
+    pub loads: Sample,
 }
 
+/// Damage that copies of a simulation share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SharedFatigue(Arc<Fatigue>);
+
+impl SharedFatigue {
+    /// Shares `fatigue`.
+    pub fn new(fatigue: Fatigue) -> Self {
+        Self(Arc::new(fatigue))
+    }
+
+    /// Damage, to be changed. It is copied if another copy of the simulation shares it.
+    pub fn make_mut(&mut self) -> &mut Fatigue {
+        Arc::make_mut(&mut self.0)
+    }
+}
+
+impl std::ops::Deref for SharedFatigue {
+    type Target = Fatigue;
+
+    fn deref(&self) -> &Fatigue {
+        &self.0
+    }
+}
+
+impl Serialize for SharedFatigue {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.0.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for SharedFatigue {
+    #[inline(never)] // its frame is large for a small stack
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        Fatigue::deserialize(from).map(Self::new)
+    }
+}
+
+/// Watched values to which [`Watched::roll_back`] returns, besides those that the damage remembers itself.
+#[derive(Clone, Copy)]
+pub struct Checkpoint(MeshHistory);
+
 impl Watched {
+    /// Returns watched values of a run of `model` that begins at `start` [s].
+    pub fn new(model: &Model, start: f64, in_equilibrium: bool) -> Self {
+        let fatigue = model.strength().map(|strength| {
+            let later = model.parameters.specs.strength.rate_from;
+            SharedFatigue::new(strength.fatigue(model.layout.groups, (start, later), in_equilibrium))
+        });
+        Self { fatigue, ..Self::default() }
+    }
+
     /// True if a simulation can continue from these values.
     pub fn is_valid(&self) -> bool {
         // the cache is not saved
         let Self { fatigue, mesh_history, last_loads: _ } = self;
-        fatigue.is_finite() && mesh_history.is_valid()
+        fatigue.as_deref().is_none_or(Finite::is_finite) && mesh_history.is_valid()
+    }
+
+    /// True if these values belong to a run of `model`.
+    pub fn fits(&self, model: &Model) -> bool {
+        match (model.strength(), &self.fatigue) {
+            (Some(strength), Some(fatigue)) => strength.fits(fatigue, model.layout.groups),
+            (strength, fatigue) => strength.is_none() && fatigue.is_none(),
+        }
+    }
+
+    /// Remembers the present values for [`Self::roll_back`].
+    pub fn checkpoint(&mut self) -> Checkpoint {
+        if let Some(fatigue) = &mut self.fatigue {
+            fatigue.make_mut().set_checkpoint();
+        }
+        Checkpoint(self.mesh_history)
+    }
+
+    /// Returns to the values at `checkpoint`, the last one.
+    pub fn roll_back(&mut self, Checkpoint(mesh_history): Checkpoint) {
+        if let Some(fatigue) = &mut self.fatigue {
+            fatigue.make_mut().roll_back();
+        }
+        (self.mesh_history, self.last_loads) = (mesh_history, None);
     }
 }
 
@@ -52,8 +128,8 @@ impl Watched {
 #[cold]
 #[inline(never)]
 pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &StepMotion, watched: &mut Watched) {
-    if let Some(strength) = &watch.strength {
-        count_fatigue(equations, (model, strength), step, (&mut watched.fatigue, &mut watched.last_loads));
+    if let (Some(strength), Some(fatigue)) = (&watch.strength, &mut watched.fatigue) {
+        count_fatigue(equations, (model, strength), step, (fatigue.make_mut(), &mut watched.last_loads));
     }
     if watch.keeps_mesh_history {
         add_to_history(equations, model, step, &mut watched.mesh_history);
@@ -63,69 +139,76 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
 /// Loads of the meshes, by group and side.
 type Meshes = [[MeshLoad; 2]; MAX_GROUPS];
 
-/// Adds a completed step to the damage of the teeth. If only the ends of the step are known, loads within it follow a
-/// cubic, limited to the range of the loads at both ends.
-pub fn count_fatigue(
+/// Adds a completed step to the damage of the teeth. If only the ends of the step are known, no load within the step
+/// exceeds the loads at both ends.
+fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
     step: &StepMotion,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
     let StepMotion { h, begin, extension, accepted_fraction, ends_only } = step;
+    let from = ((fatigue.tally.from - begin) / h).clamp(0.0, 1.0);
+    if from == 1.0 {
+        return;
+    }
     let layout = &equations.teeth.layout;
-    let groups = layout.groups;
-    let first = layout.planet(0);
-    let rolled = |q: &[f64; MAX_SIZE]| {
-        let mut rolled = Rolled::default();
-        rolled.spin[..groups].copy_from_slice(&q[first..first + groups]);
-        rolled
-    };
+    let (groups, first) = (layout.groups, layout.planet(0));
+    let per_pitch = 1.0 / model.periods[first];
     let loads = |at: &Point<MAX_SIZE>, mesh: &mut Meshes| {
-        mesh[..groups].fill(Default::default());
-        for g in 0..groups {
-            equations.pair_loads(&model.pair, at, g, |s, load| strength.add_load(&mut mesh[g][s], load));
+        for (g, mesh) in mesh[..groups].iter_mut().enumerate() {
+            mesh.iter_mut().for_each(|mesh| mesh.clear());
+            equations.pair_loads(&model.pair, at, g, |s, load| strength.add_load(&mut mesh[s], load));
         }
     };
-    let mut ends = None;
+    let mut known = None;
     let mut sample = |fraction: f64, sample: &mut Sample| {
         let at = extension.at(fraction * accepted_fraction);
-        (sample.angle, sample.rate) = (rolled(&at.q), rolled(&equations.rates(&at.v)));
-        if !ends_only {
+        for g in 0..groups {
+            sample.angle[g] = per_pitch * at.q[first + g];
+        }
+        if !ends_only || fraction == 0.0 || fraction == 1.0 {
             return loads(&at, &mut sample.mesh);
         }
-        let [start, end] = ends.get_or_insert_with(|| {
-            let mut ends = [Meshes::default(); 2];
-            ends.iter_mut().zip([&extension.start, &extension.end]).for_each(|(mesh, at)| loads(at, mesh));
-            ends
+        let [start, middle, end]: &[Meshes; 3] = known.get_or_insert_with(|| {
+            let mut known = [Meshes::default(); 3];
+            known.iter_mut().zip([0.0, 0.5, 1.0]).for_each(|(mesh, part)| loads(&extension.at(part), mesh));
+            known
         });
-        if fraction == 1.0 {
-            sample.mesh = *end;
-            return;
-        }
-        loads(&at, &mut sample.mesh);
-        // the solver has computed no load outside this range
         for g in 0..groups {
-            sample.mesh[g] = [0, 1].map(|s| sample.mesh[g][s].within([&start[g][s], &end[g][s]]));
+            let between = |s: usize| MeshLoad::between([&start[g][s], &middle[g][s], &end[g][s]], fraction);
+            sample.mesh[g] = [between(0), between(1)];
         }
     };
-    let from = ((fatigue.from - begin) / h).clamp(0.0, 1.0);
-    let members = &layout.members[..groups];
-    if from > 0.0 {
-        strength.roll(
-            fatigue,
-            members,
-            [&rolled(&extension.start.q), &rolled(&extension.at(from * accepted_fraction).q)],
-        );
-    }
-    if from < 1.0 {
-        let teeth = (groups, equations.is_tooth_broken);
-        let are_known =
-            last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == extension.start);
-        let last = last.get_or_insert_default();
-        let mut rated = RatedStep { begin: *begin, h: *h, from, members, sample: &mut sample };
-        strength.count(fatigue, &mut rated, &mut last.loads, are_known);
-        (last.at, last.teeth) = (extension.at(*accepted_fraction), teeth);
-    }
+    let teeth = (groups, equations.is_tooth_broken);
+    let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == extension.start);
+    let last = last.get_or_insert_default();
+    let (planets, count) = rated_planets(equations, model);
+    let numbers = &equations.teeth.contact.perfect;
+    let mut rated = RatedStep { begin: *begin, h: *h, from, planets: &planets[..count], numbers, sample: &mut sample };
+    strength.count(fatigue, &mut rated, &mut last.loads, are_known);
+    (last.at, last.teeth) = (extension.at(*accepted_fraction), teeth);
+}
+
+/// Planets whose teeth are rated, and their number. The equations may have planets in one group that the model treats
+/// separately.
+fn rated_planets(equations: &Largest, model: &Model) -> ([RatedPlanet; MAX_PLANETS], usize) {
+    let (acting, plan) = (&equations.teeth.plan, &model.ideal.plan);
+    let numbers = &equations.teeth.contact.perfect;
+    let planets = std::array::from_fn(|planet| {
+        let (loads, histories) = (acting.group_of[planet], plan.group_of[planet]);
+        let (phase, simulated) = (acting.group(loads).phase, acting.group(loads).planet);
+        RatedPlanet {
+            planet,
+            loads,
+            histories,
+            represents: plan.group(histories).planet == planet,
+            phase: phase.map(|phase| phase / model.pair.base_pitch),
+            shift: [0, 1].map(|s| -equations.wrapped(loads, s)),
+            ahead: [0, 1].map(|s| numbers.teeth_between([simulated, planet], s)),
+        }
+    });
+    (planets, plan.planets)
 }
 
 /// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts. If only the ends of
@@ -149,21 +232,4 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, his
         *quantity = error(i / 2, i % 2);
     }
     history.add(&rolling, &quantities[..count], step.accepted_fraction);
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn damage_that_is_not_finite_is_invalid() {
-        assert!(Watched::default().is_valid());
-        for bad in [f64::NAN, f64::INFINITY] {
-            let mut all = [Watched::default(); 3];
-            all[0].fatigue.from = bad;
-            all[1].fatigue.planets[1].flanks[0].root.sum = bad;
-            all[2].fatigue.utilisation.flank.share = bad;
-            assert!(all.iter().all(|watched| !watched.is_valid()), "{bad}");
-        }
-    }
 }

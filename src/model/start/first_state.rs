@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
 use crate::model::dynamics::{Largest, State};
-use crate::model::effects::strength::Fatigue;
 use crate::model::run::coupling::new_record;
 use crate::model::run::events::{apply_changes, break_tooth};
 use crate::model::run::{Simulation, Watched, imposed};
@@ -32,8 +31,7 @@ impl Simulation {
         time: f64,
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
-        let mut simulation =
-            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), Watched::default()), given)?;
+        let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         let oil = parameters.oil.temperature;
         state.thermal = match &model.thermal {
@@ -76,7 +74,7 @@ impl Simulation {
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
         // the exchange with the host begins now
         simulation.coupling = new_record(parameters);
-        simulation.watched.fatigue = Fatigue::new(time, parameters.specs.strength.rate_from, in_equilibrium);
+        simulation.watched = Watched::new(&simulation.model, time, in_equilibrium);
         Ok(simulation)
     }
 }

@@ -1,58 +1,65 @@
-//! Damage and largest stresses along a step, by a quadrature over its dense output.
+//! Damage and largest stresses along a step, from its dense output.
 //!
 //! Step-size control considers only the motion, but damage grows with the ninth or thirteenth power of the load. Loads
-//! are therefore sampled at both ends and in the middle of a step. The step is halved while Simpson's rule differs from
-//! the trapezoidal rule by more than [`ROUGH`] of the damage; the error of Simpson's rule is then about 1e-5. Peaks are
-//! the maxima of the parabolas through these loads.
+//! are therefore sampled at both ends and in the middle of a step. The step is halved until parabolas through the
+//! samples describe the peaks of root stress to [`BLUNT`], and the loads of flanks that pass their rated point to
+//! [`ROUGH`]. Each tooth has its own load history ([`crate::strength::ToothHistory`]).
 
+use super::fatigue::MeshRolling;
 use super::overload::{Overload, Stressed};
-use super::{Fatigue, FlankLoad, GearStrength, MeshLoad};
-use crate::model::scene::MAX_GROUPS;
-use crate::strength::interval::{Three, crest, extremum, mean, second_difference};
-use crate::strength::{Cycle, Rating, loaded_flank};
+use super::{Fatigue, GearStrength, MeshLoad};
+use crate::contact::detailed::PairName;
+use crate::contact::{Flank, FlankGaps};
+use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
+use crate::strength::interval::{Three, crest, extremum, is_loaded_throughout, load_at, second_difference};
+use crate::strength::{Passing, loaded_flank};
 
-/// Tolerated difference between Simpson's rule and the trapezoidal rule, as a fraction of the mean damage per cycle in
-/// the step or the run.
-const ROUGH: f64 = 0.02;
-/// Tolerated second difference of a load at an extremum, as a fraction of the largest load. The extremum of the
-/// parabola is then within an eighth of this difference from the nearest sample.
+/// Tolerated second difference of the root stress of a tooth at its largest peak, as a fraction of this stress. The
+/// peak of the parabola is then within an eighth of this difference from the nearest sample. Lower peaks do less damage,
+/// and their tolerance grows with the fourth power of the ratio.
 const BLUNT: f64 = 0.005;
+/// Tolerated second difference of the load of a flank that passes its rated point, as a fraction of the load.
+const ROUGH: f64 = 0.02;
+/// Largest roll of a planet in an interval in which the loads of its tooth pairs are parabolas, in pitches.
+const LONGEST_ROLL: f64 = 0.25;
 /// Maximum number of halvings of a step.
 const HALVINGS: u32 = 6;
-
-/// Angles of the planets relative to the carrier by group [rad], or their rates [rad/s].
-///
-/// Side gears roll with the planets. Their own angles are not used, because they contain the elastic wind-up under
-/// load, which brings no tooth into mesh.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rolled {
-    /// Values of the planets by group.
-    pub spin: [f64; MAX_GROUPS],
-}
-
-impl Rolled {
-    /// Mean over all planets, with `members` planets in each group.
-    fn mean(&self, members: &[f64]) -> f64 {
-        let (sum, count) =
-            self.spin.iter().zip(members).fold((0.0, 0.0), |(sum, count), (spin, n)| (sum + n * spin, count + n));
-        if count > 0.0 { sum / count } else { 0.0 }
-    }
-
-    /// Rolling of the side gears, up to the sign.
-    fn side(&self, members: &[f64], rating: &Rating) -> f64 {
-        self.mean(members) * rating.pitch[1] / rating.pitch[0]
-    }
-}
+/// Sense of the roll of a planet's teeth through the left and the right mesh.
+const SENSE: [f64; 2] = [-1.0, 1.0];
+/// Maximum number of teeth of a gear in a mesh at the three instants of an interval.
+const MOST_TEETH: usize = 18;
 
 /// Loads and motion at an instant.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sample {
-    /// Angles.
-    pub angle: Rolled,
-    /// Rates of the angles.
-    pub rate: Rolled,
+    /// Fraction of the step at which the sample was taken.
+    pub part: f64,
+    /// Angles of the planets relative to the carrier by group, in pitches of their teeth. Side gears roll with the
+    /// planets. Their own angles are not used, because they contain the elastic wind-up under load, which brings no
+    /// tooth into mesh.
+    pub angle: [f64; MAX_GROUPS],
     /// Loads of the meshes, by group and side.
     pub mesh: [[MeshLoad; 2]; MAX_GROUPS],
+}
+
+/// A planet whose teeth are rated.
+#[derive(Clone, Copy, Debug)]
+pub struct RatedPlanet {
+    /// Index of the planet.
+    pub planet: usize,
+    /// Group of planets whose loads it has.
+    pub loads: usize,
+    /// Group of planets whose teeth have the same histories.
+    pub histories: usize,
+    /// True for one planet of each group with the same histories.
+    pub represents: bool,
+    /// Phases of both meshes in pitches.
+    pub phase: [f64; 2],
+    /// Number by which the teeth in mesh are ahead of those at the present angle, by side: the whole pitches that were
+    /// removed from the angle.
+    pub shift: [i64; 2],
+    /// Number of side gear teeth from the planet that represents its group to this one, by side.
+    pub ahead: [usize; 2],
 }
 
 /// A completed step whose damage is to be counted.
@@ -63,88 +70,46 @@ pub struct RatedStep<'a> {
     pub h: f64,
     /// Fraction of the step before which nothing is counted.
     pub from: f64,
-    /// Number of planets in each group.
-    pub members: &'a [f64],
+    /// Planets.
+    pub planets: &'a [RatedPlanet],
+    /// Numbers of the teeth.
+    pub numbers: &'a FlankGaps,
     /// Writes the sample at a fraction of the step.
     pub sample: &'a mut dyn FnMut(f64, &mut Sample),
 }
 
-/// Damage per cycle to the planet's root, the side gear's root and the flanks.
-type PerCycle = [f64; 3];
-const PLANET_ROOT: usize = 0;
-const SIDE_ROOT: usize = 1;
-const PITTING: usize = 2;
-
-/// Sample of a step, and the damage under its loads. It is large, so it is written in place.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rated {
-    /// Fraction of the step at which the sample was taken.
-    part: f64,
-    sample: Sample,
-    /// Damage per cycle, by group, side and flank.
-    damage: [[[PerCycle; 2]; 2]; MAX_GROUPS],
+/// Instants at the start, in the middle and at the end of an interval.
+struct Interval<'a> {
+    parts: [&'a Sample; 3],
+    /// True if parabolas describe the loads.
+    is_smooth: bool,
 }
 
-/// Values of the worst tooth, with which differences are compared.
-struct Scale {
-    /// Damage per cycle.
-    damage: PerCycle,
-    /// Force that bends the tooth [N].
-    bending: f64,
+impl RatedPlanet {
+    /// Positions of the teeth in the mesh of side `s`, in pitches: tooth n is in the middle at position n.
+    fn positions(&self, parts: &[&Sample; 3], s: usize) -> Three {
+        parts.map(|at| SENSE[s] * at.angle[self.loads] - self.phase[s])
+    }
+
+    /// Loads of the mesh of side `s`.
+    fn meshes<'a>(&self, parts: &[&'a Sample; 3], s: usize) -> [&'a MeshLoad; 3] {
+        parts.map(|at| &at.mesh[self.loads][s])
+    }
 }
 
 impl GearStrength {
-    /// Advances the rolling of the gears over a step without counting its damage.
-    pub fn roll(&self, fatigue: &mut Fatigue, members: &[f64], [from, to]: [&Rolled; 2]) {
-        let Fatigue { planets, sides, in_mesh, .. } = fatigue;
-        let rating = &self.rating;
-        let pitch = rating.pitch;
-        for (g, planet) in planets.iter_mut().enumerate() {
-            planet.rolling.advance(to.spin[g] - from.spin[g], pitch[0]);
-        }
-        for side in sides {
-            side.rolling.advance(to.side(members, rating) - from.side(members, rating), pitch[1]);
-        }
-        in_mesh.roll(rating, to.mean(members) - from.mean(members));
-    }
-
     /// Counts the damage of a step. If `are_known` is true, `loads` contains the loads at its beginning. On return,
     /// `loads` contains the loads at its end, for the next step.
-    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, loads: &mut Rated, are_known: bool) {
+    pub fn count(&self, fatigue: &mut Fatigue, step: &mut RatedStep, loads: &mut Sample, are_known: bool) {
         if !are_known {
-            self.rate(step, step.from, loads);
+            sample(step, step.from, loads);
+            self.unload_others(fatigue, step, loads);
         }
-        let begin = Rated { part: step.from, ..*loads };
-        let mut middle = Rated::default();
-        self.rate(step, 0.5 * (step.from + 1.0), &mut middle);
-        self.rate(step, 1.0, loads);
-        let parts = [&begin, &middle, &*loads];
-        let mut scale =
-            Scale { damage: fatigue.worst_per_cycle(), bending: self.force_of(fatigue.utilisation.root.share) };
-        for_each_flank(step.members.len(), |g, s, flank| {
-            let damage = |kind: usize| mean(parts.map(|at| at.damage[g][s][flank][kind]), [1.0; 3]);
-            scale.damage.iter_mut().enumerate().for_each(|(kind, worst)| *worst = worst.max(damage(kind)));
-            let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
-            scale.bending = bending.into_iter().fold(scale.bending, f64::max);
-        });
-        self.count_part(fatigue, step, parts, &scale, HALVINGS);
-    }
-
-    /// Writes the sample at the fraction `part` of the step, and the damage per cycle under its loads.
-    fn rate(&self, step: &mut RatedStep, part: f64, rated: &mut Rated) {
-        rated.part = part;
-        (step.sample)(part, &mut rated.sample);
-        let rating = &self.rating;
-        for_each_flank(step.members.len(), |g, s, flank| {
-            let load = &rated.sample.mesh[g][s].flanks()[flank];
-            let root = |i: usize| rating.bending[i].damage_per_cycle(rating.root[i].stress(load.bending));
-            rated.damage[g][s][flank] = if load.bending > 0.0 {
-                let pitting = rating.pitting.damage_per_cycle(self.rated_pressure(load));
-                [root(0), root(1), pitting]
-            } else {
-                [0.0; 3]
-            };
-        });
+        let begin = Sample { part: step.from, ..*loads };
+        let mut middle = Sample::default();
+        sample(step, 0.5 * (step.from + 1.0), &mut middle);
+        sample(step, 1.0, loads);
+        self.count_part(fatigue, step, [&begin, &middle, &*loads], HALVINGS);
     }
 
     /// Counts the damage of an interval, which is halved if necessary.
@@ -152,137 +117,320 @@ impl GearStrength {
         &self,
         fatigue: &mut Fatigue,
         step: &mut RatedStep,
-        [begin, middle, end]: [&Rated; 3],
-        scale: &Scale,
+        [begin, middle, end]: [&Sample; 3],
         halvings: u32,
     ) {
         let parts = [begin, middle, end];
-        if halvings == 0 || self.is_smooth(fatigue, step.members, parts, scale) {
-            return self.add(fatigue, step, parts);
+        let is_smooth = self.is_smooth(fatigue, step, &parts);
+        if halvings == 0 || is_smooth {
+            return self.add(fatigue, step, &Interval { parts, is_smooth });
         }
         for [begin, end] in [[begin, middle], [middle, end]] {
-            let mut middle = Rated::default();
-            self.rate(step, 0.5 * (begin.part + end.part), &mut middle);
-            self.count_part(fatigue, step, [begin, &middle, end], scale, halvings - 1);
+            let mut middle = Sample::default();
+            sample(step, 0.5 * (begin.part + end.part), &mut middle);
+            self.count_part(fatigue, step, [begin, &middle, end], halvings - 1);
         }
     }
 
-    /// True if parabolas describe the loads and the damage of an interval.
-    fn is_smooth(&self, fatigue: &Fatigue, members: &[f64], parts: [&Rated; 3], scale: &Scale) -> bool {
-        let pitch = self.rating.pitch;
-        // fraction of the interval in which the teeth of a gear count, and the rates at which the gear turns
-        let planet = |g: usize| {
-            let step = parts[2].sample.angle.spin[g] - parts[0].sample.angle.spin[g];
-            (fatigue.planets[g].rolling.counting(step, pitch[0]), parts.map(|at| at.sample.rate.spin[g]))
-        };
-        let side = |s: usize| {
-            let of = |rolled: &Rolled| rolled.side(members, &self.rating);
-            let step = of(&parts[2].sample.angle) - of(&parts[0].sample.angle);
-            (fatigue.sides[s].rolling.counting(step, pitch[1]), parts.map(|at| of(&at.sample.rate)))
-        };
-        let mut smooth = true;
-        for_each_flank(members.len(), |g, s, flank| {
-            let bending = parts.map(|at| at.sample.mesh[g][s].flanks()[flank].bending);
-            smooth &= extremum(bending).is_none() || second_difference(bending).abs() <= BLUNT * scale.bending;
-            for (kind, (counting, rates)) in [(PLANET_ROOT, planet(g)), (PITTING, planet(g)), (SIDE_ROOT, side(s))] {
-                let damage = parts.map(|at| at.damage[g][s][flank][kind]);
-                smooth &= counting == 0.0 || is_smooth(damage, rates, counting, ROUGH * scale.damage[kind]);
-            }
-        });
-        smooth
-    }
-
-    /// Adds the damage of an interval, and the swings of the forces that bend teeth in mesh.
-    fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
-        self.watch(fatigue, step, parts);
-        let rating = &self.rating;
-        let [begin, _, end] = parts.map(|at| &at.sample);
-        let cycle = |(g, s, flank): (usize, usize, usize), far: bool, root: usize, rates: Three| {
-            let damage = |kind: usize| mean(parts.map(|at| at.damage[g][s][flank][kind]), rates);
-            Cycle { flank: loaded_flank(far, flank == 0), root: damage(root), pitting: damage(PITTING) }
-        };
-        for g in 0..step.members.len() {
-            let rates = parts.map(|at| at.sample.rate.spin[g]);
-            let of = |s: usize, flank: usize| cycle((g, s, flank), s == 1, PLANET_ROOT, rates);
-            let cycles = [of(0, 0), of(0, 1), of(1, 0), of(1, 1)];
-            fatigue.planets[g].add(end.angle.spin[g] - begin.angle.spin[g], rating.pitch[0], cycles);
-        }
-        let of_side = |rolled: &Rolled| rolled.side(step.members, rating);
-        let (angle, rates) = (of_side(&end.angle) - of_side(&begin.angle), parts.map(|at| of_side(&at.sample.rate)));
-        for s in 0..2 {
-            let cycles = step.members.iter().enumerate().flat_map(|(g, &members)| {
-                let both = [0, 1].map(|flank| cycle((g, s, flank), false, SIDE_ROOT, rates));
-                std::iter::repeat_n(both, members as usize).flatten()
-            });
-            fatigue.sides[s].add(angle, rating.pitch[1], cycles);
-        }
-        let forces = [0, 1].map(|s| {
-            parts.map(|at| {
-                let forces = at.sample.mesh[..step.members.len()].iter().map(|both| both[s].bending());
-                forces.reduce(|a, b| if b.abs() > a.abs() { b } else { a }).unwrap_or_default()
+    /// True if parabolas describe the loads of an interval.
+    fn is_smooth(&self, fatigue: &Fatigue, step: &RatedStep, parts: &[&Sample; 3]) -> bool {
+        step.planets.iter().filter(|planet| planet.represents).all(|planet| {
+            [0, 1].into_iter().all(|s| {
+                let (positions, meshes) = (planet.positions(parts, s), planet.meshes(parts, s));
+                if !self.is_single && (positions[2] - positions[0]).abs() > LONGEST_ROLL {
+                    return false;
+                }
+                let passes = |flank: usize| {
+                    let [begin, _, end] = self.rated_positions(positions, flank).map(f64::floor);
+                    begin != end || extremum(positions).is_some()
+                };
+                let are_flanks_smooth = [0, 1].into_iter().all(|flank| {
+                    let load = meshes.map(|mesh| mesh.flanks()[flank].normal_face_loaded);
+                    let largest = load.into_iter().fold(0.0, f64::max);
+                    !is_loaded_throughout(load) || !passes(flank) || second_difference(load).abs() <= ROUGH * largest
+                });
+                let mut smooth = are_flanks_smooth;
+                self.for_each_tooth(planet, s, 0, meshes, |_, stress| {
+                    smooth &= is_peak_smooth(stress, fatigue.tally.largest_stress);
+                });
+                smooth
             })
-        });
-        let (from, to) = (begin.angle.mean(step.members), end.angle.mean(step.members));
-        let planets = step.members.iter().sum::<f64>() as usize;
-        fatigue.in_mesh.add(rating, planets, to - from, forces);
+        })
     }
 
-    /// Records the largest ratios of stress to strength, and the first stresses above the strength. While a planet
-    /// rolls, its bending strength is reduced by the idler factor.
-    fn watch(&self, fatigue: &mut Fatigue, step: &RatedStep, parts: [&Rated; 3]) {
-        let rating = &self.rating;
-        let span = parts[2].part - parts[0].part;
-        for_each_flank(step.members.len(), |group, side, flank| {
-            let load =
-                |of: fn(&FlankLoad) -> f64| crest(parts.map(|at| of(&at.sample.mesh[group][side].flanks()[flank])));
-            let (bending, normal) = (load(|flank| flank.bending), load(|flank| flank.normal_face_loaded));
-            if bending.0 <= 0.0 {
-                return;
+    /// Adds an interval to the damage.
+    fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, interval: &Interval) {
+        for planet in step.planets {
+            for s in 0..2 {
+                if self.is_single && planet.represents {
+                    self.bend_tooth_in_mesh(fatigue, step, interval, (planet, s));
+                } else if !self.is_single {
+                    self.bend_pairs(fatigue, step, interval, (planet, s));
+                }
+                if planet.represents {
+                    self.pass_rated_points(fatigue, step, &interval.parts, (planet, s));
+                }
             }
-            let angle = parts[2].sample.angle.spin[group] - parts[0].sample.angle.spin[group];
-            let rolls = fatigue.planets[group].rolling.counting(angle, rating.pitch[0]) > 0.0;
-            let at = |place: f64, stress: f64, strength: f64| {
-                let time = step.begin + (parts[0].part + place * span) * step.h;
-                Overload { time, stress, strength, group, side }
-            };
-            let root = |i: usize, strength: f64| at(bending.1, rating.root[i].stress(bending.0), strength);
-            let pressure = rating.contact.rated_pressure(normal.0).unwrap_or(0.0);
-            let loads = [
-                (Stressed::PlanetRoot, root(0, rating.bending[usize::from(!rolls)].strength)),
-                (Stressed::SideRoot, root(1, rating.bending[1].strength)),
-                (Stressed::Flanks, at(normal.1, pressure, rating.pitting.strength)),
-            ];
-            for (what, load) in loads {
-                fatigue.overloads.watch(what, load);
-                fatigue.utilisation.watch(what, &load);
-            }
-        });
-    }
-
-    /// Force on the teeth that uses `share` of the strength of the weaker root [N].
-    fn force_of(&self, share: f64) -> f64 {
-        let of = |i: usize| self.rating.bending[i].strength / self.rating.root[i].per_force;
-        share * of(0).min(of(1))
-    }
-}
-
-/// True if a parabola describes the damage at these rates to within `least`. `counting` is the fraction of the interval
-/// that counts.
-fn is_smooth(damage: Three, rates: Three, counting: f64, least: f64) -> bool {
-    let rates = rates.map(f64::abs);
-    let fastest = rates.into_iter().fold(0.0, f64::max);
-    let done = [0, 1, 2].map(|k| damage[k] * rates[k]);
-    // if only a fraction of the interval counts, the load within it is unknown, so the damage must be almost constant
-    let spread = damage.into_iter().fold(0.0, f64::max) - damage.into_iter().fold(f64::INFINITY, f64::min);
-    second_difference(done).abs() <= 3.0 * least * fastest && (counting == 1.0 || spread <= least)
-}
-
-/// Visits all flanks with group, side, and 0 for drive or 1 for coast.
-fn for_each_flank(groups: usize, mut visit: impl FnMut(usize, usize, usize)) {
-    for g in 0..groups {
-        for s in 0..2 {
-            visit(g, s, 0);
-            visit(g, s, 1);
         }
+        self.watch_flanks(fatigue, step, interval);
+    }
+
+    /// Bends the teeth of all pairs of a mesh.
+    fn bend_pairs(
+        &self,
+        fatigue: &mut Fatigue,
+        step: &RatedStep,
+        interval: &Interval,
+        (planet, s): (&RatedPlanet, usize),
+    ) {
+        let meshes = planet.meshes(&interval.parts, s);
+        for gear in [0, 1] {
+            if gear == 1 || planet.represents {
+                self.for_each_tooth(planet, s, gear, meshes, |tooth, stress| {
+                    let index = self.index(fatigue, planet, s, gear, tooth);
+                    self.bend(fatigue, (step, interval), (index, gear, planet, s), (stress, [0.0, 1.0], 1.0));
+                });
+            }
+        }
+    }
+
+    /// Visits the teeth of `gear` (0 planet, 1 side gear) in the pairs of a mesh, with their root stress at the three
+    /// instants [Pa], positive under load on flank 0.
+    fn for_each_tooth(
+        &self,
+        planet: &RatedPlanet,
+        s: usize,
+        gear: usize,
+        meshes: [&MeshLoad; 3],
+        mut visit: impl FnMut(usize, Three),
+    ) {
+        let (mut teeth, mut count) = ([(0, [0.0; 3]); MOST_TEETH], 0);
+        for (instant, mesh) in meshes.into_iter().enumerate() {
+            for pair in mesh.pairs() {
+                let tooth = if self.is_single { 0 } else { pair.teeth[gear] };
+                let known = teeth[..count].iter().position(|(known, _)| *known == tooth);
+                let place = known.unwrap_or_else(|| {
+                    (teeth[count], count) = ((tooth, [0.0; 3]), count + 1);
+                    count - 1
+                });
+                let flank = loaded_flank(gear == 0 && s == 1, pair.drives);
+                teeth[place].1[instant] += if flank == 0 { pair.stress[gear] } else { -pair.stress[gear] };
+            }
+        }
+        let ahead = if gear == 1 { planet.ahead[s] } else { 0 };
+        teeth[..count].iter().for_each(|&(tooth, stress)| visit(tooth + ahead, stress));
+    }
+
+    /// Index of the history of a tooth.
+    fn index(&self, fatigue: &Fatigue, planet: &RatedPlanet, s: usize, gear: usize, tooth: usize) -> usize {
+        if gear == 0 { fatigue.of_planet(planet.histories, tooth) } else { fatigue.of_side(s, tooth) }
+    }
+
+    /// Bends the tooth that represents a mesh with one spring, and the teeth that enter the mesh.
+    fn bend_tooth_in_mesh(
+        &self,
+        fatigue: &mut Fatigue,
+        step: &RatedStep,
+        interval: &Interval,
+        (planet, s): (&RatedPlanet, usize),
+    ) {
+        let (positions, meshes) = (planet.positions(&interval.parts, s), planet.meshes(&interval.parts, s));
+        let mut stresses = [[0.0; 3]; 2];
+        for gear in [0, 1] {
+            self.for_each_tooth(planet, s, gear, meshes, |_, stress| stresses[gear] = stress);
+        }
+        let bend = |fatigue: &mut Fatigue, tooth: i64, span: Option<[f64; 2]>, weight: f64| {
+            for member in step.planets.iter().filter(|member| member.histories == planet.histories) {
+                let teeth = step.numbers.teeth(PairName { planet: member.planet, side: s, flank: Flank::Drive, tooth });
+                for gear in [0, 1] {
+                    if gear == 1 || member.represents {
+                        let index = self.index(fatigue, member, s, gear, teeth[gear]);
+                        let (stress, span) = span.map_or(([0.0; 3], [0.0; 2]), |span| (stresses[gear], span));
+                        self.bend(fatigue, (step, interval), (index, gear, member, s), (stress, span, weight));
+                    }
+                }
+            }
+        };
+        let mut rolling = fatigue.tally.meshes[planet.histories][s].in_mesh;
+        let before = rolling.tooth;
+        let (mut tooth, mut from, mut weight) = (rolling.at(positions[0], planet.shift[s]), 0.0, 1.0);
+        if let Some(left) = before.filter(|&before| before != tooth) {
+            bend(fatigue, left, None, 1.0);
+            bend(fatigue, tooth, None, 1.0);
+        }
+        rolling.roll(positions, planet.shift[s], |passing| {
+            bend(fatigue, tooth, Some([from, passing.part]), weight);
+            bend(fatigue, tooth, None, weight);
+            (tooth, from, weight) = (passing.tooth, passing.part, passing.weight);
+            bend(fatigue, tooth, None, weight);
+        });
+        bend(fatigue, tooth, Some([from, 1.0]), weight);
+        fatigue.tally.meshes[planet.histories][s].in_mesh = rolling;
+    }
+
+    /// Bends the tooth with the history `index` under a `stress` [Pa] during a span of an interval. The cycles count
+    /// `weight` times.
+    fn bend(
+        &self,
+        fatigue: &mut Fatigue,
+        (step, interval): (&RatedStep, &Interval),
+        (index, gear, planet, side): (usize, usize, &RatedPlanet, usize),
+        (stress, [from, to], weight): (Three, [f64; 2], f64),
+    ) {
+        let bending = &self.rating.bending;
+        let tooth = fatigue.tooth_mut(index);
+        let within = |part: f64| part > from && part < to;
+        let turn = extremum(stress).filter(|_| interval.is_smooth && is_loaded_throughout(stress));
+        let turn = turn.map(|(_, part)| part).filter(|&part| within(part));
+        let middle = Some(0.5).filter(|&part| within(part));
+        let between = if turn < middle { [turn, middle] } else { [middle, turn] };
+        let (mut largest, mut when) = (0.0f64, from);
+        for part in [Some(from), between[0], between[1], Some(to)].into_iter().flatten() {
+            let now = load_at(stress, part);
+            let found = now.abs().max(tooth.bend(bending, now, weight));
+            if found > largest {
+                (largest, when) = (found, part);
+            }
+        }
+        if largest > fatigue.tally.largest_stress {
+            fatigue.tally.largest_stress = largest;
+        }
+        let what = if gear == 0 { Stressed::PlanetRoot } else { Stressed::SideRoot };
+        let load = Overload {
+            time: time(step, interval, when),
+            stress: largest,
+            strength: bending.curve.strength,
+            group: planet.histories,
+            side,
+        };
+        fatigue.tally.watch(what, load);
+    }
+
+    /// Removes the load from teeth that no pair of `begin` loads. Loads jump where the inputs do.
+    fn unload_others(&self, fatigue: &mut Fatigue, step: &RatedStep, begin: &Sample) {
+        if self.is_single {
+            return;
+        }
+        let (mut loaded, mut count) = ([0; MAX_PLANETS * 2 * 2 * MOST_TEETH], 0);
+        for planet in step.planets {
+            for (s, gear) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                self.for_each_tooth(planet, s, gear, [&begin.mesh[planet.loads][s]; 3], |tooth, _| {
+                    loaded[count] = self.index(fatigue, planet, s, gear, tooth);
+                    count += 1;
+                });
+            }
+        }
+        for index in 0..fatigue.len() {
+            if fatigue.tooth(index).is_loaded() && !loaded[..count].contains(&index) {
+                fatigue.tooth_mut(index).bend(&self.rating.bending, 0.0, 1.0);
+            }
+        }
+    }
+
+    /// Positions of the contact of a flank relative to the rated point of tooth 0, in pitches.
+    fn rated_positions(&self, positions: Three, flank: usize) -> Three {
+        positions.map(|position| if flank == 0 { position + self.rated_point } else { position - self.rated_point })
+    }
+
+    /// Counts the passages of the contact over the rated points of the flanks of a mesh.
+    fn pass_rated_points(
+        &self,
+        fatigue: &mut Fatigue,
+        step: &RatedStep,
+        parts: &[&Sample; 3],
+        (planet, s): (&RatedPlanet, usize),
+    ) {
+        let (positions, meshes) = (planet.positions(parts, s), planet.meshes(parts, s));
+        let MeshRolling { mut rated, .. } = fatigue.tally.meshes[planet.histories][s];
+        for (number, flank) in [Flank::Drive, Flank::Coast].into_iter().enumerate() {
+            let force = meshes.map(|mesh| mesh.flanks()[number].normal_face_loaded);
+            rated[number].pass(self.rated_positions(positions, number), planet.shift[s], |passing| {
+                self.pass(fatigue, step, (planet, s, flank), (force, &passing));
+            });
+        }
+        fatigue.tally.meshes[planet.histories][s].rated = rated;
+    }
+
+    /// Counts a passage of the contact over the rated point of a `flank` in the mesh of side `s`, under the `force` [N]
+    /// during the interval.
+    fn pass(
+        &self,
+        fatigue: &mut Fatigue,
+        step: &RatedStep,
+        (planet, s, flank): (&RatedPlanet, usize, Flank),
+        (force, passing): (Three, &Passing),
+    ) {
+        let force = load_at(force, passing.part);
+        let pressure = self.rating.contact.rated_pressure(force).unwrap_or(0.0);
+        let damage = passing.weight * self.rating.pitting.damage_per_cycle(pressure);
+        if damage == 0.0 {
+            return;
+        }
+        let drives = flank == Flank::Drive;
+        for member in step.planets.iter().filter(|member| member.histories == planet.histories) {
+            let name = PairName { planet: member.planet, side: s, flank, tooth: passing.tooth };
+            let teeth = step.numbers.teeth(name);
+            if member.represents {
+                let index = fatigue.of_planet(member.histories, teeth[0]);
+                fatigue.tooth_mut(index).pass(loaded_flank(s == 1, drives), damage);
+            }
+            let index = fatigue.of_side(s, teeth[1]);
+            fatigue.tooth_mut(index).pass(loaded_flank(false, drives), damage);
+        }
+    }
+
+    /// Records the largest ratios of contact stress to strength, and the first contact stress above the strength.
+    fn watch_flanks(&self, fatigue: &mut Fatigue, step: &RatedStep, interval: &Interval) {
+        for planet in step.planets.iter().filter(|planet| planet.represents) {
+            for side in 0..2 {
+                for flank in 0..2 {
+                    let load = planet.meshes(&interval.parts, side).map(|mesh| mesh.flanks()[flank].normal_face_loaded);
+                    let (force, part) =
+                        if interval.is_smooth && is_loaded_throughout(load) { crest(load) } else { largest(load) };
+                    let load = Overload {
+                        time: time(step, interval, part),
+                        stress: self.rating.contact.rated_pressure(force).unwrap_or(0.0),
+                        strength: self.rating.pitting.strength,
+                        group: planet.histories,
+                        side,
+                    };
+                    fatigue.tally.watch(Stressed::Flanks, load);
+                }
+            }
+        }
+    }
+}
+
+/// Writes the sample at the fraction `part` of the step.
+fn sample(step: &mut RatedStep, part: f64, to: &mut Sample) {
+    to.part = part;
+    (step.sample)(part, to);
+}
+
+/// Time at the fraction `part` of an interval [s].
+fn time(step: &RatedStep, interval: &Interval, part: f64) -> f64 {
+    let [begin, _, end] = interval.parts.map(|at| at.part);
+    step.begin + (begin + part * (end - begin)) * step.h
+}
+
+/// True if a parabola describes the peak of the root stress of a tooth; `scale` is the largest root stress so far [Pa].
+fn is_peak_smooth(stress: Three, scale: f64) -> bool {
+    if !is_loaded_throughout(stress) || extremum(stress).is_none() {
+        return true;
+    }
+    let peak = stress.into_iter().map(f64::abs).fold(0.0, f64::max);
+    let ratio = (scale / peak).max(1.0);
+    second_difference(stress).abs() <= BLUNT * peak * ratio * (ratio * ratio) * (ratio * ratio)
+}
+
+/// Largest value, and the fraction of the interval at which it was sampled.
+fn largest(values: Three) -> (f64, f64) {
+    let [begin, middle, end] = values;
+    if middle >= begin && middle >= end {
+        (middle, 0.5)
+    } else if begin > end {
+        (begin, 0.0)
+    } else {
+        (end, 1.0)
     }
 }

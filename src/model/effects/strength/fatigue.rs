@@ -1,68 +1,186 @@
-//! Damage of the teeth of a running differential.
+//! Damage of the teeth of a running differential: the history of each tooth, and the largest stresses.
+//!
+//! The histories are in memory that is allocated once, at the start. A step that is rejected, or that is completed only
+//! to read outputs, is taken back: the histories that it changed were copied before.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::overload::Overloads;
+use super::overload::{Overload, Overloads, Stressed};
 use super::utilisation::Utilisation;
 use crate::model::scene::MAX_GROUPS;
-use crate::numeric::finite;
-use crate::strength::{Damage, FlankDamage, Rating, TeethInMesh, ToothDamage};
+use crate::numeric::{Finite, finite};
+use crate::strength::{Bending, RatedPoint, Rating, ToothHistory, ToothInMesh};
 
-/// Damage of the teeth so far.
+/// Rolling of the planets of a group in the mesh with one side gear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Fatigue {
-    /// Planets, by group.
-    pub planets: [ToothDamage; MAX_GROUPS],
-    /// Side gears.
-    pub sides: [ToothDamage; 2],
-    /// Swings of the load while teeth are in mesh.
-    pub in_mesh: TeethInMesh,
+pub struct MeshRolling {
+    /// Passages over the rated points of drive and coast flanks.
+    pub rated: [RatedPoint; 2],
+    /// Tooth in mesh, if one spring represents the whole mesh.
+    pub in_mesh: ToothInMesh,
+}
+
+/// Everything of the damage but the histories of the teeth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Rolling in the meshes, by group of planets and side.
+    pub meshes: [[MeshRolling; 2]; MAX_GROUPS],
     /// Stresses that exceeded their strength.
     pub overloads: Overloads,
     /// Largest ratios of stress to strength.
     pub utilisation: Utilisation,
+    /// Largest root stress so far [Pa].
+    pub largest_stress: f64,
     /// Time from which damage and stresses count [s].
     pub from: f64,
     /// True if the run did not start in equilibrium, and damage and stresses count from this start.
     pub counts_start: bool,
 }
 
-finite!(Fatigue { planets, sides, in_mesh, overloads, utilisation, from; counts_start });
+finite! {
+    MeshRolling { rated, in_mesh }
+    Tally { meshes, overloads, utilisation, largest_stress, from; counts_start }
+}
+
+impl Tally {
+    /// Records a `load` if it is the first of its kind above the strength, or has the largest ratio of stress to
+    /// strength.
+    pub fn watch(&mut self, what: Stressed, load: Overload) {
+        self.overloads.watch(what, load);
+        self.utilisation.watch(what, &load);
+    }
+}
+
+/// Damage of the teeth so far.
+#[derive(Debug)]
+pub struct Fatigue {
+    /// Everything but the histories.
+    pub tally: Tally,
+    /// The tally at the last checkpoint.
+    tally_before: Tally,
+    teeth: Vec<ToothHistory>,
+    /// Histories before their first change since the last checkpoint, with their indices.
+    undo: Vec<(usize, ToothHistory)>,
+    /// For each tooth, the number of the checkpoint after which it last changed.
+    changed: Vec<u64>,
+    /// Number of the last checkpoint.
+    checkpoint: u64,
+    /// Numbers of teeth of planet and side gear.
+    counts: [usize; 2],
+}
 
 impl Fatigue {
-    /// Damage of a run that begins at `start` [s] and is rated from `later` [s] after that. `in_equilibrium` is true if
-    /// the run begins in equilibrium.
-    pub fn new(start: f64, later: f64, in_equilibrium: bool) -> Self {
-        Self { from: start + later, counts_start: later == 0.0 && !in_equilibrium, ..Self::default() }
+    /// Damage of the gears of `rating` with `groups` groups of planets, in a run that begins at `start` [s] and is rated
+    /// from `later` [s] after that. `in_equilibrium` is true if the run begins in equilibrium.
+    pub fn new(rating: &Rating, groups: usize, (start, later): (f64, f64), in_equilibrium: bool) -> Self {
+        let counts_start = later == 0.0 && !in_equilibrium;
+        let tally = Tally { from: start + later, counts_start, ..Tally::default() };
+        let [planet, side] = rating.teeth;
+        Self::of(tally, vec![ToothHistory::new(&rating.bending); groups * planet + 2 * side], rating.teeth)
     }
 
-    /// Mean damage per cycle so far: of the worst planet's root, the worse side gear's root, and the worst flank.
-    pub fn worst_per_cycle(&self) -> [f64; 3] {
-        let worst = |gears: &[ToothDamage], of: fn(&FlankDamage) -> &Damage| {
-            gears.iter().flat_map(|gear| &gear.flanks).map(|flank| of(flank).per_cycle()).fold(0.0, f64::max)
-        };
-        let pitting = |gears| worst(gears, |flank| &flank.pitting);
-        [
-            worst(&self.planets, |flank| &flank.root),
-            worst(&self.sides, |flank| &flank.root),
-            pitting(&self.planets).max(pitting(&self.sides)),
-        ]
+    fn of(tally: Tally, teeth: Vec<ToothHistory>, counts: [usize; 2]) -> Self {
+        let (undo, changed) = (Vec::with_capacity(teeth.len()), vec![0; teeth.len()]);
+        Self { tally, tally_before: tally, teeth, undo, changed, checkpoint: 1, counts }
     }
 
-    /// Damage sums of the worst teeth: roots of the worst planet and side gear, then their flanks. `planets` is the
-    /// number of planets.
-    pub fn sums(&self, rating: &Rating, planets: usize) -> [f64; 4] {
-        let worst = |gears: &[ToothDamage], of: fn(&ToothDamage) -> f64| gears.iter().map(of).fold(0.0, f64::max);
-        let root = |gear: &ToothDamage, swings: [f64; 2]| {
-            let [one, other] = &gear.flanks;
-            (one.root.sum + swings[0]).max(other.root.sum + swings[1])
-        };
-        let (of_planets, of_sides) = self.in_mesh.worst(rating, planets);
-        [
-            self.planets.iter().map(|planet| root(planet, of_planets)).fold(0.0, f64::max),
-            self.sides.iter().zip(of_sides).map(|(side, swings)| root(side, swings)).fold(0.0, f64::max),
-            worst(&self.planets, ToothDamage::worst_pitting),
-            worst(&self.sides, ToothDamage::worst_pitting),
-        ]
+    /// True if this is the damage of the gears of `rating` with `groups` groups of planets.
+    pub fn fits(&self, rating: &Rating, groups: usize) -> bool {
+        let [planet, side] = rating.teeth;
+        self.counts == rating.teeth && self.teeth.len() == groups * planet + 2 * side
+    }
+
+    /// Index of a planet's tooth, by group of planets.
+    pub fn of_planet(&self, group: usize, tooth: usize) -> usize {
+        group * self.counts[0] + tooth
+    }
+
+    /// Index of a side gear's tooth. The number of the tooth may be any number of turns too large.
+    pub fn of_side(&self, side: usize, tooth: usize) -> usize {
+        self.teeth.len() - (2 - side) * self.counts[1] + tooth % self.counts[1].max(1)
+    }
+
+    /// Number of teeth.
+    pub fn len(&self) -> usize {
+        self.teeth.len()
+    }
+
+    /// History of a tooth.
+    pub fn tooth(&self, index: usize) -> &ToothHistory {
+        &self.teeth[index]
+    }
+
+    /// History of a tooth, to be changed.
+    pub fn tooth_mut(&mut self, index: usize) -> &mut ToothHistory {
+        let tooth = &mut self.teeth[index];
+        if self.changed[index] != self.checkpoint {
+            self.changed[index] = self.checkpoint;
+            self.undo.push((index, *tooth));
+        }
+        tooth
+    }
+
+    /// Remembers the present damage for [`Self::roll_back`].
+    pub fn set_checkpoint(&mut self) {
+        self.tally_before = self.tally;
+        self.checkpoint += 1;
+        self.undo.clear();
+    }
+
+    /// Returns to the damage at the last checkpoint.
+    pub fn roll_back(&mut self) {
+        self.tally = self.tally_before;
+        for (index, tooth) in self.undo.drain(..) {
+            self.teeth[index] = tooth;
+        }
+        self.checkpoint += 1;
+    }
+
+    /// Miner sums of the worst teeth: roots of planets and side gears, then their flanks. Also the largest stress [Pa]
+    /// of a pulsating cycle that does the damage of a cycle that is still open.
+    pub fn worst(&self, bending: &Bending) -> ([f64; 4], f64) {
+        let (mut sums, mut largest) = ([0.0f64; 4], 0.0f64);
+        let sides = self.of_side(0, 0);
+        for (index, tooth) in self.teeth.iter().enumerate() {
+            let (roots, open) = tooth.roots(bending);
+            let gear = usize::from(index >= sides);
+            for (sum, of) in [(gear, roots), (2 + gear, tooth.flanks())] {
+                sums[sum] = sums[sum].max(of[0]).max(of[1]);
+            }
+            largest = largest.max(open);
+        }
+        (sums, largest)
+    }
+}
+
+impl Clone for Fatigue {
+    /// Copies the damage. The copy has its own memory for checkpoints.
+    fn clone(&self) -> Self {
+        Self::of(self.tally, self.teeth.clone(), self.counts)
+    }
+}
+
+impl PartialEq for Fatigue {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.tally, &self.teeth, self.counts) == (&other.tally, &other.teeth, other.counts)
+    }
+}
+
+impl Finite for Fatigue {
+    fn is_finite(&self) -> bool {
+        self.tally.is_finite() && self.teeth.iter().all(Finite::is_finite)
+    }
+}
+
+impl Serialize for Fatigue {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        (&self.tally, &self.teeth, self.counts).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Fatigue {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (tally, teeth, counts) = Deserialize::deserialize(deserializer)?;
+        Ok(Self::of(tally, teeth, counts))
     }
 }

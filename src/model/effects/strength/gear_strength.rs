@@ -1,11 +1,14 @@
 //! Rating constants of the gears, and the readings of stress, damage and safety factors.
 
+use super::mesh_load::BentPair;
+use super::utilisation::safety;
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
-use crate::contact::ToothLoad;
 use crate::contact::detailed::{Detailed, SliceLoad};
 use crate::contact::pair_load::PairLoad;
 use crate::contact::tooth_friction::{Sliding, ToothFriction};
+use crate::contact::{Flank, ToothLoad};
 use crate::model::effect_kinds::Setting;
+use crate::model::scene::GearContact;
 use crate::model::thermal::{GEARS, NODES, OIL};
 use crate::problem::Problem;
 use crate::strength::Rating;
@@ -30,6 +33,11 @@ pub struct GearStrength {
     application: f64,
     /// Mean cone distance [m].
     mean_cone: f64,
+    /// True if one spring represents all teeth of a mesh.
+    pub(super) is_single: bool,
+    /// Position of the rated point on the path of contact, from the position at which the planet's tooth is in the middle
+    /// of the mesh, in pitches.
+    pub(super) rated_point: f64,
     flash: Flash,
     /// Contact temperature at which flanks scuff [K].
     scuffing: f64,
@@ -49,11 +57,30 @@ impl GearStrength {
             ));
         };
         let flash = Flash { modulus: rating.contact.modulus, coefficient: spec.thermal_contact_coefficient };
-        let (application, mean_cone) = (spec.application_factor, setting.pair.mean_cone);
-        Ok(Self { rating, application, mean_cone, flash, scuffing: spec.scuffing_temperature })
+        let pair = setting.pair;
+        Ok(Self {
+            rating,
+            application: spec.application_factor,
+            mean_cone: pair.mean_cone,
+            is_single: setting.scene.gear_contact == GearContact::Lumped,
+            rated_point: (rating.contact.rated_position() - pair.centred_position()) / pair.base_pitch,
+            flash,
+            scuffing: spec.scuffing_temperature,
+        })
     }
 
-    /// Adds the load of a pair to the load of its mesh.
+    /// Damage of these gears with `groups` groups of planets, as in [`Fatigue::new`].
+    pub fn fatigue(&self, groups: usize, times: (f64, f64), in_equilibrium: bool) -> Fatigue {
+        Fatigue::new(&self.rating, groups, times, in_equilibrium)
+    }
+
+    /// True if `fatigue` is the damage of these gears with `groups` groups of planets.
+    pub fn fits(&self, fatigue: &Fatigue, groups: usize) -> bool {
+        fatigue.fits(&self.rating, groups)
+    }
+
+    /// Adds the load of a pair to the load of its mesh. The stress of a root follows from the force of the pair and the
+    /// height at which it acts. One spring for all teeth has no pairs: its stress is that of method B1.
     pub fn add_load(&self, mesh: &mut MeshLoad, load: &PairLoad) {
         let moment = self.application * load.moment;
         let flank = mesh.flank(load.flank);
@@ -61,7 +88,13 @@ impl GearStrength {
         flank.normal += force;
         flank.normal_face_loaded += force * load.face_factor;
         // the root formula needs the force at the mean cone distance
-        flank.bending += moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
+        let bending = moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
+        let stress = self
+            .rating
+            .root
+            .each_ref()
+            .map(|root| bending.max(0.0) * if self.is_single { root.per_force } else { root.per_force_at(load.s) });
+        mesh.add_pair(BentPair { drives: load.flank == Flank::Drive, teeth: load.teeth, stress });
     }
 
     /// Raises the pressure of a mesh to the pressure of one of its pairs. This pressure is only a reading; no rating
@@ -89,8 +122,8 @@ impl GearStrength {
             let stresses = [
                 mesh.largest(|flank| flank.pressure),
                 mesh.largest(|flank| self.rating.contact.pressure(flank.normal, 0.0).unwrap_or(0.0)),
-                mesh.largest(|flank| self.rating.root[0].stress(flank.bending)),
-                mesh.largest(|flank| self.rating.root[1].stress(flank.bending)),
+                mesh.root_stress(0),
+                mesh.root_stress(1),
                 mesh.largest(|flank| self.rated_pressure(flank)),
             ];
             for (reading, stress) in readings.iter_mut().zip(stresses) {
@@ -118,11 +151,14 @@ impl GearStrength {
         readings[STRESSES..].copy_from_slice(&[flash, contact, if is_warmer { safety } else { MOST_SAFETY }]);
     }
 
-    /// Sets the readings of damage and of the safety factors, with `planets` planets.
-    pub fn read_damage(&self, fatigue: &Fatigue, planets: usize, readings: &mut [f64]) {
-        let (damage, safety) = readings.split_at_mut(DAMAGES);
-        damage.copy_from_slice(&fatigue.sums(&self.rating, planets));
-        safety.copy_from_slice(&fatigue.utilisation.safety());
+    /// Sets the readings of damage and of the safety factors.
+    pub fn read_damage(&self, fatigue: &Fatigue, readings: &mut [f64]) {
+        let (sums, open) = fatigue.worst(&self.rating.bending);
+        let (damage, safeties) = readings.split_at_mut(DAMAGES);
+        damage.copy_from_slice(&sums);
+        let utilisation = &fatigue.tally.utilisation;
+        let root = utilisation.root.share.max(open / self.rating.bending.curve.strength);
+        safeties.copy_from_slice(&[safety(root), utilisation.flank.safety()]);
     }
 
     /// Pressure by which pitting of a flank is rated [Pa].

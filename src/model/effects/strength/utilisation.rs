@@ -34,7 +34,7 @@ finite! {
 impl LargestRatio {
     /// Safety factor: strength over stress.
     pub fn safety(&self) -> f64 {
-        1.0 / self.share.max(1.0 / MOST)
+        safety(self.share)
     }
 }
 
@@ -47,9 +47,9 @@ impl Utilisation {
             *largest = LargestRatio { share, time: load.time };
         }
     }
+}
 
-    /// Safety factors of roots and flanks: strength over the largest stress so far.
-    pub fn safety(&self) -> [f64; 2] {
-        [self.root.safety(), self.flank.safety()]
-    }
+/// Safety factor of a ratio of stress to strength.
+pub fn safety(share: f64) -> f64 {
+    1.0 / share.max(1.0 / MOST)
 }
