@@ -6,18 +6,19 @@ import numpy as np
 import pytest
 from bevel_differential import Differential
 
-STEPS = [None, 0.1, 1e-3]
+STEPS = [None, 1.0, 0.1, 1e-3]
 STOP = 1.0
 # values below this limit (SI) are the rounding of zero
 ROUNDING = 1e-9
 LOADS = ["left.load_torque", "right.load_torque"]
-STRENGTH = {"effects.strength": True, "effects.mesh_history": True}
+# accelerations are small differences of tooth forces, so the solver needs a smaller tolerance than the comparison
+STRENGTH = {"effects.strength": True, "effects.mesh_history": True, "solver.relative_tolerance": 1e-7}
 # both wheels turn by themselves behind half-shafts, so that shaft torques are means over mesh cycles
 SHAFTS = {"effects.half_shaft": True, "inertia.left_end": 1.0, "inertia.right_end": 1.0, "half_shaft.left_damping": 20.0,
           "half_shaft.right_damping": 20.0}
 BY_TORQUE = {"scene.carrier_drive": "torque", "carrier.torque_command": 900.0, "inertia.carrier": 0.3, "carrier.speed_command": 30.0}
-# the difference of the wheels' speeds is imposed, so the clutches slide all the time
-SLIPPING = {"scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 43.0, "right.speed_command": 37.0,
+# the difference of the wheels' speeds is imposed, so the clutches slide all the time, and a step spans several mesh cycles
+SLIPPING = {"scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 60.0, "right.speed_command": 20.0,
             "carrier.speed_command": 40.0}
 CLUTCHES = {"effects.limited_slip": True, "limited_slip.preload": 50.0, "limited_slip.torque_coefficient": 0.1}
 HEAT = {"effects.warm_up": True, "effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5, "bearing_drag.carrier_churning": 1e-4}
@@ -37,12 +38,12 @@ def loads(*points):
 SCENES = {
     "torque over slipping clutches": (
         BY_TORQUE | SLIPPING | CLUTCHES | {"carrier.torque_command": 1600.0},
-        {"carrier.torque_command": table((0, 1600), (0.35, 1500), (0.81, 400), (1, 300))}),
+        {"carrier.torque_command": table((0, 1600), (0.12, 1550), (1, 300))}),
     "half-shafts in a turn": (
         TURN | SHAFTS, loads((0, 300), (0.25, 800), (0.333, 500), (1, 700))),
     "wheels by speed, warm clutches": (
         BY_TORQUE | SLIPPING | CLUTCHES | HEAT,
-        {"left.speed_command": table((0, 43), (0.45, 47), (1, 44)), "carrier.torque_command": table((0, 900), (0.62, 1400), (1, 1100))}),
+        {"left.speed_command": table((0, 60), (0.45, 64), (1, 61)), "carrier.torque_command": table((0, 900), (0.62, 1400), (1, 1100))}),
     "free wheels behind half-shafts": (
         BY_TORQUE | SHAFTS | HEAT | dict.fromkeys(LOADS, 300.0),
         {"left.load_torque": table((0, 300), (0.15, 300), (0.417, 480), (0.7, 350), (1, 350))}),
