@@ -185,8 +185,7 @@ mod tests {
     #[test]
     fn a_contact_that_rocks_about_the_rated_point_passes_once() {
         for way in [1.0, -1.0] {
-            let rocking =
-                |reach: f64| (0..20).map(|i| way * if i % 2 == 0 { -reach } else { reach }).collect::<Vec<_>>();
+            let rocking = |reach: f64| (0..20).map(|i| way * if i % 2 == 0 { -reach } else { reach }).collect::<Vec<_>>();
             assert_eq!(passed(&rocking(0.9 * WIDTH)).len(), 1);
             assert_eq!(passed(&rocking(1.1 * WIDTH)).len(), 19);
         }

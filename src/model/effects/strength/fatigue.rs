@@ -9,7 +9,7 @@ use super::overload::{Overload, Overloads, Stressed};
 use super::utilisation::Utilisation;
 use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Finite, finite};
-use crate::strength::{Bending, RatedPoint, Rating, ToothHistory, ToothInMesh};
+use crate::strength::{Bending, Rating, RatedPoint, ToothHistory, ToothInMesh};
 
 /// Rolling of the planets of a group in the mesh with one side gear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
