@@ -45,7 +45,13 @@ pub fn reaching(values: Three, value: f64, [from, to]: [f64; 2]) -> f64 {
     let nearest = |a: f64, b: f64| if (b - middle).abs() < (a - middle).abs() { b } else { a };
     let part = match [q / bend, start / q] {
         [a, b] if a.is_finite() && b.is_finite() => nearest(a, b),
-        [a, b] => if a.is_finite() { a } else { b },
+        [a, b] => {
+            if a.is_finite() {
+                a
+            } else {
+                b
+            }
+        }
     };
     if part.is_nan() { middle } else { part.clamp(from, to) }
 }

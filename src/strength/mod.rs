@@ -27,4 +27,4 @@ pub use rating::Rating;
 pub use rolling::{Passing, RatedPoint, ToothInMesh};
 pub use root_stress::RootStressFactors;
 pub use tooth_form::{Profile, ToothForm};
-pub use tooth_history::{Bending, ToothHistory, loaded_flank};
+pub use tooth_history::{Bending, RootDamage, ToothHistory, loaded_flank};

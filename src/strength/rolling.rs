@@ -120,11 +120,13 @@ impl ToothInMesh {
         }
     }
 
-    /// Calls `change` with each tooth that enters the mesh within an interval. `positions` and `shift` are those of
-    /// [`RatedPoint::pass`], relative to the middle of the mesh. [`Self::at`] has returned the first tooth.
-    pub fn roll(&mut self, positions: Three, shift: i64, mut change: impl FnMut(Passing)) {
-        let mut tooth = self.at(positions[0], shift);
-        for span in monotonic_spans(positions) {
+    /// Calls `change` with each tooth that enters the mesh in the span `[from, until]` of an interval. `positions` and
+    /// `shift` are those of [`RatedPoint::pass`], relative to the middle of the mesh. [`Self::at`] has returned the first
+    /// tooth.
+    pub fn roll(&mut self, positions: Three, shift: i64, [from, until]: [f64; 2], mut change: impl FnMut(Passing)) {
+        let mut tooth = self.at(at(positions, from), shift);
+        let spans = monotonic_spans(positions).map(|[begin, end]| [begin.max(from), end.min(until)]);
+        for span in spans.filter(|[begin, end]| begin < end) {
             let [begin, end] = span.map(|part| at(positions, part));
             let way = if end < begin { -1.0 } else { 1.0 };
             let middle = tooth.wrapping_sub(shift) as f64;
@@ -163,7 +165,9 @@ mod tests {
     fn entered(places: &[f64]) -> Vec<i64> {
         let (mut mesh, mut teeth) = (ToothInMesh::default(), Vec::new());
         for pair in places.windows(2) {
-            mesh.roll([pair[0], 0.5 * (pair[0] + pair[1]), pair[1]], 0, |passing| teeth.push(passing.tooth));
+            mesh.roll([pair[0], 0.5 * (pair[0] + pair[1]), pair[1]], 0, [0.0, 1.0], |passing| {
+                teeth.push(passing.tooth)
+            });
         }
         teeth
     }
@@ -185,7 +189,8 @@ mod tests {
     #[test]
     fn a_contact_that_rocks_about_the_rated_point_passes_once() {
         for way in [1.0, -1.0] {
-            let rocking = |reach: f64| (0..20).map(|i| way * if i % 2 == 0 { -reach } else { reach }).collect::<Vec<_>>();
+            let rocking =
+                |reach: f64| (0..20).map(|i| way * if i % 2 == 0 { -reach } else { reach }).collect::<Vec<_>>();
             assert_eq!(passed(&rocking(0.9 * WIDTH)).len(), 1);
             assert_eq!(passed(&rocking(1.1 * WIDTH)).len(), 19);
         }
@@ -218,12 +223,12 @@ mod tests {
             });
             assert!(visits <= 4097 && (weights / end.abs() - 1.0).abs() < 1e-3, "{end}: {visits} {weights}");
             let mut entries = 0;
-            ToothInMesh::default().roll([0.1, 0.5 * end, end], 0, |_| entries += 1);
+            ToothInMesh::default().roll([0.1, 0.5 * end, end], 0, [0.0, 1.0], |_| entries += 1);
             assert!(entries <= 4097, "{end}: {entries}");
         }
         for bad in [f64::NAN, f64::INFINITY] {
             RatedPoint::default().pass([0.0, bad, 2.0], 0, |passing| assert!(passing.part >= 0.0));
-            ToothInMesh::default().roll([0.0, 1.0, bad], 0, |passing| assert!(passing.part >= 0.0));
+            ToothInMesh::default().roll([0.0, 1.0, bad], 0, [0.0, 1.0], |passing| assert!(passing.part >= 0.0));
         }
     }
 }

@@ -44,19 +44,36 @@ impl Bending {
 }
 
 /// Load history and damage of one tooth. The type is `Copy` and allocates nothing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub struct ToothHistory {
     /// Root stress, positive under load on flank 0 [Pa].
     stress: Rainflow,
     /// Miner sums of both roots by closed cycles.
     closed: [f64; 2],
-    /// Miner sums of both roots when the tooth last left the mesh, with its open cycles.
-    outside: [f64; 2],
     /// Miner sums of both flanks.
     flanks: [f64; 2],
+    /// Damage of the roots as last computed; `None` after a change.
+    #[serde(skip)]
+    known: Option<RootDamage>,
 }
 
-finite!(ToothHistory { stress, closed, outside, flanks });
+/// Damage of the roots of a tooth, open cycles included.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RootDamage {
+    /// Miner sums of both roots.
+    pub sums: [f64; 2],
+    /// Largest stress [Pa] of a pulsating cycle that does the damage of an open cycle.
+    pub largest_open: f64,
+}
+
+finite!(ToothHistory { stress, closed, flanks; known });
+
+impl PartialEq for ToothHistory {
+    /// Compares what does not follow from the rest.
+    fn eq(&self, other: &Self) -> bool {
+        (&self.stress, self.closed, self.flanks) == (&other.stress, other.closed, other.flanks)
+    }
+}
 
 impl ToothHistory {
     /// Returns a tooth without load under the strength `bending`.
@@ -71,16 +88,11 @@ impl ToothHistory {
 
     /// Adds a root `stress` [Pa], positive under load on flank 0. The cycles that it closes count `weight` times.
     /// Returns the largest stress [Pa] of a pulsating cycle that does the damage of one of these cycles, 0 without
-    /// cycles. When the tooth leaves the mesh, open cycles are included.
+    /// cycles.
     pub fn bend(&mut self, bending: &Bending, stress: f64, weight: f64) -> f64 {
-        let leaves = stress == 0.0 && self.is_loaded();
         let (closed, mut largest) = (&mut self.closed, 0.0f64);
+        self.known = None;
         self.stress.push(stress, |cycle| largest = largest.max(bending.count(closed, &cycle, weight)));
-        if leaves {
-            let open;
-            (self.outside, open) = self.with_open_cycles(bending);
-            largest = largest.max(open);
-        }
         largest
     }
 
@@ -89,21 +101,23 @@ impl ToothHistory {
         self.flanks[flank & 1] += damage;
     }
 
-    /// Miner sums of both roots, open cycles included, and the largest stress [Pa] of a pulsating cycle that does the
-    /// damage of an open cycle; this stress is 0 outside the mesh, where [`Self::bend`] has returned it.
-    pub fn roots(&self, bending: &Bending) -> ([f64; 2], f64) {
-        if self.is_loaded() { self.with_open_cycles(bending) } else { (self.outside, 0.0) }
+    /// Damage of the roots.
+    pub fn roots(&self, bending: &Bending) -> RootDamage {
+        self.known.unwrap_or_else(|| {
+            let (mut sums, mut largest_open) = (self.closed, 0.0f64);
+            self.stress.rest(|cycle| largest_open = largest_open.max(bending.count(&mut sums, &cycle, 1.0)));
+            RootDamage { sums, largest_open }
+        })
+    }
+
+    /// Remembers the damage of the roots until the next change.
+    pub fn remember(&mut self, bending: &Bending) {
+        self.known = Some(self.roots(bending));
     }
 
     /// Miner sums of both flanks.
     pub fn flanks(&self) -> [f64; 2] {
         self.flanks
-    }
-
-    fn with_open_cycles(&self, bending: &Bending) -> ([f64; 2], f64) {
-        let (mut roots, mut largest) = (self.closed, 0.0f64);
-        self.stress.rest(|cycle| largest = largest.max(bending.count(&mut roots, &cycle, 1.0)));
-        (roots, largest)
     }
 }
 

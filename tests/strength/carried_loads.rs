@@ -14,8 +14,8 @@ fn turn() -> (Parameters, Inputs) {
 
 /// Copies the simulation without its cached loads.
 fn without_cached_loads(simulation: &Simulation, p: &Parameters, i: &Inputs) -> Simulation {
-    let watched = Watched { last_loads: None, ..*simulation.watched() };
-    Simulation::resume_with(p, i, (*simulation.state(), watched), &Given::default()).unwrap()
+    let watched = Watched { last_loads: None, ..simulation.watched().clone() };
+    Simulation::resume_with(p, i, (*simulation.state(), Some(watched)), &Given::default()).unwrap()
 }
 
 #[test]

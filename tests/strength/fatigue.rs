@@ -1,5 +1,6 @@
 //! Strength of the teeth, compared with tests/data/golden_fatigue.json, the standards' closed forms and scaling laws.
 
+use crate::textbook::root;
 use bevel_differential::geometry::{GearSpec, Pair};
 use bevel_differential::strength::root_stress::{bevel_factor, contact_ratio_factor};
 use bevel_differential::strength::*;
@@ -245,40 +246,68 @@ fn damage_adds_up_and_scales_with_the_power_of_the_load() {
 }
 
 #[test]
-fn a_gear_that_rolls_counts_each_mesh_once_per_revolution_and_one_that_rocks_nothing() {
-    let r = rating(SHARP);
-    let cycle = |curve: &SnCurve, flank: usize, pressure: f64| Cycle {
-        flank,
-        root: curve.damage_per_cycle(600e6),
-        pitting: r.pitting.damage_per_cycle(pressure),
+fn a_tooth_that_meets_both_side_gears_has_the_idler_strength_and_one_that_meets_a_single_gear_pulsates() {
+    let Rating { bending, .. } = rating(SHARP);
+    let (material, stress) = (ToothStrength::default(), 600e6);
+    let roots = |stresses: [f64; 2], revolutions: usize| {
+        let mut tooth = ToothHistory::new(&bending);
+        tooth.bend(&bending, 0.0, 1.0);
+        for stress in std::iter::repeat_n(stresses, revolutions).flatten() {
+            tooth.bend(&bending, stress, 1.0);
+            tooth.bend(&bending, 0.0, 1.0);
+        }
+        tooth.roots(&bending).sums
     };
-    let mut planet = ToothDamage::default();
-    let loads = |driving| [false, true].map(|far| cycle(&r.bending[0], loaded_flank(far, driving), 1500e6));
-    let (steps, revolutions) = (10_000, 5.0);
-    let step = revolutions * std::f64::consts::TAU / f64::from(steps);
-    for _ in 0..steps {
-        planet.add(step, r.pitch[0], loads(true));
+    for (first, second, curve) in [(1.0, -1.0, material.idler_bending()), (1.0, 0.0, material.bending)] {
+        let cycle = curve.damage_per_cycle(stress);
+        for way in [1.0, -1.0] {
+            let found = roots([way * first * stress, way * second * stress], 1000);
+            // the first and the last cycle are open
+            assert!((found[usize::from(way < 0.0)] / cycle - 1000.0).abs() <= 1.0, "{found:?} {cycle}");
+        }
     }
-    // half a tooth pitch of dead band before the first count
-    let expected = revolutions - 0.05;
-    for flank in &planet.flanks {
-        close(flank.root.cycles, expected, 1e-9);
-        close(flank.root.sum, expected / cycles_to_failure(&r.bending[0], 600e6), 1e-9);
-        close(flank.pitting.sum, expected / 5e7, 1e-9);
+    // unequal loads: the range is the sum of both stresses, about half their difference
+    let [one, other] = roots([1.1 * stress, -0.9 * stress], 1000);
+    assert!(one > 1.1 * other);
+    close(one, 1000.0 * root(&[0.9 * stress, -1.1 * stress, 0.9 * stress], &material).0, 2e-3);
+}
+
+#[test]
+fn many_equal_cycles_count_as_often_as_their_weight() {
+    let Rating { bending, .. } = rating(SHARP);
+    let [mut one, mut many] = [ToothHistory::new(&bending); 2];
+    for _ in 0..20 {
+        for stress in [0.0, 700e6, 0.0, -700e6, 0.0] {
+            one.bend(&bending, stress, 1.0);
+            many.bend(&bending, stress, 5.0);
+        }
     }
-    close(planet.worst_root(), planet.flanks[0].root.sum, 1e-9);
-    let before = planet;
-    for i in 0..1000 {
-        planet.add(if i % 2 == 0 { -0.3 } else { 0.3 }, r.pitch[0], loads(true));
-        planet.add(f64::NAN, r.pitch[0], loads(true));
+    close(many.roots(&bending).sums[0], 5.0 * one.roots(&bending).sums[0], 0.1);
+}
+
+#[test]
+fn the_stress_of_a_pair_is_that_of_method_b_at_its_height() {
+    for (module, planet_teeth, side_teeth) in [(4.5, 10, 16), (5.0, 10, 14), (1.2, 40, 60), (4.0, 12, 20)] {
+        let spec = GearSpec { module: module * 1e-3, planet_teeth, side_teeth, ..GearSpec::default() };
+        let pair = Pair::new(&spec);
+        for gear in 0..2 {
+            let root = RootStressFactors::new(&pair, gear, 0.25).unwrap();
+            let (tip, base) = if gear == 0 {
+                (pair.path.high, pair.path.low + pair.base_pitch)
+            } else {
+                (pair.path.low, pair.path.high - pair.base_pitch)
+            };
+            // at the tip as in method B1 without Y_ε, and at the outer point of single contact
+            close(root.per_force_at(tip), root.per_force / root.contact_ratio, 1e-12);
+            close(root.per_force_at(base), root.per_single_force, 0.03);
+            let along = (0..=100).map(|k| {
+                let part = f64::from(k) / 100.0;
+                let up = if gear == 0 { part } else { 1.0 - part };
+                root.per_force_at(pair.path.low + up * (pair.path.high - pair.path.low))
+            });
+            let along: Vec<f64> = along.collect();
+            // toward the root, the notch factor of the standard grows again
+            assert!(along[50..].is_sorted() && along.iter().all(|&stress| stress > 0.0 && stress <= along[100]));
+        }
     }
-    assert_eq!(before.flanks, planet.flanks);
-    // a side gear's four planets load one flank, and in overrun the other
-    let mut side = ToothDamage::default();
-    for driving in [true, true, false] {
-        let load = cycle(&r.bending[1], loaded_flank(false, driving), 1e9);
-        side.add(10.0 * std::f64::consts::TAU, r.pitch[1], [load; 4]);
-    }
-    close(side.flanks[0].root.cycles, 80.0 - 4.0 / 32.0, 1e-9);
-    close(side.flanks[1].root.cycles, 40.0, 1e-9);
 }

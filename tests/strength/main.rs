@@ -8,7 +8,6 @@ mod face;
 mod fatigue;
 mod flash;
 mod hertz;
-mod in_mesh;
 mod loads;
 mod mean_stress;
 #[path = "../common/mesh_laws.rs"]
@@ -17,5 +16,7 @@ mod rainflow;
 mod safety;
 mod slices;
 mod standing;
+mod textbook;
+mod tooth_by_tooth;
 #[path = "../common/tooth_errors.rs"]
 mod tooth_errors;

@@ -1,6 +1,7 @@
 //! Rainflow counting, compared with ASTM's example in tests/data/golden_fatigue.json and a plain count of the whole
 //! sequence.
 
+use crate::textbook::textbook;
 use bevel_differential::strength::{Damage, LoadCycle, Rainflow, SnCurve, ToothStrength, pulsating_range};
 use fastrand::Rng;
 use serde_json::Value;
@@ -11,38 +12,6 @@ fn golden() -> Value {
 
 fn close(program: f64, expected: f64, relative: f64) {
     assert!((program / expected - 1.0).abs() <= relative, "program {program}, expected {expected}");
-}
-
-/// Rainflow counting of a whole sequence as in ASTM E1049, 5.4.4, on a growing list.
-fn textbook(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
-    let mut turning: Vec<f64> = Vec::new();
-    for (i, &x) in sequence.iter().enumerate() {
-        let inner = i > 0 && i + 1 < sequence.len();
-        if !inner || (x - sequence[i - 1]) * (sequence[i + 1] - x) < 0.0 {
-            turning.push(x);
-        }
-    }
-    let (mut counted, mut kept) = (Vec::new(), Vec::new());
-    let mut count = |a: f64, b: f64, n: f64| counted.push(((a - b).abs(), (a + b) / 2.0, n));
-    for x in turning {
-        kept.push(x);
-        while let [.., a, b, c] = kept[..] {
-            if (c - b).abs() < (b - a).abs() {
-                break;
-            }
-            let start = kept.len() - 3;
-            if start == 0 {
-                count(a, b, 0.5);
-                kept.remove(0);
-            } else {
-                count(a, b, 1.0);
-                kept.drain(start..start + 2);
-            }
-        }
-    }
-    kept.windows(2).for_each(|p| count(p[0], p[1], 0.5));
-    counted.sort_by(|a, b| a.partial_cmp(b).unwrap());
-    counted
 }
 
 fn streamed(sequence: &[f64]) -> Vec<(f64, f64, f64)> {
@@ -133,9 +102,9 @@ fn rainflow_ignores_non_numbers_and_ranges_below_the_gate_and_survives_foreign_b
     }
     let mut text = serde_json::to_value(history).unwrap();
     assert_eq!(serde_json::from_value::<Rainflow>(text.clone()).unwrap(), history);
-    for length in [0, 1, 31, 32, 1_000_000] {
+    for length in [0, 1, 31, 32, 1000] {
         for direction in [-128, -1, 0, 1, 127] {
-            text["length"] = length.into();
+            text["points"] = vec![1.0; length].into();
             text["direction"] = direction.into();
             let mut foreign: Rainflow = serde_json::from_value(text.clone()).unwrap();
             (0..100).for_each(|i| foreign.push(f64::from(i * 37 % 11), |_| ()));

@@ -43,7 +43,7 @@ fn pulses_of_overrun_do_the_damage_of_pulses_of_drive() {
         let drive = pulses(&[law], SPEED, [50.0, 900.0]);
         let coast = pulses(&[law], SPEED, [-50.0, -900.0]);
         println!("{law:?}: drive {drive:?}, coast {coast:?}");
-        assert!(drive[0] > 1e-7 && drive[1] > 1e-7, "{drive:?}");
+        assert!(drive[0] > 1e-8 && drive[1] > 1e-8, "{drive:?}");
         for i in 0..2 {
             close(coast[i], drive[i], 0.03);
         }

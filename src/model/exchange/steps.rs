@@ -104,7 +104,8 @@ impl Simulation {
                 let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
-                    let sums = &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched: Some(watched) };
+                    let sums =
+                        &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched: Some(watched) };
                     equations.record(model, (&step, None), sums);
                     if sums.thermal.is_update_due() {
                         sums.thermal.use_temperatures();

@@ -19,6 +19,9 @@ impl Simulation {
 
     /// Ledger and solver statistics.
     pub fn ledger(&mut self) -> LedgerReadings {
+        if let (Some(strength), Some(fatigue)) = (self.model.strength(), &mut self.watched.fatigue) {
+            strength.remember(fatigue.make_mut());
+        }
         self.read_completed(Self::ledger_at)
     }
 

@@ -6,7 +6,7 @@ use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest};
 use crate::model::effect_kinds::{FrictionSource, Surface};
-use crate::model::effects::strength::{Tally, Stressed};
+use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::outputs::pv::each_pv;
 use crate::model::run::{Simulation, effort, six_digits};

@@ -31,8 +31,7 @@ impl Simulation {
         time: f64,
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
-        let mut simulation =
-            Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
+        let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
         let oil = parameters.oil.temperature;
         state.thermal = match &model.thermal {

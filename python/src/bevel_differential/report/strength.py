@@ -18,9 +18,9 @@ LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", svg_style.B
           "stress.root_side_max": ("roots of the side gears", svg_style.RED)}
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
-         ("damage.planet", "Miner sum of the roots, worst planet"), ("damage.side", "Miner sum of the roots, worse side gear"),
-         ("damage.planet_flank", "Miner sum of pitting, worst planet"),
-         ("damage.side_flank", "Miner sum of pitting, worse side gear"))
+         ("damage.planet", "Miner sum of the roots, worst tooth of the planets"), ("damage.side", "Miner sum of the roots, worst tooth of the side gears"),
+         ("damage.planet_flank", "Miner sum of pitting, worst flank of the planets"),
+         ("damage.side_flank", "Miner sum of pitting, worst flank of the side gears"))
 # prefix of the FMU's message if ratings count a start out of equilibrium
 MESSAGE = "strength.rate_from: "
 # the start counts as the worst part if the factor of the remaining run is better by at least this ratio

@@ -11,7 +11,7 @@ use super::{Fatigue, GearStrength, MeshLoad};
 use crate::contact::detailed::PairName;
 use crate::contact::{Flank, FlankGaps};
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
-use crate::strength::interval::{Three, crest, extremum, is_loaded_throughout, load_at, second_difference};
+use crate::strength::interval::{Three, at, crest, extremum, is_loaded_throughout, load_at, second_difference};
 use crate::strength::{Passing, loaded_flank};
 
 /// Tolerated second difference of the root stress of a tooth at its largest peak, as a fraction of this stress. The
@@ -22,6 +22,10 @@ const BLUNT: f64 = 0.005;
 const ROUGH: f64 = 0.02;
 /// Largest roll of a planet in an interval in which the loads of its tooth pairs are parabolas, in pitches.
 const LONGEST_ROLL: f64 = 0.25;
+/// Largest roll of a planet after which its teeth still meet one side gear only, as a fraction of a revolution.
+const ONE_MESH: f64 = 0.4;
+/// Maximum number of pieces into which an interval is divided, so that teeth meet the side gears in the right order.
+const MOST_PIECES: f64 = 256.0;
 /// Maximum number of halvings of a step.
 const HALVINGS: u32 = 6;
 /// Sense of the roll of a planet's teeth through the left and the right mesh.
@@ -160,19 +164,33 @@ impl GearStrength {
 
     /// Adds an interval to the damage.
     fn add(&self, fatigue: &mut Fatigue, step: &RatedStep, interval: &Interval) {
-        for planet in step.planets {
-            for s in 0..2 {
-                if self.is_single && planet.represents {
-                    self.bend_tooth_in_mesh(fatigue, step, interval, (planet, s));
-                } else if !self.is_single {
-                    self.bend_pairs(fatigue, step, interval, (planet, s));
-                }
-                if planet.represents {
-                    self.pass_rated_points(fatigue, step, &interval.parts, (planet, s));
+        if self.is_single {
+            let pieces = self.pieces(step, &interval.parts);
+            for piece in 0..pieces {
+                let span = [piece, piece + 1].map(|end| f64::from(end) / f64::from(pieces));
+                for planet in step.planets.iter().filter(|planet| planet.represents) {
+                    (0..2).for_each(|s| self.bend_tooth_in_mesh(fatigue, step, interval, (planet, s), span));
                 }
             }
+        } else {
+            for planet in step.planets {
+                (0..2).for_each(|s| self.bend_pairs(fatigue, step, interval, (planet, s)));
+            }
+        }
+        for planet in step.planets.iter().filter(|planet| planet.represents) {
+            (0..2).for_each(|s| self.pass_rated_points(fatigue, step, &interval.parts, (planet, s)));
         }
         self.watch_flanks(fatigue, step, interval);
+    }
+
+    /// Number of pieces of an interval in each of which a planet's tooth meets only one side gear.
+    fn pieces(&self, step: &RatedStep, parts: &[&Sample; 3]) -> u32 {
+        let rolled = |planet: &RatedPlanet| {
+            let [begin, middle, end] = planet.positions(parts, 0);
+            (middle - begin).abs() + (end - middle).abs()
+        };
+        let most = step.planets.iter().map(rolled).fold(0.0, f64::max);
+        (most / (ONE_MESH * self.rating.teeth[0] as f64)).ceil().clamp(1.0, MOST_PIECES) as u32
     }
 
     /// Bends the teeth of all pairs of a mesh.
@@ -226,13 +244,15 @@ impl GearStrength {
         if gear == 0 { fatigue.of_planet(planet.histories, tooth) } else { fatigue.of_side(s, tooth) }
     }
 
-    /// Bends the tooth that represents a mesh with one spring, and the teeth that enter the mesh.
+    /// Bends the tooth that represents a mesh with one spring, and the teeth that enter the mesh, during the span
+    /// `[from, until]` of an interval.
     fn bend_tooth_in_mesh(
         &self,
         fatigue: &mut Fatigue,
         step: &RatedStep,
         interval: &Interval,
         (planet, s): (&RatedPlanet, usize),
+        [mut from, until]: [f64; 2],
     ) {
         let (positions, meshes) = (planet.positions(&interval.parts, s), planet.meshes(&interval.parts, s));
         let mut stresses = [[0.0; 3]; 2];
@@ -245,26 +265,34 @@ impl GearStrength {
                 for gear in [0, 1] {
                     if gear == 1 || member.represents {
                         let index = self.index(fatigue, member, s, gear, teeth[gear]);
-                        let (stress, span) = span.map_or(([0.0; 3], [0.0; 2]), |span| (stresses[gear], span));
-                        self.bend(fatigue, (step, interval), (index, gear, member, s), (stress, span, weight));
+                        match span {
+                            Some(span) => {
+                                let load = (stresses[gear], span, weight);
+                                self.bend(fatigue, (step, interval), (index, gear, member, s), load);
+                            }
+                            None => {
+                                let stress = fatigue.tooth_mut(index).bend(&self.rating.bending, 0.0, weight);
+                                self.watch_root(fatigue, (step, interval), (gear, member, s), (stress, until));
+                            }
+                        }
                     }
                 }
             }
         };
         let mut rolling = fatigue.tally.meshes[planet.histories][s].in_mesh;
         let before = rolling.tooth;
-        let (mut tooth, mut from, mut weight) = (rolling.at(positions[0], planet.shift[s]), 0.0, 1.0);
+        let (mut tooth, mut weight) = (rolling.at(at(positions, from), planet.shift[s]), 1.0);
         if let Some(left) = before.filter(|&before| before != tooth) {
             bend(fatigue, left, None, 1.0);
             bend(fatigue, tooth, None, 1.0);
         }
-        rolling.roll(positions, planet.shift[s], |passing| {
+        rolling.roll(positions, planet.shift[s], [from, until], |passing| {
             bend(fatigue, tooth, Some([from, passing.part]), weight);
             bend(fatigue, tooth, None, weight);
             (tooth, from, weight) = (passing.tooth, passing.part, passing.weight);
             bend(fatigue, tooth, None, weight);
         });
-        bend(fatigue, tooth, Some([from, 1.0]), weight);
+        bend(fatigue, tooth, Some([from, until]), weight);
         fatigue.tally.meshes[planet.histories][s].in_mesh = rolling;
     }
 
@@ -278,7 +306,6 @@ impl GearStrength {
         (stress, [from, to], weight): (Three, [f64; 2], f64),
     ) {
         let bending = &self.rating.bending;
-        let tooth = fatigue.tooth_mut(index);
         let within = |part: f64| part > from && part < to;
         let turn = extremum(stress).filter(|_| interval.is_smooth && is_loaded_throughout(stress));
         let turn = turn.map(|(_, part)| part).filter(|&part| within(part));
@@ -287,23 +314,26 @@ impl GearStrength {
         let (mut largest, mut when) = (0.0f64, from);
         for part in [Some(from), between[0], between[1], Some(to)].into_iter().flatten() {
             let now = load_at(stress, part);
-            let found = now.abs().max(tooth.bend(bending, now, weight));
+            fatigue.tally.largest_stress = fatigue.tally.largest_stress.max(now.abs());
+            let found = now.abs().max(fatigue.tooth_mut(index).bend(bending, now, weight));
             if found > largest {
                 (largest, when) = (found, part);
             }
         }
-        if largest > fatigue.tally.largest_stress {
-            fatigue.tally.largest_stress = largest;
-        }
-        let what = if gear == 0 { Stressed::PlanetRoot } else { Stressed::SideRoot };
-        let load = Overload {
-            time: time(step, interval, when),
-            stress: largest,
-            strength: bending.curve.strength,
-            group: planet.histories,
-            side,
-        };
-        fatigue.tally.watch(what, load);
+        self.watch_root(fatigue, (step, interval), (gear, planet, side), (largest, when));
+    }
+
+    /// Records a root `stress` [Pa] at the fraction `part` of an interval if it is the largest so far.
+    fn watch_root(
+        &self,
+        fatigue: &mut Fatigue,
+        (step, interval): (&RatedStep, &Interval),
+        (gear, planet, side): (usize, &RatedPlanet, usize),
+        (stress, part): (f64, f64),
+    ) {
+        let (strength, group) = (self.rating.bending.curve.strength, planet.histories);
+        let load = Overload { time: time(step, interval, part), stress, strength, group, side };
+        fatigue.tally.watch(if gear == 0 { Stressed::PlanetRoot } else { Stressed::SideRoot }, load);
     }
 
     /// Removes the load from teeth that no pair of `begin` loads. Loads jump where the inputs do.

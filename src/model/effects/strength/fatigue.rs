@@ -9,7 +9,7 @@ use super::overload::{Overload, Overloads, Stressed};
 use super::utilisation::Utilisation;
 use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Finite, finite};
-use crate::strength::{Bending, Rating, RatedPoint, ToothHistory, ToothInMesh};
+use crate::strength::{Bending, RatedPoint, Rating, ToothHistory, ToothInMesh};
 
 /// Rolling of the planets of a group in the mesh with one side gear.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -136,18 +136,23 @@ impl Fatigue {
         self.checkpoint += 1;
     }
 
+    /// Remembers the damage of all roots, so that it is computed only once after each change.
+    pub fn remember(&mut self, bending: &Bending) {
+        self.teeth.iter_mut().for_each(|tooth| tooth.remember(bending));
+    }
+
     /// Miner sums of the worst teeth: roots of planets and side gears, then their flanks. Also the largest stress [Pa]
     /// of a pulsating cycle that does the damage of a cycle that is still open.
     pub fn worst(&self, bending: &Bending) -> ([f64; 4], f64) {
         let (mut sums, mut largest) = ([0.0f64; 4], 0.0f64);
         let sides = self.of_side(0, 0);
         for (index, tooth) in self.teeth.iter().enumerate() {
-            let (roots, open) = tooth.roots(bending);
+            let roots = tooth.roots(bending);
             let gear = usize::from(index >= sides);
-            for (sum, of) in [(gear, roots), (2 + gear, tooth.flanks())] {
+            for (sum, of) in [(gear, roots.sums), (2 + gear, tooth.flanks())] {
                 sums[sum] = sums[sum].max(of[0]).max(of[1]);
             }
-            largest = largest.max(open);
+            largest = largest.max(roots.largest_open);
         }
         (sums, largest)
     }

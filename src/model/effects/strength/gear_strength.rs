@@ -3,10 +3,10 @@
 use super::mesh_load::BentPair;
 use super::utilisation::safety;
 use super::{Fatigue, FlankLoad, MeshLoad, StrengthSpec};
-use crate::contact::{Flank, ToothLoad};
 use crate::contact::detailed::{Detailed, SliceLoad};
 use crate::contact::pair_load::PairLoad;
 use crate::contact::tooth_friction::{Sliding, ToothFriction};
+use crate::contact::{Flank, ToothLoad};
 use crate::model::effect_kinds::Setting;
 use crate::model::scene::GearContact;
 use crate::model::thermal::{GEARS, NODES, OIL};
@@ -74,6 +74,11 @@ impl GearStrength {
         Fatigue::new(&self.rating, groups, times, in_equilibrium)
     }
 
+    /// Remembers the damage of all teeth, because it is read.
+    pub fn remember(&self, fatigue: &mut Fatigue) {
+        fatigue.remember(&self.rating.bending);
+    }
+
     /// True if `fatigue` is the damage of these gears with `groups` groups of planets.
     pub fn fits(&self, fatigue: &Fatigue, groups: usize) -> bool {
         fatigue.fits(&self.rating, groups)
@@ -89,9 +94,11 @@ impl GearStrength {
         flank.normal_face_loaded += force * load.face_factor;
         // the root formula needs the force at the mean cone distance
         let bending = moment / self.mean_cone * root_factor(load.face_factor, self.rating.face_exponent);
-        let stress = self.rating.root.each_ref().map(|root| {
-            bending.max(0.0) * if self.is_single { root.per_force } else { root.per_force_at(load.s) }
-        });
+        let stress = self
+            .rating
+            .root
+            .each_ref()
+            .map(|root| bending.max(0.0) * if self.is_single { root.per_force } else { root.per_force_at(load.s) });
         mesh.add_pair(BentPair { drives: load.flank == Flank::Drive, teeth: load.teeth, stress });
     }
 

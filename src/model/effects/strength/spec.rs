@@ -60,8 +60,16 @@ impl Declare for StrengthSpec {
             "Largest Hertz pressure at the pitch point of all meshes, at the mean section: one tooth pair transmits \
              the whole mesh load",
         ),
-        stress("stress.root_planet_max", "Largest root stress of the planets by ISO 10300 method B1"),
-        stress("stress.root_side_max", "Largest root stress of the side gears by ISO 10300 method B1"),
+        stress(
+            "stress.root_planet_max",
+            "Largest root stress of the planets, from the force and the height of each tooth pair (ISO 6336-3 method B); \
+             for lumped gears from the mesh force (ISO 10300 method B1)",
+        ),
+        stress(
+            "stress.root_side_max",
+            "Largest root stress of the side gears, from the force and the height of each tooth pair (ISO 6336-3 method \
+             B); for lumped gears from the mesh force (ISO 10300 method B1)",
+        ),
         stress(
             "stress.contact_rated",
             "Largest contact pressure for the flank rating, used by safety.flank_min and damage: one tooth pair \
@@ -86,15 +94,15 @@ impl Declare for StrengthSpec {
             description: "Instantaneous safety factor S_B against scuffing: strength.scuffing_temperature minus \
                           temperature.oil, divided by temperature.contact minus temperature.oil; at most 1000",
         },
-        damage("damage.planet", "Miner sum of root bending of the most damaged planet"),
-        damage("damage.side", "Miner sum of root bending of the more damaged side gear"),
-        damage("damage.planet_flank", "Miner sum of pitting of the most damaged planet"),
-        damage("damage.side_flank", "Miner sum of pitting of the more damaged side gear"),
+        damage("damage.planet", "Miner sum of root bending of the most damaged tooth of the planets"),
+        damage("damage.side", "Miner sum of root bending of the most damaged tooth of the side gears"),
+        damage("damage.planet_flank", "Miner sum of pitting of the most damaged flank of the planets"),
+        damage("damage.side_flank", "Miner sum of pitting of the most damaged flank of the side gears"),
         safety(
             "safety.root_min",
-            "Smallest safety factor S_F of all tooth roots so far: bending strength at the knee over root stress, \
-             with strength.idler_factor for planets that roll; at most 1000, and 1000 before the first evaluated \
-             step",
+            "Smallest safety factor S_F of all tooth roots so far: bending strength at the knee over the stress of the \
+             pulsating cycle with the same damage, for all load cycles so far; at most 1000, and 1000 before the first \
+             evaluated step",
         ),
         safety(
             "safety.flank_min",
