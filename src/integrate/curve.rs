@@ -1,7 +1,11 @@
 //! Extremes and crossings of a quantity within a step of the integrator, from the dense output.
 
-use super::course::extended;
+use super::course::{Extension, extended};
+use super::system::Point;
 
+/// Nodes and weights of the Gauss–Legendre quadrature with three points on [0, 1]. It is exact up to degree 5.
+const GAUSS: [(f64, f64); 3] =
+    [(0.112_701_665_379_258_31, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
 /// Margin for rounding in the bound on how far a curve moves.
 const MARGIN: f64 = 1.001;
 
@@ -17,6 +21,46 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
+    pub fn of<const N: usize>(extension: &Extension<N>, of: impl Fn(&Point<N>) -> f64) -> Self {
+        let Extension { start, end, coefficients } = extension;
+        let nothing = of(&Point::ZERO);
+        Self {
+            start: of(start),
+            end: of(end),
+            coefficients: coefficients.each_ref().map(|coefficient| of(coefficient) - nothing),
+        }
+    }
+
+    /// Straight line between the values at both ends of the step.
+    pub fn line(start: f64, end: f64) -> Self {
+        Self { start, end, coefficients: [0.0; 3] }
+    }
+
+    /// Parabola through the values at the start, in the middle and at the end of the step.
+    pub fn parabola([start, middle, end]: [f64; 3]) -> Self {
+        Self { start, end, coefficients: [4.0 * middle - 2.0 * (start + end), 0.0, 0.0] }
+    }
+
+    /// Curve over the first part of the step, up to the fraction `part`.
+    pub fn up_to(&self, part: f64) -> Self {
+        if part == 1.0 {
+            return *self;
+        }
+        let [a, b, c] = self.coefficients;
+        // coefficients of Θ², Θ³ and Θ⁴
+        let (square, cube, fourth) = (b - a, c - b, -c);
+        let c = -fourth * part * part * part * part;
+        let b = c - cube * part * part * part;
+        let a = b - square * part * part;
+        Self { start: self.start, end: self.at(part), coefficients: [a, b, c] }
+    }
+
+    /// Mean over a span of fractions of the step.
+    pub fn mean(&self, [from, to]: [f64; 2]) -> f64 {
+        GAUSS.iter().map(|(node, weight)| weight * self.at(from + node * (to - from))).sum()
+    }
+
     /// Value after a fraction of the step.
     pub fn at(&self, fraction: f64) -> f64 {
         if fraction == 1.0 { self.end } else { extended(self.start, self.end, self.coefficients, fraction) }
@@ -88,6 +132,34 @@ fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    const CURVE: Curve = Curve { start: 0.3, end: 1.6, coefficients: [0.5, -2.0, 3.0] };
+
+    #[test]
+    fn a_mean_is_the_quotient_of_integral_and_span() {
+        for [from, to] in [[0.0, 1.0], [0.25, 0.75], [0.9, 0.9001], [0.4, 0.4]] {
+            let points = 100_000;
+            let place = |k: i32| from + (to - from) * (f64::from(k) + 0.5) / f64::from(points);
+            let mean = (0..points).map(|k| CURVE.at(place(k))).sum::<f64>() / f64::from(points);
+            assert!((CURVE.mean([from, to]) - mean).abs() < 1e-9, "{from} {to}");
+        }
+    }
+
+    #[test]
+    fn the_first_part_of_a_curve_has_its_values() {
+        for part in [1e-9, 0.3, 0.99, 1.0] {
+            let cut = CURVE.up_to(part);
+            for at in [0.0, 0.2, 0.5, 0.9, 1.0] {
+                assert!((cut.at(at) - CURVE.at(part * at)).abs() < 1e-14, "{part} {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_parabola_has_the_values_that_define_it() {
+        let [start, middle, end] = [0.0, 0.5, 1.0].map(|at| Curve::parabola([3.0, -1.0, 4.0]).at(at));
+        assert_eq!([start, middle, end], [3.0, -1.0, 4.0]);
+    }
 
     #[test]
     fn roots_of_quadratics_are_found() {

@@ -17,10 +17,13 @@ pub struct StepMotion {
     pub extension: Extension<MAX_SIZE>,
     /// Fraction of the pending step that was accepted.
     pub accepted_fraction: f64,
+    /// True if the step has no dense output, so that only both ends are known. The extension is then a [`cubic`], in
+    /// which deflections of stiff teeth may overshoot.
+    pub ends_only: bool,
 }
 
 impl StepMotion {
-    /// Motion within a completed step whose times count from `begin` [s]. A step without dense output gets a [`cubic`].
+    /// Motion within a completed step whose times count from `begin` [s].
     pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
         let without;
         let (Extension { start, end, coefficients }, accepted_fraction) = match motion {
@@ -33,7 +36,7 @@ impl StepMotion {
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
         let coefficients = coefficients.each_ref().map(largest);
         let extension = Extension { start: largest(start), end: largest(end), coefficients };
-        Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction }
+        Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction, ends_only: motion.is_none() }
     }
 }
 

@@ -3,12 +3,11 @@
 use super::completed_step::{CompletedStep, StepMotion};
 use super::failure::ExcessiveDeflection;
 use super::watching::{Watched, watch_step};
-use crate::integrate::{Point, SecondOrder, Step};
+use crate::integrate::{Curve, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
-use crate::model::dynamics::shaft_means::CycleCounter;
-use crate::model::dynamics::shaft_means::TorqueMeans;
+use crate::model::dynamics::shaft_means::{CycleCounter, StepCurves, TorqueMeans};
 use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
 use crate::model::effect_kinds::BUILT;
@@ -62,7 +61,8 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
         if self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
-            CycleCounter { pitch: model.periods[LEFT] }.add(sums.torque_means, turned, step.h, torque);
+            let cycle = CycleCounter { pitch: model.periods[LEFT] };
+            cycle.add(sums.torque_means, turned, (step.h, torque), || self.step_curves(&cycle, (step, motion)));
         }
     }
 }
@@ -107,6 +107,24 @@ pub fn record_without_teeth<const N: usize>(
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
+    /// Rolling and shaft torques within a completed step. Torques that do not follow from the dense output follow the
+    /// parabola through the ledger rates.
+    #[inline(never)]
+    fn step_curves(&self, cycle: &CycleCounter, (step, motion): CompletedStep<N>) -> StepCurves {
+        let rolling = |at: &Point<N>| cycle.rolling([at.q[0], at.q[1]]);
+        let torque = |s: usize| match motion {
+            Some((extension, accepted_fraction)) if self.teeth.plan.shafts[s] => {
+                Curve::of(extension, |at| self.shaft_torque(at, s)).up_to(accepted_fraction)
+            }
+            _ => Curve::parabola(step.ledger_rates.each_ref().map(|rates| rates.shaft[s])),
+        };
+        let rolling = match motion {
+            Some((extension, accepted_fraction)) => Curve::of(extension, rolling).up_to(accepted_fraction),
+            None => Curve::line(rolling(step.start), rolling(step.end)),
+        };
+        StepCurves { rolling, torque: [torque(0), torque(1)] }
+    }
+
     /// Records what few scenes need: jumps of elastic energy, temperatures, damage, mesh history. None of these changes
     /// a force of the plain equations, so scenes with only these effects use the plain equations.
     #[inline(never)]

@@ -1,19 +1,19 @@
 //! Fatigue damage and mesh history of completed steps. Damage follows from the loads of the teeth; the history contains
 //! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
-//! count.
+//! count. Without dense output, extremes are those at the ends of the steps.
 
 use std::sync::Arc;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::completed_step::StepMotion;
-use crate::integrate::{Curve, Extension, Point};
+use crate::integrate::{Curve, Point};
 use crate::model::assembly::{Model, Watch};
 use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
-use crate::model::effects::strength::{Fatigue, GearStrength, RatedPlanet, RatedStep, Sample};
-use crate::model::scene::MAX_PLANETS;
+use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RatedPlanet, RatedStep, Sample};
 use crate::model::scene::layout::LEFT;
+use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
 use crate::numeric::Finite;
 
 /// Fatigue damage of the teeth, and peak-to-peak values over mesh cycles.
@@ -136,14 +136,18 @@ pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &
     }
 }
 
-/// Adds a completed step to the damage of the teeth.
+/// Loads of the meshes, by group and side.
+type Meshes = [[MeshLoad; 2]; MAX_GROUPS];
+
+/// Adds a completed step to the damage of the teeth. If only the ends of the step are known, no load within the step
+/// exceeds the loads at both ends.
 fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
     step: &StepMotion,
     (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
 ) {
-    let StepMotion { h, begin, extension, accepted_fraction } = step;
+    let StepMotion { h, begin, extension, accepted_fraction, ends_only } = step;
     let from = ((fatigue.tally.from - begin) / h).clamp(0.0, 1.0);
     if from == 1.0 {
         return;
@@ -151,12 +155,29 @@ fn count_fatigue(
     let layout = &equations.teeth.layout;
     let (groups, first) = (layout.groups, layout.planet(0));
     let per_pitch = 1.0 / model.periods[first];
+    let loads = |at: &Point<MAX_SIZE>, mesh: &mut Meshes| {
+        for (g, mesh) in mesh[..groups].iter_mut().enumerate() {
+            mesh.iter_mut().for_each(|mesh| mesh.clear());
+            equations.pair_loads(&model.pair, at, g, |s, load| strength.add_load(&mut mesh[s], load));
+        }
+    };
+    let mut known = None;
     let mut sample = |fraction: f64, sample: &mut Sample| {
         let at = extension.at(fraction * accepted_fraction);
         for g in 0..groups {
             sample.angle[g] = per_pitch * at.q[first + g];
-            sample.mesh[g].iter_mut().for_each(|mesh| mesh.clear());
-            equations.pair_loads(&model.pair, &at, g, |s, load| strength.add_load(&mut sample.mesh[g][s], load));
+        }
+        if !ends_only || fraction == 0.0 || fraction == 1.0 {
+            return loads(&at, &mut sample.mesh);
+        }
+        let [start, middle, end]: &[Meshes; 3] = known.get_or_insert_with(|| {
+            let mut known = [Meshes::default(); 3];
+            known.iter_mut().zip([0.0, 0.5, 1.0]).for_each(|(mesh, part)| loads(&extension.at(part), mesh));
+            known
+        });
+        for g in 0..groups {
+            let between = |s: usize| MeshLoad::between([&start[g][s], &middle[g][s], &end[g][s]], fraction);
+            sample.mesh[g] = [between(0), between(1)];
         }
     };
     let teeth = (groups, equations.is_tooth_broken);
@@ -190,15 +211,19 @@ fn rated_planets(equations: &Largest, model: &Model) -> ([RatedPlanet; MAX_PLANE
     (planets, plan.planets)
 }
 
-/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts.
+/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts. If only the ends of
+/// the step are known, quantities follow straight lines.
 pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, history: &mut MeshHistory) {
-    let extension = &step.extension;
     let pitch = model.periods[LEFT];
-    let rolling = curve(extension, |at| 0.5 * (at.q[0] - at.q[1]) / pitch);
-    let speeds = [0, 1].map(|s| curve(extension, |at| at.v[s]));
+    let curve = |of: &dyn Fn(&Point<MAX_SIZE>) -> f64| {
+        let curve = Curve::of(&step.extension, of);
+        if step.ends_only { Curve::line(curve.start, curve.end) } else { curve }
+    };
+    let rolling = curve(&|at| 0.5 * (at.q[0] - at.q[1]) / pitch);
+    let speeds = [0, 1].map(|s| curve(&|at| at.v[s]));
     let mesh = &equations.teeth.contact.mesh;
     let error = |g: usize, s: usize| {
-        curve(extension, |at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
+        curve(&|at| mesh.drive_approach(equations.mesh_state(at, g, s).position[0]) * model.pair.mean_cone)
     };
     let mut quantities = [speeds[0]; MOST_QUANTITIES];
     quantities[1] = speeds[1];
@@ -207,15 +232,4 @@ pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, his
         *quantity = error(i / 2, i % 2);
     }
     history.add(&rolling, &quantities[..count], step.accepted_fraction);
-}
-
-/// Curve of a quantity `of` the motion within a step. The quantity must be linear in the motion.
-fn curve(extension: &Extension<MAX_SIZE>, of: impl Fn(&Point<MAX_SIZE>) -> f64) -> Curve {
-    let Extension { start, end, coefficients } = extension;
-    let nothing = of(&Point::ZERO);
-    Curve {
-        start: of(start),
-        end: of(end),
-        coefficients: coefficients.each_ref().map(|coefficient| of(coefficient) - nothing),
-    }
 }

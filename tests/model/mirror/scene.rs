@@ -84,7 +84,7 @@ impl Scene {
         let (p, i) = (&self.parameters, &self.inputs);
         let given = Given { teeth: self.teeth.as_deref(), ..Given::default() };
         let mut simulation = match self.from {
-            Some(state) => Simulation::resume_with(p, i, (state, Watched::default()), &given)?,
+            Some(state) => Simulation::resume_with(p, i, (state, None), &given)?,
             None => Simulation::start_with(p, i, 0.0, &given)?,
         };
         let read = |simulation: &mut Simulation| -> Vec<f64> {
