@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use bevel_differential::contact::errors::{GearTeeth, ToothErrors};
 use bevel_differential::geometry::Pair;
 use bevel_differential::model::{
-    BODIES, Body, GearContact, Given, InputDerivatives, Inputs, Layout, Parameters, Simulation, State, Watched,
+    BODIES, Body, GearContact, Given, InputDerivatives, Inputs, Layout, Parameters, Simulation, State,
 };
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Access, OutputSource, Variable, table};
