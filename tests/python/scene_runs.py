@@ -24,8 +24,7 @@ from momentum import Momentum
 from two_places import Scene, compared, unbalanced
 
 OK, DISCARD, ERROR = 0, 2, 3
-# largest number of attempts at steps in a communication step of up to a second; the FMU discards a step if as many attempts advance the
-# motion by less than 1 ms, but no scene needs so many for a whole step
+# attempts at steps after which the FMU discards a communication step of up to a second
 ATTEMPTS = 2_000_000
 # Energy residual over the energy turned over, in tolerances: in each step, the error of a speed is at most one, that of its
 # energy two, and the errors of fifty impacts may have the same sign. The method of fixed steps has no error control. Without

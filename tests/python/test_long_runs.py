@@ -50,7 +50,7 @@ def test_ten_minutes_in_the_study_s_turn_keep_the_phase_of_the_teeth(drive):
     assert scene.imbalance() < UNDAMPED
 
 
-# attempts at steps without progress after which the FMU discards a communication step, with effects on bodies
+# attempts at steps in a second after which the FMU discards a communication step, with effects on bodies
 ATTEMPTS = 500_000
 # a car at standstill: brakes hold its wheels, and the free carrier rattles in the backlash
 HELD = {"scene.gear_contact": "lumped", "scene.carrier_drive": "torque", "carrier.torque_command": 0.0, "scene.start": "rolling",
@@ -58,7 +58,7 @@ HELD = {"scene.gear_contact": "lumped", "scene.carrier_drive": "torque", "carrie
         "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0, "contact.law": "line"}
 
 
-def test_a_step_may_take_more_attempts_than_are_allowed_without_progress(drive):
+def test_a_step_of_minutes_may_take_more_attempts_than_are_allowed_in_a_second(drive):
     rattling = drive(HELD).to(120.0, 120.0)
     assert sum(rattling.read(["solver.steps", "solver.rejected"])) > ATTEMPTS
     assert rattling["held.wheels"] == 2.0 and rattling.imbalance() < UNDAMPED

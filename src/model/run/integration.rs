@@ -56,14 +56,19 @@ pub struct Integration<'a> {
 }
 
 /// Integrates `state` until the pending step contains the clock's `now`, the equations end, or the clock must be reset.
-/// Fails if [`budget`] attempts at steps hardly advance the motion, or if a tooth bends too far.
-pub fn integrate(model: &Model, state: &mut State, integration: Integration) -> Result<(), StepFailure> {
+/// Fails if a step cannot be completed within the `budget` of attempted steps, or if a tooth bends too far.
+pub fn integrate(
+    model: &Model,
+    state: &mut State,
+    integration: Integration,
+    budget: &mut u64,
+) -> Result<(), StepFailure> {
     match &model.gears {
         Gears::Ideal(ideal) if !FULL || model.parameters.solver.method == Method::Adaptive => {
-            integrate_ideal((ideal, model, state, integration))
+            integrate_ideal((ideal, model, state, integration, budget))
         }
-        Gears::Ideal(ideal) => integrate_ideal_through_object((ideal, model, state, integration)),
-        Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration),
+        Gears::Ideal(ideal) => integrate_ideal_through_object((ideal, model, state, integration, budget)),
+        Gears::Teeth(teeth) => integrate_teeth(teeth, model, state, integration, budget),
     }
 }
 
@@ -73,11 +78,12 @@ pub fn integrate_teeth(
     model: &Model,
     state: &mut State,
     integration: Integration,
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let (groups, plain) = (teeth.layout.groups, teeth.layout.plain());
     let method = model.parameters.solver.method;
     let is_default = method == Method::Adaptive;
-    let arguments = (teeth, model, state, integration);
+    let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
         match (groups, arguments.2.input_derivatives.is_some()) {
             (1, false) => return integrate_monomorphised::<PLAIN_SIZE, Plain<1>>(arguments),
@@ -97,42 +103,42 @@ pub fn integrate_teeth(
     }
 }
 
-/// Constants of gears and scene, state and options of an integration.
-type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>);
+/// Constants of gears and scene, state, options and budget of an integration.
+type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
 
 /// Integrates ideal gears with effects, monomorphised for the shape with ends, which fits all their scenes.
 #[inline(never)]
-fn integrate_ideal((ideal, model, state, integration): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
+fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
     let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
-    integrate_equations::<IDEAL_SIZE, WithEnds, _>(equations, model, state, integration)
+    integrate_equations::<IDEAL_SIZE, WithEnds, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates ideal gears through a trait object, with a method that is not monomorphised for them.
 #[inline(never)]
 fn integrate_ideal_through_object(
-    (ideal, model, state, integration): Arguments<IdealWithEffects>,
+    (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
 ) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<MEDIUM_SIZE> =
         &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
-    integrate_equations::<MEDIUM_SIZE, Any, _>(equations, model, state, integration)
+    integrate_equations::<MEDIUM_SIZE, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates plain teeth, or teeth with effects and planets in one or two groups. Monomorphised for each shape.
 #[inline(never)]
 fn integrate_monomorphised<const N: usize, S: Shape<N>>(
-    (teeth, model, state, integration): Arguments<Teeth>,
+    (teeth, model, state, integration, budget): Arguments<Teeth>,
 ) -> Result<(), StepFailure> {
     let equations = &mut Equations::<S, N>::new(teeth, integration.inputs, state);
-    integrate_equations::<N, S, _>(equations, model, state, integration)
+    integrate_equations::<N, S, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates all other teeth and methods through a trait object.
 #[inline(never)]
 fn integrate_through_object<const N: usize>(
-    (teeth, model, state, integration): Arguments<Teeth>,
+    (teeth, model, state, integration, budget): Arguments<Teeth>,
 ) -> Result<(), StepFailure> {
     let equations: &mut dyn LedgerEquations<N> = &mut Equations::<Any, N>::new(teeth, integration.inputs, state);
-    integrate_equations::<N, Any, _>(equations, model, state, integration)
+    integrate_equations::<N, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates with the method of the scene. [`integrate_teeth`] chooses a shape for which this method is compiled.
@@ -141,6 +147,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     model: &Model,
     state: &mut State,
     integration: Integration,
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
     let Integration { clock, begin, is_returned, pauses, inputs, change, mut watched } = integration;
@@ -167,7 +174,6 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
     let mut outcome = Ok(());
     let mut switched = true;
-    let (mut budget, mut renewed_at) = (budget(model), course.time);
     let mut anchors = equations.applied().anchors();
     let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
     if depends_on_temperature {
@@ -189,7 +195,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
         // the method attempts steps until one passes `now`, or until `observe` stops it
-        let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget: &mut budget };
+        let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
         let system = &*equations;
         outcome = match solver.method {
             Method::FixedStep if S::HAS_FIXED_STEPS => {
@@ -206,11 +212,6 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 observe(step, Some(motion))
             }),
         };
-        // attempts that have advanced the motion are no reason to fail
-        let is_slow = matches!(outcome, Err(Failure::TooManySteps)) && course.time - renewed_at >= LEAST_PROGRESS;
-        if is_slow {
-            (budget, renewed_at, outcome) = (self::budget(model), course.time, Ok(()));
-        }
         equations.applied_mut().set_anchors(&anchors);
         let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
@@ -229,8 +230,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
                 clock.now = course.time;
             }
         }
-        switched =
-            (switched || is_warmer || is_slow) && course.time < set_back_at && course.end - course.time > RESOLUTION;
+        switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
     }
     // store the result and the pending step
     state.friction = equations.applied().friction_state;
@@ -246,8 +246,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Maximum number of attempted steps for plain teeth that advance the motion by less than [`LEAST_PROGRESS`]. It limits
-/// the time until a motion that is stuck is reported to some seconds.
+/// Maximum number of attempted steps for plain teeth in a communication step of up to a second, or in each second of a
+/// longer one. It limits the waiting time of a host to some seconds.
 const BUDGET: u64 = 2_000_000;
 /// Cost that effects on bodies (drag, shafts, dry friction) add to a step, relative to a step of plain teeth.
 const EFFECTS: usize = 3;
@@ -258,13 +258,8 @@ const IDEAL: usize = 2;
 /// Maximum cost of a step of `radau`, which iterates, relative to a step of the default method.
 const RADAU_IN_STEPS: usize = 8;
 
-/// Progress that renews the budget [s]. It is fixed, so that the length of a communication step does not decide whether
-/// the step succeeds.
-const LEAST_PROGRESS: f64 = 1e-3;
-
-/// Maximum number of attempted steps until the motion has advanced by [`LEAST_PROGRESS`]. It is smaller if a step costs
-/// more.
-fn budget(model: &Model) -> u64 {
+/// Maximum number of attempted steps, as [`BUDGET`]. It is smaller if a step costs more.
+pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
     let work = teeth.contact.work(model.parameters.solid.facets as usize, teeth.layout.groups);
     let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
@@ -297,7 +292,7 @@ fn explain(
             solver.fixed_step
         ),
         Failure::TooManySteps => format!(
-            "{} attempts at steps advanced the motion by less than {LEAST_PROGRESS:e} s: {}; \
+            "{} attempts at steps were not enough for one communication step, or for a second of it: {}; shorten it, \
              loosen solver.relative_tolerance = {tolerance:e}, or {}",
             budget(model),
             effort::too_many_steps(model, inputs, state, before),

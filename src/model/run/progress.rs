@@ -6,7 +6,7 @@
 //! integration continues without a restart (see `change`).
 
 use super::events::{apply_changes, break_tooth};
-use super::integration::{self, Integration};
+use super::integration::{self, Integration, LONGEST_INTERVAL};
 use super::timeline::{self, Stop};
 use super::watching::Watched;
 use super::{StepFailure, change, imposed};
@@ -36,6 +36,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watche
     clock.end = clock.now;
     let before = *state;
     state.input_derivatives = None;
+    let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
     let integration = Integration {
         clock: &mut clock,
@@ -46,7 +47,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watche
         change: None,
         watched,
     };
-    let outcome = integration::integrate(model, state, integration);
+    let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
         // outputs of this motion were already returned, so it is kept; the residual of the ledger shows the missing
         // energy
@@ -65,13 +66,14 @@ pub fn integrate(
     (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
     (until, options, mut jump): (f64, AdvanceOptions, Option<f64>),
 ) -> Result<(), StepFailure> {
+    let mut budget = integration::budget(model);
     while state.time() < until {
         let (begin, events) = (state.time(), state.events.count());
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
-            step_to_stop(model, inputs, (state, watched), stop)
+            step_to_stop(model, inputs, (state, watched), stop, &mut budget)
         } else {
-            step_past_stop(model, inputs, (state, watched), (stop, options, jump.take()))
+            step_past_stop(model, inputs, (state, watched), (stop, options, jump.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
@@ -101,13 +103,17 @@ fn step_to_stop(
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
     stop: Stop,
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let begin = state.time();
     let length = stop.time - begin;
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
-    let mut outcome = Ok(());
+    let (mut outcome, mut renewed) = (Ok(()), 0.0);
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None));
+        outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
+        if clock.time - renewed >= LONGEST_INTERVAL {
+            (*budget, renewed) = (integration::budget(model), clock.time);
+        }
     }
     wrap_and_constrain(model, state);
     arrive(state, stop, begin + clock.time, outcome)
@@ -120,6 +126,7 @@ fn step_past_stop(
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
     (stop, options, jump): (Stop, AdvanceOptions, Option<f64>),
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = timeline::clock(model, state);
     let mut change = jump.map(|jump| (change::begin_interval(state, &mut clock), jump));
@@ -130,7 +137,7 @@ fn step_past_stop(
     // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
-        let outcome = integrate_interval(model, inputs, (state, watched), at);
+        let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
             pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
@@ -154,6 +161,8 @@ fn step_past_stop(
         // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
         (begin, last_point, target) = (begin + by, last_point - by, target - by);
+        // the limit of attempts counts for each interval, so that a step of an hour may take more than one of a second
+        *budget = integration::budget(model);
     }
 }
 
@@ -174,14 +183,15 @@ fn integrate_interval(
     inputs: &Inputs,
     (state, watched): (&mut State, &mut Watched),
     (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
+    budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched: Some(watched) };
     if let Some(teeth) = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
-        let outcome = integration::integrate_teeth(teeth, model, state, integration);
+        let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);
         return outcome;
     }
-    integration::integrate(model, state, integration)
+    integration::integrate(model, state, integration, budget)
 }
 
 /// Wraps positions unless a pending step starts from them. Applies the constraint of ideal gears to their speeds, so
