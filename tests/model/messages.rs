@@ -120,7 +120,7 @@ fn each_stress_above_its_strength_is_reported_once_with_gear_values_and_time() {
 }
 
 #[test]
-fn a_planet_that_rolls_has_its_idler_strength() {
+fn a_planet_that_rolls_is_rated_by_cycles_between_both_side_gears() {
     let (p, inputs) = rated(false);
     let mut simulation = Simulation::start(&p, &inputs, 0.0).unwrap();
     let at = bevel_differential::model::readings().position(|r| r.name == "stress.root_planet_max").unwrap();
@@ -130,14 +130,14 @@ fn a_planet_that_rolls_has_its_idler_strength() {
         p.specs.strength.contact_strength = 1e11;
         p.specs.strength.bending_strength = 1.2 * stress;
         let mut simulation = Simulation::start(&p, &inputs, 0.0).unwrap();
-        simulation.advance(0.05).unwrap();
+        simulation.advance(0.6).unwrap();
         simulation.unreported(&mut Reported::default())
     };
     assert!(reports(false).is_empty());
     let found = reports(true);
-    let strength = format!("strength of {:.1} MPa", 0.7 * 1.2 * stress * 1e-6);
+    let strength = format!("strength of {:.1} MPa", 1.2 * stress * 1e-6);
     assert!(found[0].message.contains("root stress of planet[1]") && found[0].message.contains(&strength), "{found:?}");
-    // after the planet has rolled half a pitch of 36 deg at 20 rad/s, and within the next pitch
+    // the planet turns once in 0.314 s; a cycle from one flank to the other and back needs about as long
     let time: f64 = found[0].message.split("t = ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
-    assert!(time > 0.0157 && time < 0.0157 + 0.0314, "{time}");
+    assert!(time > 0.157 && time < 0.5, "{time}");
 }
