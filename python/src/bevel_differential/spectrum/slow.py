@@ -11,7 +11,7 @@ D   = Σ n_i/N_f(σ_i)                                            Palmgren and M
 σ   = 2σ_a/((1 + M) K(σ_m/σ_a)),   M = 2 Y_M − 1                FKM guideline; Y_M idler factor
 ```"""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import log
 from typing import Self
@@ -45,6 +45,10 @@ class SnCurve:
         """Damage of one cycle from 0 to each `stress` [Pa]: 1/N_f, at most 1; 0 without stress. Same shape."""
         ratio = np.maximum(np.asarray(stress, float), 0.0) / self.strength
         return np.minimum(ratio ** self.slope / self.cycles, 1.0)
+
+    def stress(self, damage: float) -> float:
+        """Peak [Pa] of the cycle from 0 that does this `damage`."""
+        return self.strength * (damage * self.cycles) ** (1.0 / self.slope)
 
     def life(self, stress: np.ndarray) -> np.ndarray:
         """Cycles to failure at each `stress` > 0 [Pa]. Same shape."""
@@ -86,7 +90,7 @@ class Strength:
 
 @dataclass(frozen=True)
 class SlowCycles:
-    """Cycles of root stress of a planet in one pass of the duty cycle; all arrays have the shape (cycles,).
+    """Cycles of root stress of a tooth in one duty cycle; all arrays have the shape (cycles,).
 
     `low`, `high` [Pa]: both ends; `count`: number of cycles; `low_event`, `high_event`: numbers of the events at the ends."""
 
@@ -95,6 +99,14 @@ class SlowCycles:
     count: np.ndarray
     low_event: np.ndarray
     high_event: np.ndarray
+
+    @classmethod
+    def of(cls, rows: Iterable[tuple], least: float = 0.0) -> Self:
+        """Cycles of the rows (low, high, count, low_event, high_event) with a range above `least` [Pa]."""
+        rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
+        low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
+        return cls(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
+                   np.array(high_event, int))
 
     @property
     def span(self) -> np.ndarray:
@@ -116,6 +128,16 @@ class SlowCycles:
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
+    def damage_by_event(self, strength: Strength, events: int) -> np.ndarray:
+        """Damage to the root of the worse flank, shape (`events`,). The damage of each cycle is divided in proportion to the stresses of
+        the events at its ends."""
+        damage = self.count * strength.bending.damage(self.pulsating(strength))
+        found = np.zeros(events)
+        share = abs(self.low) / (abs(self.low) + abs(self.high))
+        np.add.at(found, self.low_event, damage * share)
+        np.add.at(found, self.high_event, damage * (1.0 - share))
+        return found
+
     def matrix(self, bins: int = 10) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
         counts, spans, means = np.histogram2d(self.span, self.mean, bins, weights=self.count)
@@ -135,10 +157,7 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
         rows = _as_written(histories, counts)
     else:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
-    low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
-    return SlowCycles(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
-                      np.array(high_event, int))
+    return SlowCycles.of(rows, least)
 
 
 def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
@@ -168,11 +187,12 @@ def _in_the_worst_order(histories, counts):
         rows.append((low, high, max(once, 0.0) * count, event, event))
         peaks.append([high, count, event])
         valleys.append([low, count, event])
-    return rows + _pairs(sorted(peaks, key=lambda peak: -peak[0]), sorted(valleys, key=lambda valley: valley[0]))
+    return rows + pairs(sorted(peaks, key=lambda peak: -peak[0]), sorted(valleys, key=lambda valley: valley[0]))
 
 
-def _pairs(peaks, valleys):
-    """Pairs the highest peaks with the deepest valleys, as often as they occur."""
+def pairs(peaks: list[list], valleys: list[list]) -> list[tuple]:
+    """Rows (valley, peak, count, event of the valley, event of the peak) that pair the highest peaks with the deepest valleys, as often as
+    they occur. `peaks` and `valleys` are sorted rows [stress, count, event]; counts of `valleys` are reduced."""
     rows, place = [], 0
     for high, count, high_event in peaks:
         while count > 0.0 and place < len(valleys):

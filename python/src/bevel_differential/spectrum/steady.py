@@ -1,0 +1,86 @@
+"""Damage of an event with constant loads and speeds: a short simulation of its steady state.
+
+Each tooth is loaded once or more per revolution. Damage is therefore measured over whole revolutions of each gear."""
+
+from math import ceil, pi
+
+import numpy as np
+
+from ..differential import Differential
+from .damage import OUTPUTS, Event, EventDamage, damage_of, signed_stress
+from .passes import LEAST_ROLL, Roll
+from .slow import Strength
+
+# duration of settling, which does not count, and of the first run including it [s]
+SETTLING, LOOK = 0.1, 0.5
+POINTS = 50
+# revolutions of each gear: doubled until two successive values agree to STEADY or the maximum is reached
+MOST_REVOLUTIONS, STEADY = 8, 0.01
+# points per mesh cycle: the median of revolutions that begin at these points does not depend on where a pass counts
+POINTS_PER_CYCLE = 8
+
+
+def steady(differential: Differential, event: Event, teeth: tuple[int, int], planets: int, strength: Strength) -> EventDamage:
+    """Damage of one occurrence of `event` to gears with `teeth` of planet and side gear."""
+    look = differential._record(None, OUTPUTS, LOOK, LOOK / POINTS, event.values)
+    settled = look[round(POINTS * SETTLING / LOOK):]
+    frequency = _frequency(settled, teeth)
+    pitches, warnings = frequency * event.duration, tuple(differential.warnings)
+    forces = _forces(settled)
+    if abs(pitches) <= 1.0:
+        return _within_a_pitch(event, settled, pitches, strength, warnings)
+    record, damage, agrees = _revolutions(differential, event, abs(frequency), teeth)
+    warnings = tuple(differential.warnings)
+    if not agrees:
+        warnings += (f"damage of two times {MOST_REVOLUTIONS} revolutions differs by more than {STEADY:.0%}; their mean is taken",)
+    pitches, forces = _frequency(record, teeth) * event.duration, _forces(record)
+    roll = Roll.of_revolutions(pitches, forces, damage, strength, planets)
+    return EventDamage.of(event, record, warnings, roll=roll, advance=pitches, meshing=np.zeros(4), standing=np.empty(0))
+
+
+def _within_a_pitch(event, settled, pitches, strength, warnings):
+    """Damage if no tooth rolls through the whole mesh: slow cycles load the roots, and the FMU counts swings of the load. The contact may
+    still pass the rated points of the flanks."""
+    span = settled["time"][-1] - settled["time"][0]
+    swings = (damage_of(settled)[-1] - damage_of(settled)[0]) / span * event.duration
+    stress = signed_stress(settled)
+    roll = None
+    if abs(pitches) > LEAST_ROLL:
+        pressure, swings[2:] = np.max(settled["stress.contact_rated"]), 0.0
+        forces = _forces(settled)
+        largest = max(np.max(abs(forces)), np.finfo(float).tiny)
+        roll = Roll(pitches, forces / largest, np.zeros(2), np.array([pressure, pressure]))
+    return EventDamage.of(event, settled, warnings, roll=roll, advance=pitches, meshing=swings,
+                          standing=stress[np.argmax(abs(stress))][None])
+
+
+def _revolutions(differential, event, frequency, teeth):
+    """Record of the steady state, growth of damage in one revolution of each gear, shape (4,), and true if successive values agree."""
+    cycles = np.array([teeth[0], teeth[1], teeth[0], teeth[1]])
+    before, revolutions = max(1, ceil(SETTLING * frequency)), 1
+    while True:
+        length = before + 2 * revolutions * max(teeth) + 1
+        record = differential._record(None, OUTPUTS, length / frequency, 1.0 / (POINTS_PER_CYCLE * frequency), event.values)
+        record = record[before * POINTS_PER_CYCLE:]
+        damage = damage_of(record)
+        halves = np.array([_growths(damage[:, mode], revolutions * cycles[mode] * POINTS_PER_CYCLE) for mode in range(4)])
+        agrees = bool(np.all(abs(halves[:, 1] - halves[:, 0]) <= STEADY * np.max(halves, axis=1)))
+        if agrees or revolutions >= MOST_REVOLUTIONS:
+            return record, np.mean(halves, axis=1) / revolutions, agrees
+        revolutions *= 2
+
+
+def _growths(damage, points):
+    """Growth of a damage in two successive spans of this many `points`."""
+    starts = np.arange(POINTS_PER_CYCLE)
+    return [np.median(damage[starts + i * points + points] - damage[starts + i * points]) for i in (0, 1)]
+
+
+def _frequency(record, teeth):
+    """Mean mesh frequency [Hz], positive if the planets turn forward."""
+    return (record["planet[1].spin_angle"][-1] - record["planet[1].spin_angle"][0]) / (record["time"][-1] - record["time"][0]) * teeth[0] / (2.0 * pi)
+
+
+def _forces(record):
+    """Mean tangential forces on left and right [N]."""
+    return np.array([np.mean(record[f"{side}.tangential_force"]) for side in ("left", "right")])
