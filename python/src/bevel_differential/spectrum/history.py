@@ -36,8 +36,8 @@ def history(differential: Differential, event: Event, teeth: tuple[int, int], pl
             meshing += np.maximum(most - by_fmu, 0.0)
     # a tooth that rolls out of mesh is unloaded
     standing = np.where(np.append(rolls[0], rolls), 0.0, signed_stress(record)) if not np.all(rolls) else np.empty(0)
-    return EventDamage.of(event, record, tuple(differential.warnings), roll=None, advance=float(place[-1] - place[0]), meshing=meshing,
-                          standing=standing)
+    return EventDamage.of(event, record, tuple(differential.warnings), roll=None, rolls=bool(found),
+                          advance=float(place[-1] - place[0]), meshing=meshing, standing=standing)
 
 
 def strokes(place: np.ndarray) -> list[tuple[int, int]]:

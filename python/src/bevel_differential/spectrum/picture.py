@@ -92,11 +92,11 @@ def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     """Stresses [Pa] of rolling teeth and their numbers of load cycles on the worst tooth of the critical gear in a duty cycle; shapes
     (cycles,). The stress is the pulsating root stress of equal damage or, for flanks, the rated contact pressure. Each event that is not
     steady has one stress, its largest, with the number of cycles that does its damage."""
-    gear, passes = result.critical % 2, result.passes
+    gear, teeth = result.critical % 2, result.worst_teeth
     if result.is_flank:
-        stresses, counts = passes.pressures[gear].ravel(), passes.counts[gear].ravel()
+        stresses, counts = teeth.pressures[gear].ravel(), teeth.counts[gear].ravel()
     else:
-        stresses, counts = passes.roots[gear].pulsating(result.strength), passes.roots[gear].count
+        stresses, counts = teeth.rolling[gear].pulsating(result.strength), teeth.rolling[gear].count
     damage = np.array([one.event.count * one.meshing[result.critical] for one in result.events])
     others = [one for one, sum_ in zip(result.events, damage) if sum_ > 0.0]
     if result.is_flank:
@@ -114,5 +114,5 @@ def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     Both are empty for flanks, because slow cycles do not damage flanks."""
     if result.is_flank:
         return np.empty(0), np.empty(0)
-    slow = result.slow.scaled(result.side_ratio) if result.critical else result.slow
+    slow = result.worst_teeth.slow[result.critical % 2]
     return slow.pulsating(result.strength), slow.count

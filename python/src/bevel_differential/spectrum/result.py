@@ -21,8 +21,8 @@ from .cycle import QUANTITIES, read_cycle
 from .damage import MODES, Event, EventDamage
 from .driven import DRIVES, check_commands, drives_of, open_loads
 from .history import history
-from .passes import Passes, count_passes
-from .slow import ORDERS, SlowCycles, Strength, count_slow_cycles
+from .passes import WorstTeeth, worst_teeth
+from .slow import ORDERS, SlowCycles, Strength
 from .steady import steady
 
 HOUR, KM = 3600.0, 1000.0
@@ -37,15 +37,12 @@ GATE = 0.01
 class SpectrumResult:
     """Damage and life over a duty cycle.
 
-    `events`: `EventDamage` of one occurrence of each; `passes`: those of the worst teeth in steady rolling; `slow`: the slow cycles, as root stress of the planets; `slow_damage`: their Miner
-    sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves; `teeth` of
+    `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling and their slow cycles; `strength`: the S–N curves; `teeth` of
     planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the planets; `order`: order
     of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
-    passes: Passes
-    slow: SlowCycles
-    slow_damage: np.ndarray
+    worst_teeth: WorstTeeth
     strength: Strength
     teeth: tuple[int, int]
     planets: int
@@ -54,10 +51,20 @@ class SpectrumResult:
     loads: tuple[str, ...] = ()
 
     @property
+    def slow(self) -> SlowCycles:
+        """Slow cycles at the root of the worst tooth of a planet."""
+        return self.worst_teeth.slow[0]
+
+    @property
+    def slow_damage(self) -> np.ndarray:
+        """Miner sums of slow cycles per duty cycle, at the roots of planet and side gear, by event, shape (events, 2)."""
+        return self.worst_teeth.slow_damage
+
+    @property
     def by_event(self) -> np.ndarray:
         """Miner sums of the worst teeth per duty cycle, shape (events, 4): roots of planet and side gear, then their flanks. Slow cycles
         are included."""
-        found = self.passes.damage + [one.event.count * one.meshing for one in self.events]
+        found = self.worst_teeth.damage + [one.event.count * one.meshing for one in self.events]
         found[:, :2] += self.slow_damage
         return found
 
@@ -226,14 +233,9 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         strength, planets = Strength.of(facts), int(facts[PLANETS])
         one = partial(_evaluated, differential=differential, teeth=teeth, planets=planets, strength=strength)
         damages = tuple(mapper(one, events))
-    # both roots follow one force, so the ratio is the same in all loaded events
     ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
-    histories, counts = [damage.standing for damage in damages], [event.count for event in events]
-    slow = count_slow_cycles(histories, counts, order, GATE * strength.bending.strength)
-    by_event = np.stack([cycles.damage_by_event(strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
-    passes = count_passes(damages, order, teeth, planets, strength)
-    result = SpectrumResult(damages, passes, slow, by_event, strength, teeth, planets, ratio, order,
-                            open_loads(events, facts, differential, sources))
+    worst = worst_teeth(damages, order, teeth, planets, strength, GATE * strength.bending.strength)
+    result = SpectrumResult(damages, worst, strength, teeth, planets, ratio, order, open_loads(events, facts, differential, sources))
     warn(result.warnings)
     return result
 

@@ -128,6 +128,14 @@ class SlowCycles:
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
+    def of_events(self, chosen: np.ndarray) -> "SlowCycles":
+        """Cycles for which `chosen`, shape (cycles,), is true."""
+        return SlowCycles(*(values[chosen] for values in (self.low, self.high, self.count, self.low_event, self.high_event)))
+
+    def total(self, strength: Strength) -> float:
+        """Damage to the root of the worse flank."""
+        return float(np.sum(self.count * strength.bending.damage(self.pulsating(strength))))
+
     def damage_by_event(self, strength: Strength, events: int) -> np.ndarray:
         """Damage to the root of the worse flank, shape (`events`,). The damage of each cycle is divided in proportion to the stresses of
         the events at its ends."""
@@ -144,20 +152,30 @@ class SlowCycles:
         return spans, means, counts
 
 
-def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0) -> SlowCycles:
+def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0,
+                      loads: Sequence[tuple[float, float, int]] = (), has_both_signs: bool = False) -> SlowCycles:
     """Slow cycles of events with `histories` (arrays of stress [Pa], empty if no teeth stay in mesh) that occur `counts` times. Ranges
     up to `least` [Pa] are left out.
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
-    worst order. "written": events follow each other as listed, without unloading in between. Between the occurrences of an event with
-    several occurrences, the teeth are unloaded."""
+    worst order. They also meet `loads` of rolling teeth: rows (stress [Pa], number, event). If `has_both_signs` is true, the tooth may
+    have each history with either sign. "written": events follow each other as listed, without unloading in between. Between the
+    occurrences of an event with several occurrences, the teeth are unloaded."""
     if order == "unknown":
-        rows = _in_the_worst_order(histories, counts)
+        rows = _in_the_worst_order(histories, counts, loads, has_both_signs)
     elif order == "written":
         rows = _as_written(histories, counts)
     else:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     return SlowCycles.of(rows, least)
+
+
+def worst_pairs(loads: Sequence[Sequence]) -> list[tuple]:
+    """Rows (valley, peak, count, event of the valley, event of the peak) of a tooth under `loads`, rows (stress, number, event): the
+    highest peaks meet the deepest valleys. Between two loads of one sign, the tooth is without load."""
+    peaks, valleys = (sorted((list(load) for load in loads if sign * load[0] > 0.0), key=lambda load: -abs(load[0])) for sign in (1.0, -1.0))
+    above, below = (sum(load[1] for load in found) for found in (peaks, valleys))
+    return _pairs([*peaks, [0.0, below, 0]], [*valleys, [0.0, above, 0]])
 
 
 def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
@@ -174,8 +192,8 @@ def _occurrence(history):
     return np.concatenate([[0.0], history, [0.0]])
 
 
-def _in_the_worst_order(histories, counts):
-    rows, peaks, valleys = [], [], []
+def _in_the_worst_order(histories, counts, loads, has_both_signs):
+    rows, ends = [], []
     for event, (history, count) in enumerate(zip(histories, counts)):
         block = _occurrence(history)
         low, high = block.min(), block.max()
@@ -185,14 +203,14 @@ def _in_the_worst_order(histories, counts):
         once = sum(row[2] for row in widest) - 1.0
         rows += [(row[0], row[1], row[2] * count, event, event) for row in inner if (row[0], row[1]) != (low, high)]
         rows.append((low, high, max(once, 0.0) * count, event, event))
-        peaks.append([high, count, event])
-        valleys.append([low, count, event])
-    return rows + pairs(sorted(peaks, key=lambda peak: -peak[0]), sorted(valleys, key=lambda valley: valley[0]))
+        ends += [(high, count, event), (low, count, event)]
+    if has_both_signs:
+        ends += [(-stress, count, event) for stress, count, event in ends]
+    return rows + worst_pairs([*ends, *loads])
 
 
-def pairs(peaks: list[list], valleys: list[list]) -> list[tuple]:
-    """Rows (valley, peak, count, event of the valley, event of the peak) that pair the highest peaks with the deepest valleys, as often as
-    they occur. `peaks` and `valleys` are sorted rows [stress, count, event]; counts of `valleys` are reduced."""
+def _pairs(peaks, valleys):
+    """Pairs the highest peaks with the deepest valleys, as often as they occur."""
     rows, place = [], 0
     for high, count, high_event in peaks:
         while count > 0.0 and place < len(valleys):

@@ -35,7 +35,7 @@ def steady(differential: Differential, event: Event, teeth: tuple[int, int], pla
         warnings += (f"damage of two times {MOST_REVOLUTIONS} revolutions differs by more than {STEADY:.0%}; their mean is taken",)
     pitches, forces = _frequency(record, teeth) * event.duration, _forces(record)
     roll = Roll.of_revolutions(pitches, forces, damage, strength, planets)
-    return EventDamage.of(event, record, warnings, roll=roll, advance=pitches, meshing=np.zeros(4), standing=np.empty(0))
+    return EventDamage.of(event, record, warnings, roll=roll, rolls=True, advance=pitches, meshing=np.zeros(4), standing=np.empty(0))
 
 
 def _within_a_pitch(event, settled, pitches, strength, warnings):
@@ -50,7 +50,7 @@ def _within_a_pitch(event, settled, pitches, strength, warnings):
         forces = _forces(settled)
         largest = max(np.max(abs(forces)), np.finfo(float).tiny)
         roll = Roll(pitches, forces / largest, np.zeros(2), np.array([pressure, pressure]))
-    return EventDamage.of(event, settled, warnings, roll=roll, advance=pitches, meshing=swings,
+    return EventDamage.of(event, settled, warnings, roll=roll, rolls=roll is not None, advance=pitches, meshing=swings,
                           standing=stress[np.argmax(abs(stress))][None])
 
 
