@@ -1,19 +1,11 @@
-"""Passes of teeth through the meshes in steady rolling, and their damage.
+"""Damage of the worst teeth by passes through the meshes in steady rolling, and by slow cycles.
 
-Positions are in pitches that the planets have rolled relative to the carrier. At position 0, tooth 0 of a planet is in the middle of the
-left mesh. The right mesh is half a revolution away, and the planets are evenly distributed over the teeth of a side gear:
-
-```text
-planet tooth n:      left mesh  x = n + i z_p            right mesh  x = n + z_p/2 + i z_p
-side gear tooth n:   planet j   x = n − j z_s/N + i z_s,  and half a revolution of a planet later on the right
-```
-
-In the written order, the position is the sum of all rolls so far, so passes are counted tooth by tooth. In an unknown order, a
-tooth passes a mesh at most ceil(P/z) times in a roll of P pitches. Its root is also loaded if it only enters or leaves the mesh.
+In the written order, all loads are counted tooth by tooth (`tooth`). In an unknown order, a tooth passes a mesh at most ceil(P/z) times in
+a roll of P pitches. Its root is also loaded if it only enters or leaves the mesh. The largest peaks then meet the deepest valleys, and a
+planet's tooth may meet either side gear.
 
 In a mesh that drives, the left mesh loads flank 0 of a planet's tooth and the right mesh flank 1; a side gear's tooth has its load on
-flank 0. Loads that drive backward use the other flanks. Root stress is positive under load on flank 0. The largest peaks of a tooth
-meet its deepest valleys, and other loads pulsate."""
+flank 0. Loads that drive backward use the other flanks. Root stress is positive under load on flank 0."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -23,13 +15,12 @@ from typing import Any, Self
 import numpy as np
 
 from .slow import SlowCycles, Strength, count_slow_cycles, worst_pairs
+from .tooth import Tooth, teeth_in_written_order
 
 # smallest roll that counts, in pitches: bending teeth and their backlash allow less
 LEAST_ROLL = 0.05
 # length over which a tooth is in mesh, in pitches: more than the contact ratio of straight bevel gears
 MESH = 2.0
-# decimals of positions in revolutions: a roll that returns to its start does so exactly
-DECIMALS = 9
 
 
 @dataclass(frozen=True)
@@ -78,109 +69,50 @@ class WorstTeeth:
     slow_damage: np.ndarray
 
 
-@dataclass(frozen=True)
-class Teeth:
-    """What the teeth of a gear meet. `roots`, `flanks`: numbers of passes that load them, shape (teeth, meshes, events); `signs`: factor of
-    the stress of standing teeth, shape (teeth, events), 0 if the tooth is not in mesh."""
-
-    roots: np.ndarray
-    flanks: np.ndarray
-    signs: np.ndarray
-
-
 def worst_teeth(events: Sequence[Any], order: str, numbers: tuple[int, int], planets: int, strength: Strength, least: float) -> WorstTeeth:
     """Load cycles of `events` (`EventDamage`) on gears with these `numbers` of teeth (planet, side gear) and with `planets` planets, in an
     `order` of `slow.ORDERS`. Slow cycles with a range up to `least` [Pa] are left out."""
-    counts = np.array([one.event.count for one in events])
     rolls = [one.roll or Roll(0.0, np.ones(2), np.zeros(2), np.zeros(2)) for one in events]
-    gears = (_by_tooth if order == "written" else _most)(events, rolls, counts, numbers, planets)
     # signs of the flank that a mesh loads: (gear, mesh)
     loads = np.array([roll.loads for roll in rolls]).T
     signed = np.stack([loads * [[1.0], [-1.0]], loads])
+    stress = [signed[gear] * [roll.root[gear] for roll in rolls] for gear in (0, 1)]
+    pressures = [np.sqrt(abs(loads)) * [roll.pressure[gear] for roll in rolls] for gear in (0, 1)]
     # both roots follow one force, so the ratio is the same in all loaded events
-    ratios = 1.0, next((one.side_ratio for one in events if np.isfinite(one.side_ratio)), 1.0)
-    roots, slow, pressures, passes = [], [], [], []
-    for gear, teeth in enumerate(gears):
-        stress = signed[gear] * [roll.root[gear] for roll in rolls]
-        histories = [ratios[gear] * one.standing for one in events]
-        has_both_signs = gear == 0 and any(one.rolls and one.event.count > 0.0 for one in events)
-        found = _worst_root(teeth, stress, (histories, counts, order, least), has_both_signs, strength)
-        pressure = np.sqrt(abs(loads)) * [roll.pressure[gear] for roll in rolls]
-        roots.append(found[0])
-        slow.append(found[1])
-        pressures.append(pressure)
-        passes.append(_worst_flank(teeth.flanks, signed[gear] > 0.0, strength.pitting.damage(pressure)))
-    by_roots = [cycles.damage_by_event(strength, len(events)) for cycles in roots]
+    ratio = next((one.side_ratio for one in events if np.isfinite(one.side_ratio)), 1.0)
+    standing = [[factor * one.standing for one in events] for factor in (1.0, ratio)]
+    moves = any(one.rolls and one.event.count > 0.0 for one in events)
+    rolling, slow, passes = [], [], []
+    for gear, teeth in enumerate((teeth_in_written_order if order == "written" else _most_loaded)(events, stress, standing, loads, numbers, planets)):
+        found = [count_slow_cycles(one.histories, one.counts, order, least, one.loads, gear == 0 and moves) for one in teeth]
+        worst = max(found, key=lambda cycles: cycles.total(strength))
+        # cycles with both ends in steady rolling
+        rolls_there = np.array([one.roll is not None and (order == "written" or len(one.standing) == 0) for one in events])
+        is_rolling = ((worst.low == 0.0) | rolls_there[worst.low_event]) & ((worst.high == 0.0) | rolls_there[worst.high_event])
+        rolling.append(worst.chosen(is_rolling))
+        slow.append(worst.chosen(~is_rolling))
+        passes.append(_worst_flank(np.stack([one.passes for one in teeth]), signed[gear] > 0.0, strength.pitting.damage(pressures[gear])))
+    by_roots = [cycles.damage_by_event(strength, len(events)) for cycles in rolling]
     by_flanks = [np.sum(number * strength.pitting.damage(pressure), axis=0) for number, pressure in zip(passes, pressures)]
     slow_damage = np.stack([cycles.damage_by_event(strength, len(events)) for cycles in slow], axis=1)
-    return WorstTeeth(tuple(roots), tuple(slow), tuple(pressures), tuple(passes), np.stack([*by_roots, *by_flanks], axis=1), slow_damage)
+    return WorstTeeth(tuple(rolling), tuple(slow), tuple(pressures), tuple(passes), np.stack([*by_roots, *by_flanks], axis=1), slow_damage)
 
 
-def passes_between(begin: float, end: float, at: np.ndarray, period: float) -> np.ndarray:
-    """Numbers of passes over positions `at` + i `period` on the way from `begin`, which does not count, to `end`, which does."""
-    way = 1.0 if end >= begin else -1.0
-    last, first = (np.floor(np.round(way * (place - at) / period, DECIMALS)) for place in (end, begin))
-    return last - first
+def _most_loaded(events, stress, standing, loads, numbers, planets):
+    """A tooth of a planet, and one of each side gear, with the largest numbers of passes in any order and from any position."""
+    counts = np.array([one.event.count for one in events])
 
-
-def _by_tooth(events, rolls, counts, numbers, planets):
-    """Teeth of planet and side gears in events that follow each other. A tooth of a side gear is in one mesh."""
-    ends = np.concatenate([[0.0], np.cumsum([one.advance for one in events] * counts)])
-    half = numbers[0] / 2.0
-    planet, side = (np.zeros((teeth, 2, len(events))) for teeth in (numbers[0], 2 * numbers[1]))
-    # histories may roll while they load standing teeth, so all teeth are loaded
-    signs = [np.tile([float(one.rolls and one.roll is None) for one in events], (len(gear), 1)) for gear in (planet, side)]
-    for mesh in (0, 1):
-        at = np.arange(numbers[0]) + mesh * half
-        of_side = slice(mesh * numbers[1], (mesh + 1) * numbers[1])
-        for event, (begin, end) in enumerate(zip(ends, ends[1:])):
-            planet[:, mesh, event] = passes_between(begin, end, at, numbers[0])
-            signs[0][is_in_mesh(begin, at, numbers[0]), event] = 1.0 - 2.0 * mesh
-            for number in range(planets):
-                at_planet = np.arange(numbers[1]) - number * numbers[1] / planets + mesh * half
-                side[of_side, mesh, event] += passes_between(begin, end, at_planet, numbers[1])
-                signs[1][of_side, event][is_in_mesh(begin, at_planet, numbers[1])] = 1.0
-    return Teeth(planet, planet, signs[0]), Teeth(side, side, signs[1])
-
-
-def is_in_mesh(place: float, at: np.ndarray, period: float) -> np.ndarray:
-    """True for teeth at the positions `at` + i `period` that are within half a pitch of `place`."""
-    turns = (place - at) / period
-    return np.round(abs(turns - np.round(turns)) * period - 0.5, DECIMALS) <= 0.0
-
-
-def _most(events, rolls, counts, numbers, planets):
-    """A tooth of a planet and one of each side gear with the largest numbers of passes in any order and from any position."""
     def most(between, longer):
-        return counts * [ceil((abs(roll.pitches) + longer) / between) if abs(roll.pitches) > LEAST_ROLL else 0 for roll in rolls]
+        pitches = [abs(one.roll.pitches) if one.roll and abs(one.roll.pitches) > LEAST_ROLL else 0.0 for one in events]
+        return counts * [ceil((rolled + longer) / between) if rolled else 0 for rolled in pitches]
 
-    none = np.zeros(len(events))
-    (root, flank), (side_root, side_flank) = ([most(between, longer) for longer in (MESH, 0.0)] for between in (numbers[0], numbers[1] / planets))
-    planet = Teeth(np.array([[root, root]]), np.array([[flank, flank]]), np.ones((1, len(events))))
-    both = [np.array([[passes, none], [none, passes]]) for passes in (side_root, side_flank)]
-    return planet, Teeth(*both, np.ones((2, len(events))))
-
-
-def _worst_root(teeth, stress, standing, has_both_signs, strength):
-    """Rolling and slow cycles of the tooth with the largest damage. `stress` (meshes, events) of passes; `standing`: arguments of
-    `count_slow_cycles`."""
-    histories, counts, order, least = standing
-    events = np.broadcast_to(np.arange(stress.shape[1]), stress.shape)
-    found = []
-    # many teeth have the same loads
-    for row in np.unique(np.concatenate([teeth.roots, teeth.signs[:, None, :]], axis=1), axis=0):
-        loads = [load for load in zip(stress.ravel(), row[:2].ravel(), events.ravel()) if load[0] != 0.0 and load[1] > 0.0]
-        of_tooth = [sign * history if sign else np.empty(0) for sign, history in zip(row[2], histories)]
-        if order == "written":
-            cycles = SlowCycles.of(worst_pairs(loads)), count_slow_cycles(of_tooth, counts, order, least)
-        else:
-            all_cycles = count_slow_cycles(of_tooth, counts, order, least, loads, has_both_signs)
-            rolls = np.array([len(history) == 0 for history in histories])
-            of_rolling = np.all([(ends == 0.0) | rolls[of] for ends, of in ((all_cycles.low, all_cycles.low_event),
-                                                                            (all_cycles.high, all_cycles.high_event))], axis=0)
-            cycles = all_cycles.of_events(of_rolling), all_cycles.of_events(~of_rolling)
-        found.append((sum(part.total(strength) for part in cycles), cycles))
-    return max(found, key=lambda pair: pair[0])[1]
+    gears = []
+    for gear, (between, meshes) in enumerate([(numbers[0], [[1, 1]]), (numbers[1] / planets, [[1, 0], [0, 1]])]):
+        # the roots of standing teeth are in their histories
+        roots = most(between, MESH) * [len(one.standing) == 0 for one in events]
+        gears.append([Tooth(standing[gear], counts, [(stress[gear][mesh, event], roots[event], event) for mesh in (0, 1) if of[mesh]
+                                                     for event in np.flatnonzero(roots)], np.outer(of, most(between, 0.0))) for of in meshes])
+    return gears
 
 
 def _worst_flank(passes, is_first, damage):

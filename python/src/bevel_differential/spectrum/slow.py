@@ -118,17 +118,13 @@ class SlowCycles:
         """Mean of peak and valley [Pa]."""
         return 0.5 * (self.high + self.low)
 
-    def scaled(self, factor: float) -> "SlowCycles":
-        """Copy with `factor` times the stress, for the mating gear."""
-        return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
-
     def pulsating(self, strength: Strength) -> np.ndarray:
         """Peaks of cycles from 0 [Pa] that do the same damage to the root of the worse flank. At the other flank the mean has the opposite
         sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
 
-    def of_events(self, chosen: np.ndarray) -> "SlowCycles":
+    def chosen(self, chosen: np.ndarray) -> "SlowCycles":
         """Cycles for which `chosen`, shape (cycles,), is true."""
         return SlowCycles(*(values[chosen] for values in (self.low, self.high, self.count, self.low_event, self.high_event)))
 
@@ -159,12 +155,12 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
     worst order. They also meet `loads` of rolling teeth: rows (stress [Pa], number, event). If `has_both_signs` is true, the tooth may
-    have each history with either sign. "written": events follow each other as listed, without unloading in between. Between the
+    have each history with either sign. "written": events follow each other as listed, and `loads` meet each other, without unloading in between. Between the
     occurrences of an event with several occurrences, the teeth are unloaded."""
     if order == "unknown":
         rows = _in_the_worst_order(histories, counts, loads, has_both_signs)
     elif order == "written":
-        rows = _as_written(histories, counts)
+        rows = [*_as_written(histories, counts), *worst_pairs(loads)]
     else:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     return SlowCycles.of(rows, least)

@@ -49,7 +49,8 @@ def _within_a_pitch(event, settled, pitches, strength, warnings):
         pressure, swings[2:] = np.max(settled["stress.contact_rated"]), 0.0
         forces = _forces(settled)
         largest = max(np.max(abs(forces)), np.finfo(float).tiny)
-        roll = Roll(pitches, forces / largest, np.zeros(2), np.array([pressure, pressure]))
+        root = np.array([np.max(settled[f"stress.root_{gear}_max"]) for gear in ("planet", "side")])
+        roll = Roll(pitches, forces / largest, root, np.array([pressure, pressure]))
     return EventDamage.of(event, settled, warnings, roll=roll, rolls=roll is not None, advance=pitches, meshing=swings,
                           standing=stress[np.argmax(abs(stress))][None])
 

@@ -1,0 +1,106 @@
+"""Loads of single teeth while events follow each other in the written order.
+
+Positions are in pitches that the planets have rolled relative to the carrier. At position 0, tooth 0 of a planet is in the middle of the
+left mesh. The right mesh is half a revolution away, and the planets are evenly distributed over the teeth of a side gear:
+
+```text
+planet tooth n:      left mesh  x = n + i z_p            right mesh  x = n + z_p/2 + i z_p
+side gear tooth n:   planet j   x = n − j z_s/N + i z_s,  and half a revolution of a planet later on the right
+```
+
+A tooth is in mesh within half a pitch of these positions, and its root has the load of the mesh. Its flank is rated where the contact
+passes a point that is about a quarter of a pitch from the middle: on one side of it in the left mesh and on the other in the right, and
+the other way round if the load drives backward."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+# distance of the rated point from the middle of the mesh, in pitches
+RATED = 0.25
+# passes of an event that a history contains; the others are equal to these
+MOST_PASSES = 4
+# decimals of positions in revolutions: a roll that returns to its start does so exactly
+DECIMALS = 9
+
+
+@dataclass(frozen=True)
+class Tooth:
+    """Loads of a tooth in one duty cycle: arguments of `count_slow_cycles`, and the passes of its flanks.
+
+    `histories`: root stress by event [Pa]; `counts`: their numbers; `loads`: rows (stress [Pa], number, event) of passes that are not in
+    `histories`; `passes`: numbers of passes, shape (meshes, events)."""
+
+    histories: list[np.ndarray]
+    counts: np.ndarray
+    loads: list[tuple[float, float, int]]
+    passes: np.ndarray
+
+
+def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], standing: Sequence[list[np.ndarray]], loads: np.ndarray,
+                           numbers: tuple[int, int], planets: int) -> tuple[list[Tooth], list[Tooth]]:
+    """Teeth of a planet, and of both side gears. `events`: `EventDamage`; `stress`: root stress of passes by gear, each of the shape
+    (meshes, events) [Pa]; `standing`: root stress of standing teeth by gear and event [Pa]; `loads` of the meshes, positive if they
+    drive, shape (meshes, events); `numbers` of teeth of planet and side gear."""
+    counts = np.array([one.event.count for one in events])
+    ends = np.concatenate([[0.0], np.cumsum([one.advance for one in events] * counts)])
+    half, turns = numbers[0] / 2.0, np.arange(planets) / planets * numbers[1]
+    planet = [[(mesh, n + mesh * half) for mesh in (0, 1)] for n in range(numbers[0])]
+    side = [[(mesh, n - turn + mesh * half) for turn in turns] for mesh in (0, 1) for n in range(numbers[1])]
+    return tuple([_tooth(events, counts, ends, places, (period, stress[gear], standing[gear], loads)) for places in teeth]
+                 for gear, (teeth, period) in enumerate([(planet, numbers[0]), (side, numbers[1])]))
+
+
+def _tooth(events, counts, ends, places, gear):
+    """Tooth with these `places` in the meshes: rows (mesh, position)."""
+    period, stress, standing, loads = gear
+    mesh, at = (np.array(column) for column in zip(*places))
+    passes, histories, more = np.zeros((2, len(events))), [], []
+    begin, end = ends[:-1, None], ends[1:, None]
+    way = np.where(end < begin, -1.0, 1.0)
+    rated = RATED * np.sign(loads[mesh].T) * np.where(mesh == 0, 1.0, -1.0)
+    np.add.at(passes, mesh, passes_between(begin, end, at + rated, period).T)
+    was_in, is_in = is_in_mesh(begin, at, period), is_in_mesh(end, at, period)
+    entries = passes_between(begin, end, at - 0.5 * way, period)
+    to_entry = np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period))
+    for event, one in enumerate(events):
+        if one.roll is not None:
+            order = mesh[np.argsort(to_entry[event], kind="stable")]
+            block, left_over = _visits(stress[order, event], int(np.sum(entries[event] + was_in[event])), np.any(was_in[event]), np.any(is_in[event]))
+            histories.append(block)
+            more += [(load, number, event) for load, number in left_over]
+        elif one.rolls:
+            # the FMU has followed a tooth through a history; it stands for all teeth
+            histories.append(standing[event])
+        else:
+            sign = np.sum(np.where(was_in[event], 1.0 if len(mesh) != 2 or mesh[0] == mesh[1] else 1.0 - 2.0 * mesh, 0.0))
+            histories.append(np.sign(sign) * standing[event] if sign else np.empty(0))
+    # an event that rolls is one roll, however often it occurs
+    once = np.array([min(count, 1.0) if one.roll is not None and count == int(count) else count for one, count in zip(events, counts)])
+    return Tooth(histories, once, more, passes)
+
+
+def _visits(loads, number, was_in, is_in):
+    """Root stress during a `number` of visits to meshes with these `loads` in turn, and the loads (stress, number) of equal visits that are
+    left out."""
+    pairs = max(number - MOST_PASSES, 0) // len(loads)
+    left = number - pairs * len(loads)
+    found = [] if was_in and left else [0.0]
+    for visit in range(left):
+        found += [loads[visit % len(loads)], 0.0]
+    return np.array(found[:-1] if is_in and left else found), [(load, float(pairs)) for load in loads if pairs]
+
+
+def passes_between(begin: np.ndarray, end: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
+    """Numbers of passes over positions `at` + i `period` on the way from `begin`, which does not count, to `end`, which does."""
+    way = np.where(end < begin, -1.0, 1.0)
+    last, first = (np.floor(np.round(way * (place - at) / period, DECIMALS)) for place in (end, begin))
+    return last - first
+
+
+def is_in_mesh(place: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
+    """True for teeth at the positions `at` + i `period` that are within half a pitch of `place`."""
+    turns = (place - at) / period
+    return np.round(abs(turns - np.round(turns)) * period - 0.5, DECIMALS) <= 0.0
