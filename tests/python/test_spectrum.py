@@ -120,9 +120,9 @@ def test_a_turn_does_the_damage_of_its_passes_by_hand(cycle, stress):
 
 @pytest.mark.parametrize("weak", ["planet root", "side root", "side flank"])
 def test_the_load_spectrum_and_its_curve_give_the_damage(cycle, weak):
-    # very strong flanks, or planets as strong as side gears, make the roots or the side gears the critical part
+    # very strong flanks, or planets as strong as side gears of which four pass, make the roots or the side gears the critical part
     strong = {} if weak == "side flank" else {"strength.contact_strength": "1e10 Pa"}
-    strong |= {"strength.idler_factor": 1.0} if weak == "side root" else {}
+    strong |= {"strength.idler_factor": 1.0, "geometry.planet_count": 4} if weak == "side root" else {}
     lines = ["turn,4,20,18,10,1200", "wide,9,20,50,-80,800", "start,3,4,20,,1000", "overrun,5,4,20,,-300"]
     result = cycle(HEAD, *lines, parameters=LUMPED | strong)
     assert result.critical_name == weak
@@ -141,22 +141,29 @@ def test_the_left_wheel_is_the_slow_one_of_a_turn_to_the_left(cycle, fmu_file):
 
 
 @pytest.mark.parametrize("low, high", [(0.0, 800.0), (-500.0, 700.0), (300.0, 800.0)])
-def test_a_history_of_one_amplitude_does_the_damage_that_the_fmu_counts(fmu_file, low, high):
+@pytest.mark.parametrize("contact", ["lumped", "tooth"])
+def test_a_history_of_one_amplitude_does_the_damage_that_the_fmu_counts(fmu_file, contact, low, high):
     times = np.linspace(0.0, 2.0, 201)
     load = low + (high - low) * np.sin(pi * 2.0 * times) ** 2
     swing = event(duration=2.0, signals={side: (times, load) for side in ("left.load_torque", "right.load_torque")}, step=2e-3)
-    ours = spectrum([swing], order="written", fmu=fmu_file).damage
-    with Differential({**swing.values, "effects.strength": True}, fmu=fmu_file) as differential:
+    gears = {"scene.gear_contact": contact}
+    ours = spectrum([swing], gears, order="written", fmu=fmu_file).damage
+    with Differential({**swing.values, **gears, "effects.strength": True}, fmu=fmu_file) as differential:
         theirs = differential.run(swing.signals, ROOTS, 2.0, 2e-3)[-1]
-    assert [ours[name] for name in ROOTS] == pytest.approx([theirs[name] for name in ROOTS], rel=1e-3)
+    assert ours["damage.planet"] == pytest.approx(theirs["damage.planet"], rel=1e-3)
+    # with single pairs, drive and overrun load different teeth of the side gears
+    if contact == "lumped" or low >= 0.0:
+        assert ours["damage.side"] == pytest.approx(theirs["damage.side"], rel=1e-3)
+    else:
+        assert ours["damage.side"] > theirs["damage.side"]
 
 
 def test_a_history_of_a_steady_turn_does_the_damage_of_the_steady_turn(fmu_file):
     turn = event(duration=80.0, spin=3.5)
     history = event(duration=80.0, spin=3.5, signals={"left.load_torque": (np.array([0.0, 80.0]), np.array([400.0, 400.0]))})
-    steady, over_time = (all_damages(spectrum([one], fmu=fmu_file)) for one in (turn, history))
-    # both count the largest number of passes in 446 pitches, at the same load
-    assert over_time == pytest.approx(steady, rel=0.01)
+    steady, over_time = (all_damages(spectrum([one], LUMPED, fmu=fmu_file)) for one in (turn, history))
+    # both count the largest number of passes in 446 pitches
+    assert over_time == pytest.approx(steady, rel=1e-3)
 
 
 def test_a_history_with_a_turn_and_a_straight_part_counts_each_once(fmu_file):
@@ -165,9 +172,9 @@ def test_a_history_with_a_turn_and_a_straight_part_counts_each_once(fmu_file):
     load = np.array([0.0, 400.0, 400.0, 0.0, 700.0, 0.0, 700.0, 0.0, 0.0])
     spin = (np.array([0.0, 10.0, 10.0, 20.0]), np.array([3.5, 3.5, 0.0, 0.0]))
     loads = {side: (times, load) for side in ("left.load_torque", "right.load_torque")}
-    mixed = spectrum([event(duration=20.0, signals={**loads, "spin.command": spin})], fmu=fmu_file)
-    turn = spectrum([event(duration=9.9, spin=3.5)], fmu=fmu_file)
-    swings = spectrum([event(count=2.0, left=700.0, right=700.0)], fmu=fmu_file)
+    mixed = spectrum([event(duration=20.0, signals={**loads, "spin.command": spin})], fmu=fmu_file, parameters=LUMPED)
+    turn = spectrum([event(duration=9.9, spin=3.5)], fmu=fmu_file, parameters=LUMPED)
+    swings = spectrum([event(count=2.0, left=700.0, right=700.0)], fmu=fmu_file, parameters=LUMPED)
     assert mixed.damage["damage.planet_flank"] == pytest.approx(turn.damage["damage.planet_flank"], rel=0.02)
     assert mixed.damage["damage.planet"] == pytest.approx(sum(one.damage["damage.planet"] for one in (turn, swings)), rel=0.02)
 
@@ -201,11 +208,76 @@ def test_twice_the_counts_do_twice_the_damage_and_halves_of_events_the_same(fmu_
                "spin.command": -v["spin.command"]},
     lambda v: {name: -v[name] for name in v if name != "scene.planet_spin"},
 ], ids=["left and right", "all signs"])
-def test_a_mirrored_cycle_does_the_same_damage(fmu_file, mirror):
-    once = spectrum(EVENTS, fmu=fmu_file)
-    mirrored = spectrum([changed(one, **mirror(one.values)) for one in EVENTS], fmu=fmu_file)
-    # the teeth start on the other side of the mesh; rates over whole mesh cycles agree to about 1e-4
+@pytest.mark.parametrize("order", ["unknown", "written"])
+def test_a_mirrored_cycle_does_the_same_damage(fmu_file, mirror, order):
+    events = [changed(one, **mirror(one.values)) for one in EVENTS]
+    once, mirrored = (spectrum(each, order=order, fmu=fmu_file) for each in (EVENTS, events))
+    # the teeth start on the other side of the mesh; revolutions agree to about 1e-4
     assert all_damages(mirrored) == pytest.approx(all_damages(once), rel=1e-3)
+
+
+def rolled(pitches, torque=1000.0, duration=2.0, **more):
+    """Event that rolls planets of 10 teeth by `pitches`."""
+    return event(duration=duration, spin=pitches * 2.0 * pi / 10.0 / duration, left=torque / 2.0, right=torque / 2.0, **more)
+
+
+def test_short_turns_to_both_sides_pass_the_same_tooth_each_time(fmu_file, stress):
+    turns = [rolled(2.0), rolled(-2.0)]
+
+    def each_once(evaluate, events):
+        found = {id(one): evaluate(one) for one in turns}
+        return [found[id(one)] for one in events]
+
+    planet, side = stress(1000.0)
+    for order, root in (("written", bending(planet)), ("unknown", bending(planet / IDLER))):
+        found = spectrum(1000 * turns, LUMPED, order=order, fmu=fmu_file, mapper=each_once)
+        passed = 2000.0 * pitting(CONTACT / found.events[0].safety_flank)
+        assert [found.damage[name] for name in FLANKS] == pytest.approx([passed, passed], rel=1e-6)
+        # a tooth between two pitches meets one side gear; at an unknown position it may meet both
+        assert [found.damage[name] for name in ROOTS] == pytest.approx([2000.0 * root, 2000.0 * bending(side)], rel=1e-6)
+        assert ("tooth by tooth" in found.summary()) == (order == "written")
+
+
+@pytest.mark.parametrize("contact, rolls, torques", [
+    ("lumped", [2.3, -3.1, 5.2, -1.4, 12.6], [1200.0] * 5),
+    ("lumped", [2.3, -3.1, 5.2, -1.4, 12.6], [1200.0, 1000.0, -1100.0, 1300.0, -800.0]),
+    ("lumped", [0.0, 5.0, 0.0, -5.0, 0.0, 5.0], [1200.0, 200.0] * 3),
+    ("lumped", [0.8, -0.8] * 4, [1200.0] * 8),
+    ("lumped", [36.3, -22.7], [1200.0, -1200.0]),
+    ("tooth", [0.0, 5.3, 0.0, 0.0, 2.2, 0.0], [1200.0, -1200.0, 1000.0, -200.0, 600.0, 1400.0]),
+])
+def test_sums_are_those_of_the_worst_tooth_that_the_fmu_follows(fmu_file, contact, rolls, torques):
+    events, gears = [rolled(*each) for each in zip(rolls, torques)], {"scene.gear_contact": contact, "contact.law": "line"}
+    written, unknown = (all_damages(spectrum(events, gears, order=order, fmu=fmu_file)) for order in ("written", "unknown"))
+    # the FMU changes torques at rest and speeds slowly, so that no jump adds dynamic loads
+    rows = [(0.0, 0.0, 0.0)]
+    for one, torque in zip(events, torques):
+        start, load = rows[-1][0] + 0.3, torque / 2.0
+        rows += [(start + delay, spin, load) for delay, spin in
+                 ((0.0, 0.0), (0.1, 0.0), (0.3, one.values["spin.command"]), (2.1, one.values["spin.command"]), (2.3, 0.0), (2.4, 0.0))]
+    times, spins, loads = np.array(rows).T
+    signals = {"spin.command": (times, spins), "left.load_torque": (times, loads), "right.load_torque": (times, loads)}
+    with Differential({**event(left=0.0, right=0.0).values, **gears, "effects.strength": True}, fmu=fmu_file) as differential:
+        record = differential.run(signals, [*ROOTS, *FLANKS], times[-1], 0.01)[-1]
+    theirs = np.array([record[name] for name in written_names()])
+    assert written[2:] == pytest.approx(theirs[2:], rel=0.02)
+    # half cycles that are open at the ends close in a duty cycle that repeats; impacts are not in steady events
+    assert np.all(written[:2] > 0.85 * theirs[:2]) and np.all(unknown > 0.99 * theirs)
+
+
+def written_names():
+    """Names of damages in the order of `SpectrumResult.damage`."""
+    return ["damage.planet", "damage.side", "damage.planet_flank", "damage.side_flank"]
+
+
+def test_a_swing_of_less_than_a_pitch_passes_twice(fmu_file):
+    # ten swings of 0.8 pitches in 20 s; a tooth in the middle passes there and back
+    times = np.arange(0.0, 21.0, 1.0)
+    spin = np.where(np.arange(21) % 2 == 0, 1.0, -1.0) * 0.8 * 2.0 * pi / 10.0
+    signals = {"spin.command": (np.repeat(times, 2)[1:-1], np.repeat(spin[:-1], 2))}
+    found = spectrum([event(duration=20.0, left=600.0, right=600.0, signals=signals)], LUMPED, fmu=fmu_file)
+    passed = 20.0 * pitting(CONTACT / found.events[0].safety_flank)
+    assert [found.damage[name] for name in FLANKS] == pytest.approx([passed, passed], rel=0.1)
 
 
 def test_straight_ahead_nothing_passes_and_only_changes_of_load_damage_the_roots(fmu_file):

@@ -27,6 +27,11 @@ def steady(differential: Differential, event: Event, teeth: tuple[int, int], pla
     frequency = _frequency(settled, teeth)
     pitches, warnings = frequency * event.duration, tuple(differential.warnings)
     forces = _forces(settled)
+    if LEAST_ROLL < abs(pitches) <= 1.0:
+        # the load of a tooth changes while it rolls through the mesh
+        cycle = 1.0 / abs(frequency)
+        record = differential._record(None, OUTPUTS, SETTLING + cycle, cycle / POINTS, event.values)
+        settled, warnings = record[record["time"] >= SETTLING], tuple(differential.warnings)
     if abs(pitches) <= 1.0:
         return _within_a_pitch(event, settled, pitches, strength, warnings)
     record, damage, agrees = _revolutions(differential, event, abs(frequency), teeth)

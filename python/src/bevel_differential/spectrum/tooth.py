@@ -9,8 +9,8 @@ side gear tooth n:   planet j   x = n − j z_s/N + i z_s,  and half a revolutio
 ```
 
 A tooth is in mesh within half a pitch of these positions, and its root has the load of the mesh. Its flank is rated where the contact
-passes a point that is about a quarter of a pitch from the middle: on one side of it in the left mesh and on the other in the right, and
-the other way round if the load drives backward."""
+passes the inner point of single contact, a little less than half a pitch from the middle: before it in the left mesh and behind it in the
+right one, and vice versa if the load drives backward."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 # distance of the rated point from the middle of the mesh, in pitches
-RATED = 0.25
+RATED = 0.45
 # passes of an event that a history contains; the others are equal to these
 MOST_PASSES = 4
 # decimals of positions in revolutions: a roll that returns to its start does so exactly
@@ -60,7 +60,7 @@ def _tooth(events, counts, ends, places, gear):
     passes, histories, more = np.zeros((2, len(events))), [], []
     begin, end = ends[:-1, None], ends[1:, None]
     way = np.where(end < begin, -1.0, 1.0)
-    rated = RATED * np.sign(loads[mesh].T) * np.where(mesh == 0, 1.0, -1.0)
+    rated = RATED * np.sign(loads[mesh].T) * np.where(mesh == 0, -1.0, 1.0)
     np.add.at(passes, mesh, passes_between(begin, end, at + rated, period).T)
     was_in, is_in = is_in_mesh(begin, at, period), is_in_mesh(end, at, period)
     entries = passes_between(begin, end, at - 0.5 * way, period)
