@@ -47,50 +47,59 @@ def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], 
     counts = np.array([one.event.count for one in events])
     ends = np.concatenate([[0.0], np.cumsum([one.advance for one in events] * counts)])
     half, turns = numbers[0] / 2.0, np.arange(planets) / planets * numbers[1]
-    planet = [[(mesh, n + mesh * half) for mesh in (0, 1)] for n in range(numbers[0])]
-    side = [[(mesh, n - turn + mesh * half) for turn in turns] for mesh in (0, 1) for n in range(numbers[1])]
-    return tuple([_tooth(events, counts, ends, places, (period, stress[gear], standing[gear], loads)) for places in teeth]
-                 for gear, (teeth, period) in enumerate([(planet, numbers[0]), (side, numbers[1])]))
+    planet = np.meshgrid([0, 1], np.arange(numbers[0]))
+    side_mesh = np.repeat([0, 1], numbers[1])[:, None] + np.zeros(planets, int)
+    side_at = np.tile(np.arange(numbers[1]), 2)[:, None] - turns + side_mesh * half
+    gears = (planet[0], planet[1] + planet[0] * half), (side_mesh, side_at)
+    return tuple(_teeth(events, counts, ends, teeth, (numbers[gear], stress[gear], standing[gear], loads)) for gear, teeth in enumerate(gears))
 
 
-def _tooth(events, counts, ends, places, gear):
-    """Tooth with these `places` in the meshes: rows (mesh, position)."""
-    period, stress, standing, loads = gear
-    mesh, at = (np.array(column) for column in zip(*places))
-    passes, histories, more = np.zeros((2, len(events))), [], []
-    begin, end = ends[:-1, None], ends[1:, None]
-    way = np.where(end < begin, -1.0, 1.0)
-    rated = RATED * np.sign(loads[mesh].T) * np.where(mesh == 0, -1.0, 1.0)
-    np.add.at(passes, mesh, passes_between(begin, end, at + rated, period).T)
+def _teeth(events, counts, ends, teeth, gear):
+    """Teeth with these places in the meshes: arrays `mesh` and `at` (positions) of the shape (teeth, places)."""
+    (mesh, at), (period, stress, standing, loads) = teeth, gear
+    begin, end = ends[:-1, None, None], ends[1:, None, None]
+    rated = RATED * np.sign(loads.T)[:, mesh] * np.where(mesh == 0, -1.0, 1.0)
+    passed, passes = passes_between(begin, end, at + rated, period), np.zeros((len(at), 2, len(events)))
+    for number in (0, 1):
+        passes[:, number] = np.sum(passed * (mesh == number), axis=2).T
     was_in, is_in = is_in_mesh(begin, at, period), is_in_mesh(end, at, period)
-    entries = passes_between(begin, end, at - 0.5 * way, period)
-    to_entry = np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period))
-    for event, one in enumerate(events):
-        if one.roll is not None:
-            order = mesh[np.argsort(to_entry[event], kind="stable")]
-            block, left_over = _visits(stress[order, event], int(np.sum(entries[event] + was_in[event])), np.any(was_in[event]), np.any(is_in[event]))
-            histories.append(block)
-            more += [(load, number, event) for load, number in left_over]
-        elif one.rolls:
-            # the FMU has followed a tooth through a history; it stands for all teeth
-            histories.append(standing[event])
-        else:
-            sign = np.sum(np.where(was_in[event], 1.0 if len(mesh) != 2 or mesh[0] == mesh[1] else 1.0 - 2.0 * mesh, 0.0))
-            histories.append(np.sign(sign) * standing[event] if sign else np.empty(0))
+    way = np.where(end < begin, -1.0, 1.0)
+    visits = np.sum(passes_between(begin, end, at - 0.5 * way, period) + was_in, axis=2).astype(int)
+    order = np.argsort(np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period)), axis=2, kind="stable")
+    # a planet's tooth has the opposite load in the right mesh
+    signs = np.sign(np.sum(was_in * (np.where(mesh == 0, 1.0, -1.0) if len(np.unique(mesh[0])) > 1 else 1.0), axis=2))
     # an event that rolls is one roll, however often it occurs
     once = np.array([min(count, 1.0) if one.roll is not None and count == int(count) else count for one, count in zip(events, counts)])
-    return Tooth(histories, once, more, passes)
+    blocks = dict[tuple, tuple]()
+    found = []
+    for n in range(len(at)):
+        histories, more = [], []
+        for event, one in enumerate(events):
+            if one.roll is not None:
+                in_turn = tuple(stress[mesh[n, order[event, n]], event].tolist())
+                key = in_turn, int(visits[event, n]), bool(np.any(was_in[event, n])), bool(np.any(is_in[event, n]))
+                if key not in blocks:
+                    blocks[key] = _visits(*key)
+                block, left_over = blocks[key]
+                histories.append(block)
+                more += [(load, number, event) for load, number in left_over]
+            else:
+                # the FMU has followed a tooth through a history that rolls; it stands for all teeth
+                sign = 1.0 if one.rolls else signs[event, n]
+                histories.append(sign * standing[event] if sign else np.empty(0))
+        found.append(Tooth(histories, once, more, passes[n]))
+    return found
 
 
 def _visits(loads, number, was_in, is_in):
     """Root stress during a `number` of visits to meshes with these `loads` in turn, and the loads (stress, number) of equal visits that are
-    left out."""
-    pairs = max(number - MOST_PASSES, 0) // len(loads)
-    left = number - pairs * len(loads)
+    left out. The tooth is in mesh at the start if `was_in` is true, and at the end if `is_in` is true."""
+    rounds = max(number - MOST_PASSES, 0) // len(loads)
+    left = number - rounds * len(loads)
     found = [] if was_in and left else [0.0]
     for visit in range(left):
         found += [loads[visit % len(loads)], 0.0]
-    return np.array(found[:-1] if is_in and left else found), [(load, float(pairs)) for load in loads if pairs]
+    return np.array(found[:-1] if is_in and left else found), [(load, float(rounds)) for load in loads if rounds]
 
 
 def passes_between(begin: np.ndarray, end: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
