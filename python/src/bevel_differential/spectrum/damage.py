@@ -46,10 +46,11 @@ class EventDamage:
     """Damage of one occurrence of an event to the gears.
 
     `roll`: steady rolling, whose passes are counted tooth by tooth, or `None`; `rolls`: true if other teeth come into mesh; `advance`:
-    pitches by which the planets roll relative to the carrier, signed; `meshing`: Miner sums of all other load cycles while teeth roll or swing, shape (4,), in the order of `MODES`;
-    `standing`: root stress of the planets [Pa] while the same teeth stay in mesh, signed by the flank, shape (points,), empty if teeth
-    roll all the time; `side_ratio`: root stress of the side gears over that of the planets, NaN without load; `root_stress`: largest
-    root stress of the planets [Pa]; `safety_root`, `safety_flank`: smallest factors of all gears; `warnings` of the FMU."""
+    pitches by which the planets roll relative to the carrier, signed; `meshing`: Miner sums of all other load cycles while teeth roll or
+    swing, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the same teeth stay in mesh, signed by
+    the flank, shape (points,), empty if teeth roll all the time; `side_ratio`: root stress of the side gears over that of the planets, NaN
+    without load; `root_stress`: largest root stress of the planets [Pa]; `safety_root`, `safety_flank`: smallest factors of all gears;
+    `warnings` of the FMU."""
 
     event: Event
     roll: Roll | None

@@ -69,25 +69,25 @@ class WorstTeeth:
     slow_damage: np.ndarray
 
 
-def worst_teeth(events: Sequence[Any], order: str, numbers: tuple[int, int], planets: int, strength: Strength, least: float) -> WorstTeeth:
-    """Load cycles of `events` (`EventDamage`) on gears with these `numbers` of teeth (planet, side gear) and with `planets` planets, in an
-    `order` of `slow.ORDERS`. Slow cycles with a range up to `least` [Pa] are left out."""
+def worst_teeth(events: Sequence[Any], order: str, gears: tuple[tuple[int, int], int, float], strength: Strength, least: float) -> WorstTeeth:
+    """Load cycles of `events` (`EventDamage`) in an `order` of `slow.ORDERS`. `gears`: numbers of teeth of planet and side gear, number of
+    planets, and root stress of side gears over that of planets. Cycles with a range up to `least` [Pa] are left out."""
+    numbers, planets, ratio = gears
     rolls = [one.roll or Roll(0.0, np.ones(2), np.zeros(2), np.zeros(2)) for one in events]
     # signs of the flank that a mesh loads: (gear, mesh)
     loads = np.array([roll.loads for roll in rolls]).T
     signed = np.stack([loads * [[1.0], [-1.0]], loads])
     stress = [signed[gear] * [roll.root[gear] for roll in rolls] for gear in (0, 1)]
     pressures = [np.sqrt(abs(loads)) * [roll.pressure[gear] for roll in rolls] for gear in (0, 1)]
-    # both roots follow one force, so the ratio is the same in all loaded events
-    ratio = next((one.side_ratio for one in events if np.isfinite(one.side_ratio)), 1.0)
     standing = [[factor * one.standing for one in events] for factor in (1.0, ratio)]
     moves = any(one.rolls and one.event.count > 0.0 for one in events)
+    # events whose load cycles are those of rolling
+    rolls_there = np.array([one.roll is not None and (order == "written" or len(one.standing) == 0) for one in events])
+    loaded = teeth_in_written_order if order == "written" else _most_loaded
     rolling, slow, passes = [], [], []
-    for gear, teeth in enumerate((teeth_in_written_order if order == "written" else _most_loaded)(events, stress, standing, loads, numbers, planets)):
+    for gear, teeth in enumerate(loaded(events, stress, standing, loads, numbers, planets)):
         found = [count_slow_cycles(one.histories, one.counts, order, least, one.loads, gear == 0 and moves) for one in teeth]
         worst = max(found, key=lambda cycles: cycles.total(strength))
-        # cycles with both ends in steady rolling
-        rolls_there = np.array([one.roll is not None and (order == "written" or len(one.standing) == 0) for one in events])
         is_rolling = ((worst.low == 0.0) | rolls_there[worst.low_event]) & ((worst.high == 0.0) | rolls_there[worst.high_event])
         rolling.append(worst.chosen(is_rolling))
         slow.append(worst.chosen(~is_rolling))

@@ -31,15 +31,17 @@ TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
 # ranges of stress up to this fraction of the strength do not count as cycles, as in the FMU
 GATE = 0.01
+# relative difference of equal sums by rounding
+EQUAL = 1e-9
 
 
 @dataclass(frozen=True)
 class SpectrumResult:
     """Damage and life over a duty cycle.
 
-    `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling and their slow cycles; `strength`: the S–N curves; `teeth` of
-    planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the planets; `order`: order
-    of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
+    `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling, and slow cycles; `strength`:
+    the S–N curves; `teeth` of planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the
+    planets; `order`: order of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
     worst_teeth: WorstTeeth
@@ -76,7 +78,7 @@ class SpectrumResult:
     @property
     def critical(self) -> int:
         """Index in `MODES` of the largest damage."""
-        return int(np.argmax(self.by_event.sum(axis=0)))
+        return _largest(self.by_event.sum(axis=0))
 
     @property
     def critical_name(self) -> str:
@@ -139,13 +141,14 @@ class SpectrumResult:
         Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names of damage outputs, "slow.planet" and
         "slow.side" that are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa),
         safety.root_min and safety.flank_min of the event."""
-        damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
+        damages, critical = self.by_event, self.critical
+        total = max(damages[:, critical].sum(), np.finfo(float).tiny)
         rows = []
         for event_damage, damage, slow in zip(self.events, damages, self.slow_damage):
-            mode = NAMES[int(np.argmax(damage))] if damage.max() > 0.0 else ""
+            mode = NAMES[_largest(damage)] if damage.max() > 0.0 else ""
             event = event_damage.event
             rows.append((event.name, event.count, event.count * event.duration / HOUR, event.count * event.distance / KM, *damage,
-                         *slow, damage[self.critical] / total, mode, event_damage.root_stress, event_damage.safety_root,
+                         *slow, damage[critical] / total, mode, event_damage.root_stress, event_damage.safety_root,
                          event_damage.safety_flank))
         fields = ["event", "count", "hours", "km", *MODES, "slow.planet", "slow.side", "share", "worst_mode", "root_stress",
                   "safety.root_min", "safety.flank_min"]
@@ -233,11 +236,17 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         strength, planets = Strength.of(facts), int(facts[PLANETS])
         one = partial(_evaluated, differential=differential, teeth=teeth, planets=planets, strength=strength)
         damages = tuple(mapper(one, events))
+    # both roots follow one force, so the ratio is the same in all loaded events
     ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
-    worst = worst_teeth(damages, order, teeth, planets, strength, GATE * strength.bending.strength)
+    worst = worst_teeth(damages, order, (teeth, planets, ratio), strength, GATE * strength.bending.strength)
     result = SpectrumResult(damages, worst, strength, teeth, planets, ratio, order, open_loads(events, facts, differential, sources))
     warn(result.warnings)
     return result
+
+
+def _largest(damages):
+    """Index of the largest of `damages`, the first one if several are equal."""
+    return int(np.argmax(damages >= (1.0 - EQUAL) * np.max(damages)))
 
 
 def _evaluated(event, differential, teeth, planets, strength):

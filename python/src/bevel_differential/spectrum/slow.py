@@ -169,7 +169,8 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
 def worst_pairs(loads: Sequence[Sequence]) -> list[tuple]:
     """Rows (valley, peak, count, event of the valley, event of the peak) of a tooth under `loads`, rows (stress, number, event): the
     highest peaks meet the deepest valleys. Between two loads of one sign, the tooth is without load."""
-    peaks, valleys = (sorted((list(load) for load in loads if sign * load[0] > 0.0), key=lambda load: -abs(load[0])) for sign in (1.0, -1.0))
+    peaks, valleys = (sorted((list(load) for load in loads if sign * load[0] > 0.0), key=lambda load: -abs(load[0]))
+                      for sign in (1.0, -1.0))
     above, below = (sum(load[1] for load in found) for found in (peaks, valleys))
     return _pairs([*peaks, [0.0, below, 0]], [*valleys, [0.0, above, 0]])
 

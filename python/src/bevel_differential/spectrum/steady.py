@@ -84,7 +84,8 @@ def _growths(damage, points):
 
 def _frequency(record, teeth):
     """Mean mesh frequency [Hz], positive if the planets turn forward."""
-    return (record["planet[1].spin_angle"][-1] - record["planet[1].spin_angle"][0]) / (record["time"][-1] - record["time"][0]) * teeth[0] / (2.0 * pi)
+    angle, time = record["planet[1].spin_angle"], record["time"]
+    return (angle[-1] - angle[0]) / (time[-1] - time[0]) * teeth[0] / (2.0 * pi)
 
 
 def _forces(record):

@@ -62,7 +62,8 @@ def _teeth(events, counts, ends, teeth, gear):
     passed, passes = passes_between(begin, end, at + rated, period), np.zeros((len(at), 2, len(events)))
     for number in (0, 1):
         passes[:, number] = np.sum(passed * (mesh == number), axis=2).T
-    was_in, is_in = is_in_mesh(begin, at, period), is_in_mesh(end, at, period)
+    was_in = is_in_mesh(begin, at, period)
+    loaded_first, loaded_last = (np.any(places, axis=2) for places in (was_in, is_in_mesh(end, at, period)))
     way = np.where(end < begin, -1.0, 1.0)
     visits = np.sum(passes_between(begin, end, at - 0.5 * way, period) + was_in, axis=2).astype(int)
     order = np.argsort(np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period)), axis=2, kind="stable")
@@ -77,7 +78,7 @@ def _teeth(events, counts, ends, teeth, gear):
         for event, one in enumerate(events):
             if one.roll is not None:
                 in_turn = tuple(stress[mesh[n, order[event, n]], event].tolist())
-                key = in_turn, int(visits[event, n]), bool(np.any(was_in[event, n])), bool(np.any(is_in[event, n]))
+                key = in_turn, int(visits[event, n]), bool(loaded_first[event, n]), bool(loaded_last[event, n])
                 if key not in blocks:
                     blocks[key] = _visits(*key)
                 block, left_over = blocks[key]
