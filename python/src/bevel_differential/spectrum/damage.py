@@ -47,10 +47,9 @@ class EventDamage:
 
     `roll`: steady rolling, whose passes are counted tooth by tooth, or `None`; `rolls`: true if other teeth come into mesh; `advance`:
     pitches by which the planets roll relative to the carrier, signed; `meshing`: Miner sums of all other load cycles while teeth roll or
-    swing, shape (4,), in the order of `MODES`; `standing`: root stress of the planets [Pa] while the same teeth stay in mesh, signed by
-    the flank, shape (points,), empty if teeth roll all the time; `side_ratio`: root stress of the side gears over that of the planets, NaN
-    without load; `root_stress`: largest root stress of the planets [Pa]; `safety_root`, `safety_flank`: smallest factors of all gears;
-    `warnings` of the FMU."""
+    swing, shape (4,), in the order of `MODES`; `standing`: root stress of planet and side gear [Pa] while the same teeth stay in mesh,
+    signed by the flank, shape (2, points), without points if teeth roll all the time; `root_stress`: largest root stress of planets and
+    side gears [Pa], shape (2,); `safety_root`, `safety_flank`: smallest factors of all gears; `warnings` of the FMU."""
 
     event: Event
     roll: Roll | None
@@ -58,8 +57,7 @@ class EventDamage:
     advance: float
     meshing: np.ndarray
     standing: np.ndarray
-    side_ratio: float
-    root_stress: float
+    root_stress: np.ndarray
     safety_root: float
     safety_flank: float
     warnings: tuple[str, ...]
@@ -67,10 +65,7 @@ class EventDamage:
     @classmethod
     def of(cls, event: Event, record: np.ndarray, warnings: tuple[str, ...], **found: Any) -> Self:
         """Damage with the stresses and the smallest safety factors of a `record` of `OUTPUTS`; `found`: all other fields."""
-        planet, side = record["stress.root_planet_max"], record["stress.root_side_max"]
-        worst = int(np.argmax(planet))
-        ratio = float(side[worst] / planet[worst]) if planet[worst] > 0.0 else nan
-        return cls(event, side_ratio=ratio, root_stress=float(planet[worst]), safety_root=float(record["safety.root_min"][-1]),
+        return cls(event, root_stress=np.max(root_stress(record), axis=1), safety_root=float(record["safety.root_min"][-1]),
                    safety_flank=float(record["safety.flank_min"][-1]), warnings=warnings, **found)
 
 
@@ -79,7 +74,12 @@ def damage_of(record: np.ndarray) -> np.ndarray:
     return np.stack([record[name] for name in MODES], axis=1)
 
 
-def signed_stress(record: np.ndarray) -> np.ndarray:
-    """Root stress of the planets [Pa], positive while the drive flanks of the more loaded side are loaded."""
+def root_stress(record: np.ndarray) -> np.ndarray:
+    """Root stress of planets and side gears [Pa], shape (2, points)."""
+    return np.stack([record["stress.root_planet_max"], record["stress.root_side_max"]])
+
+
+def load_signs(record: np.ndarray) -> np.ndarray:
+    """1 while the drive flanks of the more loaded side are loaded, −1 while its coast flanks are, 0 without load; shape (points,)."""
     left, right = record["left.tangential_force"], record["right.tangential_force"]
-    return record["stress.root_planet_max"] * np.sign(np.where(abs(left) >= abs(right), left, right))
+    return np.sign(np.where(abs(left) >= abs(right), left, right))

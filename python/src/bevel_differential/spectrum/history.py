@@ -9,7 +9,7 @@ from math import ceil, pi
 import numpy as np
 
 from ..differential import Differential
-from .damage import OUTPUTS, Event, EventDamage, damage_of, signed_stress
+from .damage import OUTPUTS, Event, EventDamage, damage_of, load_signs, root_stress
 from .passes import LEAST_ROLL, MESH
 from .slow import Strength
 
@@ -35,7 +35,8 @@ def history(differential: Differential, event: Event, teeth: tuple[int, int], pl
             most = _most(record[first:last + 1], place[first:last + 1], (teeth[0], teeth[1] / planets), strength)
             meshing += np.maximum(most - by_fmu, 0.0)
     # a tooth that rolls out of mesh is unloaded
-    standing = np.where(np.append(rolls[0], rolls), 0.0, signed_stress(record)) if not np.all(rolls) else np.empty(0)
+    stands = ~np.append(rolls[0], rolls)
+    standing = stands * load_signs(record) * root_stress(record) if np.any(stands) else np.empty((2, 0))
     return EventDamage.of(event, record, tuple(differential.warnings), roll=None, rolls=bool(found),
                           advance=float(place[-1] - place[0]), meshing=meshing, standing=standing)
 
@@ -78,11 +79,11 @@ def _rolls(advance):
 
 def _most(record, place, between, strength):
     """Largest Miner sums of a tooth in a stroke, shape (4,). `between`: pitches between two passes of a tooth of planet and side gear."""
-    way, rolled = np.sign(signed_stress(record)), abs(place - place[0])
+    way, rolled = load_signs(record), abs(place - place[0])
     reverses = np.any(way > 0.0) and np.any(way < 0.0)
     # a planet's tooth is loaded from both sides in turn, and a side gear's if the load reverses
     curves = strength.idler, strength.idler if reverses else strength.bending
-    stresses = record["stress.root_planet_max"], record["stress.root_side_max"]
+    stresses = root_stress(record)
     pressure, found = record["stress.contact_rated"], np.zeros(4)
     for gear in (0, 1):
         found[gear] = np.sum(curves[gear].damage(_peaks(stresses[gear], rolled, between[gear], MESH)))

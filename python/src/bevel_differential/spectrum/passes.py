@@ -69,20 +69,20 @@ class WorstTeeth:
     slow_damage: np.ndarray
 
 
-def worst_teeth(events: Sequence[Any], order: str, gears: tuple[tuple[int, int], int, float], strength: Strength, least: float) -> WorstTeeth:
-    """Load cycles of `events` (`EventDamage`) in an `order` of `slow.ORDERS`. `gears`: numbers of teeth of planet and side gear, number of
-    planets, and root stress of side gears over that of planets. Cycles with a range up to `least` [Pa] are left out."""
-    numbers, planets, ratio = gears
+def worst_teeth(events: Sequence[Any], order: str, gears: tuple[tuple[int, int], int], strength: Strength, least: float) -> WorstTeeth:
+    """Load cycles of `events` (`EventDamage`) in an `order` of `slow.ORDERS`. `gears`: numbers of teeth of planet and side gear, and
+    number of planets. Cycles with a range up to `least` [Pa] are left out."""
+    numbers, planets = gears
     rolls = [one.roll or Roll(0.0, np.ones(2), np.zeros(2), np.zeros(2)) for one in events]
     # signs of the flank that a mesh loads: (gear, mesh)
     loads = np.array([roll.loads for roll in rolls]).T
     signed = np.stack([loads * [[1.0], [-1.0]], loads])
     stress = [signed[gear] * [roll.root[gear] for roll in rolls] for gear in (0, 1)]
     pressures = [np.sqrt(abs(loads)) * [roll.pressure[gear] for roll in rolls] for gear in (0, 1)]
-    standing = [[factor * one.standing for one in events] for factor in (1.0, ratio)]
+    standing = [[one.standing[gear] for one in events] for gear in (0, 1)]
     moves = any(one.rolls and one.event.count > 0.0 for one in events)
     # events whose load cycles are those of rolling
-    rolls_there = np.array([one.roll is not None and (order == "written" or len(one.standing) == 0) for one in events])
+    rolls_there = np.array([one.roll is not None and (order == "written" or one.standing.size == 0) for one in events])
     loaded = teeth_in_written_order if order == "written" else _most_loaded
     rolling, slow, passes = [], [], []
     for gear, teeth in enumerate(loaded(events, stress, standing, loads, numbers, planets)):
@@ -109,7 +109,7 @@ def _most_loaded(events, stress, standing, loads, numbers, planets):
     gears = []
     for gear, (between, meshes) in enumerate([(numbers[0], [[1, 1]]), (numbers[1] / planets, [[1, 0], [0, 1]])]):
         # the roots of standing teeth are in their histories
-        roots = most(between, MESH) * [len(one.standing) == 0 for one in events]
+        roots = most(between, MESH) * [one.standing.size == 0 for one in events]
         gears.append([Tooth(standing[gear], counts, [(stress[gear][mesh, event], roots[event], event) for mesh in (0, 1) if of[mesh]
                                                      for event in np.flatnonzero(roots)], np.outer(of, most(between, 0.0))) for of in meshes])
     return gears

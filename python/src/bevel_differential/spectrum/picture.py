@@ -102,7 +102,7 @@ def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     if result.is_flank:
         largest = np.array([result.strength.pitting.strength / one.safety_flank for one in others])
     else:
-        largest = np.array([one.root_stress * (result.side_ratio if gear else 1.0) for one in others])
+        largest = np.array([one.root_stress[gear] for one in others])
     stresses = np.concatenate([stresses, largest])
     counts = np.concatenate([counts, damage[damage > 0.0] / curve(result).damage(largest)])
     is_loaded = (counts > 0.0) & (stresses > 0.0)

@@ -40,15 +40,14 @@ class SpectrumResult:
     """Damage and life over a duty cycle.
 
     `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling, and slow cycles; `strength`:
-    the S–N curves; `teeth` of planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the
-    planets; `order`: order of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
+    the S–N curves; `teeth` of planet and side gear; `planets`: their number; `order`: order of the events; `loads`:
+    lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
     worst_teeth: WorstTeeth
     strength: Strength
     teeth: tuple[int, int]
     planets: int
-    side_ratio: float
     order: str
     loads: tuple[str, ...] = ()
 
@@ -148,7 +147,7 @@ class SpectrumResult:
             mode = NAMES[_largest(damage)] if damage.max() > 0.0 else ""
             event = event_damage.event
             rows.append((event.name, event.count, event.count * event.duration / HOUR, event.count * event.distance / KM, *damage,
-                         *slow, damage[critical] / total, mode, event_damage.root_stress, event_damage.safety_root,
+                         *slow, damage[critical] / total, mode, event_damage.root_stress[0], event_damage.safety_root,
                          event_damage.safety_flank))
         fields = ["event", "count", "hours", "km", *MODES, "slow.planet", "slow.side", "share", "worst_mode", "root_stress",
                   "safety.root_min", "safety.flank_min"]
@@ -236,10 +235,8 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         strength, planets = Strength.of(facts), int(facts[PLANETS])
         one = partial(_evaluated, differential=differential, teeth=teeth, planets=planets, strength=strength)
         damages = tuple(mapper(one, events))
-    # both roots follow one force, so the ratio is the same in all loaded events
-    ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
-    worst = worst_teeth(damages, order, (teeth, planets, ratio), strength, GATE * strength.bending.strength)
-    result = SpectrumResult(damages, worst, strength, teeth, planets, ratio, order, open_loads(events, facts, differential, sources))
+    worst = worst_teeth(damages, order, (teeth, planets), strength, GATE * strength.bending.strength)
+    result = SpectrumResult(damages, worst, strength, teeth, planets, order, open_loads(events, facts, differential, sources))
     warn(result.warnings)
     return result
 
