@@ -10,8 +10,10 @@ from duty_cycles import FLANKS, HEAD, ROOTS, spectrum_of
 from bevel_differential import Differential, DifferentialError
 from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.spectrum.damage import MODES
+from bevel_differential.spectrum.history import strokes
 from bevel_differential.spectrum.picture import curve, rolling_spectrum, standing_spectrum
 from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
+from bevel_differential.spectrum.tooth import passes_between
 
 # the FMU's start values, by the standards cited in docs/inside/theory.md
 BENDING, BENDING_CYCLES, BENDING_SLOPE = 1000e6, 3e6, log(3e6 / 1e3) / log(2.5)
@@ -60,6 +62,18 @@ def test_a_history_that_repeats_is_counted_as_the_example_of_the_standard():
     # ASTM E1049-85, 5.4.5, figure 7: −2, 1, −3, 5, −1, 3, −4, 4, −2
     cycles = {high - low: count for low, high, count, *_ in _merged(closed_cycles(np.array([-2.0, 1, -3, 5, -1, 3, -4, 4, -2])))}
     assert cycles == {3.0: 1.0, 4.0: 1.0, 7.0: 1.0, 9.0: 1.0}
+
+
+def test_passes_and_strokes_by_hand():
+    # there and back over a tooth counts twice; a turn at a tooth counts once
+    teeth = np.arange(10)
+    assert passes_between(0.0, 2.5, teeth, 10).tolist() == [0, 1, 1, 0, 0, 0, 0, 0, 0, 0]
+    assert passes_between(2.5, -1.5, teeth, 10).tolist() == [1, 1, 1, 0, 0, 0, 0, 0, 0, 1]
+    assert passes_between(0.0, -23.0, teeth, 10).tolist() == [2, 2, 2, 2, 2, 2, 2, 3, 3, 3]
+    assert np.sum(passes_between(0.0, 2.0, teeth, 10)) == np.sum(passes_between(2.0, 0.0, teeth, 10)) == 2
+    # returns of up to 0.05 pitches belong to the stroke
+    assert strokes(np.array([0.0, 0.6, 0.56, 0.8, 0.8, 0.1, 0.13, -1.0, -0.97])) == [(0, 3), (3, 7)]
+    assert strokes(np.array([0.0, 0.04, -0.01])) == []
 
 
 def _merged(cycles):
@@ -276,6 +290,33 @@ def test_a_swing_of_less_than_a_pitch_passes_twice(fmu_file):
     found = spectrum([event(duration=20.0, left=600.0, right=600.0, signals=signals)], LUMPED, fmu=fmu_file)
     once = spectrum([rolled(2.0, 1200.0)], LUMPED, fmu=fmu_file)
     assert all_damages(found)[2:] == pytest.approx(20.0 * all_damages(once)[2:], rel=1e-3)
+
+
+def test_the_sum_of_a_history_is_an_upper_bound_for_all_start_positions(fmu_file):
+    # strokes with a peak of the load, of less and of more than a revolution; a tooth meets it only at some start positions
+    rows = [(0.0, 0.0, 0.0)]
+    for pitches, load in ((2.3, 600.0), (-6.1, 500.0), (13.2, -300.0), (-0.8, 400.0)):
+        spin, start = pitches * pi / 10.0, rows[-1][0] + 0.3
+        rows += [(start + delay, spin * rolls, load * part) for delay, rolls, part in
+                 ((0.0, 0, 0.7), (0.3, 1, 0.7), (1.1, 1, 0.7), (1.2, 1, 1.0), (1.3, 1, 0.7), (2.0, 1, 0.7), (2.3, 0, 0.7))]
+    times, spins, loads = np.array([*rows, (rows[-1][0] + 0.3, 0.0, 0.0)]).T
+    still = {**event(left=0.0, right=0.0).values, **LUMPED}
+
+    def signals(before):
+        # unloaded teeth roll to the start position
+        names = dict.fromkeys(["left.load_torque", "right.load_torque"], np.concatenate([np.zeros(4), loads]))
+        at = np.concatenate([[0.0, 0.2, 1.8, 2.0], times + 2.0])
+        spin = np.concatenate([[0.0, before, before, 0.0], spins])
+        return {name: (at, values) for name, values in {**names, "spin.command": spin}.items()}
+
+    history = event(left=0.0, right=0.0, duration=times[-1] + 2.0, signals=signals(0.0))
+    ours = {order: all_damages(spectrum([history], LUMPED, order=order, fmu=fmu_file)) for order in ("unknown", "written")}
+    with Differential({**still, "effects.strength": True}, fmu=fmu_file) as differential:
+        runs = [differential.run(signals(before), MODES, history.duration, 0.01)[-1] for before in np.arange(0.0, 3.5, 0.5)]
+    theirs = np.array([[run[name] for name in MODES] for run in runs])
+    assert np.all(ours["unknown"] >= 0.999 * theirs.max(axis=0)) and np.all(ours["written"][2:] >= 0.999 * theirs[:, 2:].max(axis=0))
+    # start positions matter
+    assert np.any(theirs.max(axis=0) > 1.2 * theirs.min(axis=0))
 
 
 def test_straight_ahead_nothing_passes_and_only_changes_of_load_damage_the_roots(fmu_file):

@@ -12,6 +12,7 @@ from ..differential import Differential
 from .damage import OUTPUTS, Event, EventDamage, damage_of, load_signs, root_stress
 from .passes import LEAST_ROLL, MESH
 from .slow import Strength
+from .tooth import DECIMALS
 
 # rows of a halt that does not end rolling
 HALT = 5
@@ -96,7 +97,7 @@ def _most(record, place, between, strength):
 def _peaks(values, rolled, between, longer):
     """Largest `values` at the passes of one tooth, which are `between` pitches apart in a stroke that is longer by `longer`."""
     found = []
-    for number in range(ceil((rolled[-1] + longer) / between)):
+    for number in range(ceil(round((rolled[-1] + longer) / between, DECIMALS))):
         first = max(np.searchsorted(rolled, number * between - longer, "right") - 1, 0)
         last = np.searchsorted(rolled, (number + 1) * between, "left") + 1
         found.append(np.max(values[first:last]))

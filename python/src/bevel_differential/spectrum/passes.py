@@ -15,7 +15,7 @@ from typing import Any, Self
 import numpy as np
 
 from .slow import SlowCycles, Strength, count_slow_cycles, worst_pairs
-from .tooth import Tooth, teeth_in_written_order
+from .tooth import DECIMALS, Tooth, teeth_in_written_order
 
 # smallest roll that counts, in pitches: bending teeth and their backlash allow less
 LEAST_ROLL = 0.05
@@ -104,7 +104,7 @@ def _most_loaded(events, stress, standing, loads, numbers, planets):
 
     def most(between, longer):
         pitches = [abs(one.roll.pitches) if one.roll and abs(one.roll.pitches) > LEAST_ROLL else 0.0 for one in events]
-        return counts * [ceil((rolled + longer) / between) if rolled else 0 for rolled in pitches]
+        return counts * [ceil(round((rolled + longer) / between, DECIMALS)) if rolled else 0 for rolled in pitches]
 
     gears = []
     for gear, (between, meshes) in enumerate([(numbers[0], [[1, 1]]), (numbers[1] / planets, [[1, 0], [0, 1]])]):

@@ -2,7 +2,7 @@
 
 Each tooth is loaded once or more per revolution. Damage is therefore measured over whole revolutions of each gear."""
 
-from math import ceil, pi
+from math import ceil, lcm, pi
 
 import numpy as np
 
@@ -14,8 +14,10 @@ from .slow import Strength
 # duration of settling, which does not count, and of the first run including it [s]
 SETTLING, LOOK = 0.1, 0.5
 POINTS = 50
-# revolutions of each gear: doubled until two successive values agree to STEADY or the maximum is reached
-MOST_REVOLUTIONS, STEADY = 8, 0.01
+# relative difference of two successive revolutions that counts as steady
+STEADY = 0.01
+# otherwise: maximum number of mesh cycles until all teeth have met, or revolutions of each gear instead
+MOST_CYCLES, MOST_REVOLUTIONS = 320, 4
 # points per mesh cycle: the median of revolutions that begin at these points does not depend on where a pass counts
 POINTS_PER_CYCLE = 8
 
@@ -37,7 +39,7 @@ def steady(differential: Differential, event: Event, teeth: tuple[int, int], pla
     record, damage, agrees = _revolutions(differential, event, abs(frequency), teeth)
     warnings = tuple(differential.warnings)
     if not agrees:
-        warnings += (f"damage of two times {MOST_REVOLUTIONS} revolutions differs by more than {STEADY:.0%}; their mean is taken",)
+        warnings += (f"damage differs from one revolution to the next by more than {STEADY:.0%}; a mean is taken",)
     pitches, forces = _frequency(record, teeth) * event.duration, _forces(record)
     roll = Roll.of_revolutions(pitches, forces, damage, strength, planets)
     return EventDamage.of(event, record, warnings, roll=roll, rolls=True, advance=pitches, meshing=np.zeros(4), standing=np.empty((2, 0)))
@@ -60,18 +62,22 @@ def _within_a_pitch(event, settled, pitches, strength, warnings):
 
 def _revolutions(differential, event, frequency, teeth):
     """Record of the steady state, growth of damage in one revolution of each gear, shape (4,), and true if successive values agree."""
-    cycles = np.array([teeth[0], teeth[1], teeth[0], teeth[1]])
-    before, revolutions = max(1, ceil(SETTLING * frequency)), 1
-    while True:
-        length = before + 2 * revolutions * max(teeth) + 1
+    revolution = np.array([teeth[0], teeth[1], teeth[0], teeth[1]])
+    # with tooth errors, teeth meet again after the least common multiple
+    common = lcm(*teeth)
+    longer = np.full(4, common) if common <= MOST_CYCLES else MOST_REVOLUTIONS * revolution
+    settling = max(1, ceil(SETTLING * frequency))
+    # the worst tooth has the largest sum only after some time
+    for cycles, before in ((revolution, settling), (longer, settling + 2 * max(longer))):
+        length = before + 2 * max(cycles) + 1
         record = differential._record(None, OUTPUTS, length / frequency, 1.0 / (POINTS_PER_CYCLE * frequency), event.values)
         record = record[before * POINTS_PER_CYCLE:]
         damage = damage_of(record)
-        halves = np.array([_growths(damage[:, mode], revolutions * cycles[mode] * POINTS_PER_CYCLE) for mode in range(4)])
+        halves = np.array([_growths(damage[:, mode], cycles[mode] * POINTS_PER_CYCLE) for mode in range(4)])
         agrees = bool(np.all(abs(halves[:, 1] - halves[:, 0]) <= STEADY * np.max(halves, axis=1)))
-        if agrees or revolutions >= MOST_REVOLUTIONS:
-            return record, np.mean(halves, axis=1) / revolutions, agrees
-        revolutions *= 2
+        if agrees:
+            break
+    return record, np.mean(halves, axis=1) * revolution / cycles, agrees
 
 
 def _growths(damage, points):
