@@ -280,6 +280,7 @@ def test_sums_are_those_of_the_worst_tooth_that_the_fmu_follows(fmu_file, contac
     assert written[2:] == pytest.approx(theirs[2:], rel=0.02)
     # half cycles that are open at the ends close in a duty cycle that repeats; impacts are not in steady events
     assert np.all(written[:2] > 0.85 * theirs[:2]) and np.all(unknown > 0.99 * theirs)
+    assert np.all(unknown >= (1.0 - 1e-9) * written)
 
 
 def test_a_swing_of_less_than_a_pitch_passes_twice(fmu_file):
