@@ -331,6 +331,15 @@ def test_straight_ahead_nothing_passes_and_only_changes_of_load_damage_the_roots
     assert np.isinf(unchanged.life_hours) and "no event" in unchanged.summary()
 
 
+def test_each_side_gear_has_its_own_loads(fmu_file, stress):
+    # straight ahead, the left side gear always drives, and the right one drives, then overruns; a planet's tooth meets one of them
+    events = [event(left=600.0, right=600.0), event(left=600.0, right=-300.0)]
+    planet, side = stress(1200.0)
+    alternating = 1.5 / (1.0 + SENSITIVITY) * (1.0 + SENSITIVITY / 3.0)
+    found = spectrum(events, LUMPED, order="written", fmu=fmu_file)
+    assert [found.damage[name] for name in ROOTS] == pytest.approx([bending(alternating * planet), bending(alternating * side)], rel=0.02)
+
+
 def test_a_pool_gives_the_same(fmu_file):
     with ThreadPoolExecutor(2) as pool:
         parallel = spectrum(EVENTS, fmu=fmu_file, mapper=pool.map)

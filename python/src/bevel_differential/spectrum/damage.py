@@ -47,8 +47,8 @@ class EventDamage:
 
     `roll`: steady rolling, whose passes are counted tooth by tooth, or `None`; `rolls`: true if other teeth come into mesh; `advance`:
     pitches by which the planets roll relative to the carrier, signed; `meshing`: Miner sums of all other load cycles while teeth roll or
-    swing, shape (4,), in the order of `MODES`; `standing`: root stress of planet and side gear [Pa] while the same teeth stay in mesh,
-    signed by the flank, shape (2, points), without points if teeth roll all the time; `root_stress`: largest root stress of planets and
+    swing, shape (4,), in the order of `MODES`; `standing`: root stress of planet and side gear [Pa] by the left and the
+    right mesh while the same teeth stay in mesh, positive if the mesh drives, shape (2, 2, points), without points if teeth roll all the time; `root_stress`: largest root stress of planets and
     side gears [Pa], shape (2,); `safety_root`, `safety_flank`: smallest factors of all gears; `warnings` of the FMU."""
 
     event: Event
@@ -77,6 +77,12 @@ def damage_of(record: np.ndarray) -> np.ndarray:
 def root_stress(record: np.ndarray) -> np.ndarray:
     """Root stress of planets and side gears [Pa], shape (2, points)."""
     return np.stack([record["stress.root_planet_max"], record["stress.root_side_max"]])
+
+
+def mesh_stress(record: np.ndarray) -> np.ndarray:
+    """Root stress of planets and side gears [Pa] by the left and the right mesh, positive if the mesh drives, shape (2, 2, points)."""
+    forces = np.stack([record["left.tangential_force"], record["right.tangential_force"]])
+    return root_stress(record)[:, None] * forces / np.maximum(np.max(abs(forces), axis=0), np.finfo(float).tiny)
 
 
 def load_signs(record: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ from math import ceil, pi
 import numpy as np
 
 from ..differential import Differential
-from .damage import OUTPUTS, Event, EventDamage, damage_of, load_signs, root_stress
+from .damage import OUTPUTS, Event, EventDamage, damage_of, load_signs, mesh_stress, root_stress
 from .passes import LEAST_ROLL, MESH
 from .slow import Strength
 from .tooth import DECIMALS
@@ -37,7 +37,7 @@ def history(differential: Differential, event: Event, teeth: tuple[int, int], pl
             meshing += np.maximum(most - by_fmu, 0.0)
     # a tooth that rolls out of mesh is unloaded
     stands = ~np.append(rolls[0], rolls)
-    standing = stands * load_signs(record) * root_stress(record) if np.any(stands) else np.empty((2, 0))
+    standing = stands * mesh_stress(record) if np.any(stands) else np.empty((2, 2, 0))
     return EventDamage.of(event, record, tuple(differential.warnings), roll=None, rolls=bool(found),
                           advance=float(place[-1] - place[0]), meshing=meshing, standing=standing)
 

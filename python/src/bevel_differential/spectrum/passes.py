@@ -15,7 +15,7 @@ from typing import Any, Self
 import numpy as np
 
 from .slow import SlowCycles, Strength, count_slow_cycles, worst_pairs
-from .tooth import DECIMALS, Tooth, teeth_in_written_order
+from .tooth import DECIMALS, Tooth, larger, teeth_in_written_order
 
 # smallest roll that counts, in pitches: bending teeth and their backlash allow less
 LEAST_ROLL = 0.05
@@ -79,7 +79,8 @@ def worst_teeth(events: Sequence[Any], order: str, gears: tuple[tuple[int, int],
     signed = np.stack([loads * [[1.0], [-1.0]], loads])
     stress = [signed[gear] * [roll.root[gear] for roll in rolls] for gear in (0, 1)]
     pressures = [np.sqrt(abs(loads)) * [roll.pressure[gear] for roll in rolls] for gear in (0, 1)]
-    standing = [[one.standing[gear] for one in events] for gear in (0, 1)]
+    # a planet's tooth has the opposite load in the right mesh
+    standing = [[one.standing[gear] * [[1.0], [2.0 * gear - 1.0]] for one in events] for gear in (0, 1)]
     moves = any(one.rolls and one.event.count > 0.0 for one in events)
     # events whose load cycles are those of rolling
     rolls_there = np.array([one.roll is not None and (order == "written" or one.standing.size == 0) for one in events])
@@ -107,10 +108,13 @@ def _most_loaded(events, stress, standing, loads, numbers, planets):
         return counts * [ceil(round((rolled + longer) / between, DECIMALS)) if rolled else 0 for rolled in pitches]
 
     gears = []
-    for gear, (between, meshes) in enumerate([(numbers[0], [[1, 1]]), (numbers[1] / planets, [[1, 0], [0, 1]])]):
+    moves = any(one.rolls and one.event.count > 0.0 for one in events)
+    # a tooth stays in one mesh, but that of a planet meets both if it moves
+    single, both = [[1, 0], [0, 1]], [[1, 1]]
+    for gear, (between, meshes) in enumerate([(numbers[0], both if moves else single), (numbers[1] / planets, single)]):
         # the roots of standing teeth are in their histories
         roots = most(between, MESH) * [one.standing.size == 0 for one in events]
-        gears.append([Tooth(standing[gear], counts, [(stress[gear][mesh, event], roots[event], event) for mesh in (0, 1) if of[mesh]
+        gears.append([Tooth([larger(one[np.array(of, bool)]) for one in standing[gear]], counts, [(stress[gear][mesh, event], roots[event], event) for mesh in (0, 1) if of[mesh]
                                                      for event in np.flatnonzero(roots)], np.outer(of, most(between, 0.0))) for of in meshes])
     return gears
 

@@ -7,7 +7,7 @@ from math import ceil, lcm, pi
 import numpy as np
 
 from ..differential import Differential
-from .damage import OUTPUTS, Event, EventDamage, damage_of, load_signs, root_stress
+from .damage import OUTPUTS, Event, EventDamage, damage_of, root_stress
 from .passes import LEAST_ROLL, Roll
 from .slow import Strength
 
@@ -42,7 +42,7 @@ def steady(differential: Differential, event: Event, teeth: tuple[int, int], pla
         warnings += (f"damage differs from one revolution to the next by more than {STEADY:.0%}; a mean is taken",)
     pitches, forces = _frequency(record, teeth) * event.duration, _forces(record)
     roll = Roll.of_revolutions(pitches, forces, damage, strength, planets)
-    return EventDamage.of(event, record, warnings, roll=roll, rolls=True, advance=pitches, meshing=np.zeros(4), standing=np.empty((2, 0)))
+    return EventDamage.of(event, record, warnings, roll=roll, rolls=True, advance=pitches, meshing=np.zeros(4), standing=np.empty((2, 2, 0)))
 
 
 def _within_a_pitch(event, settled, pitches, strength, warnings):
@@ -50,14 +50,13 @@ def _within_a_pitch(event, settled, pitches, strength, warnings):
     still pass the rated points of the flanks."""
     span = settled["time"][-1] - settled["time"][0]
     swings = (damage_of(settled)[-1] - damage_of(settled)[0]) / span * event.duration
-    stress, roll = root_stress(settled), None
+    stress, forces, roll = np.max(root_stress(settled), axis=1), _forces(settled), None
+    loads = forces / max(np.max(abs(forces)), np.finfo(float).tiny)
     if abs(pitches) > LEAST_ROLL:
         pressure, swings[2:] = np.max(settled["stress.contact_rated"]), 0.0
-        forces = _forces(settled)
-        largest = max(np.max(abs(forces)), np.finfo(float).tiny)
-        roll = Roll(pitches, forces / largest, np.max(stress, axis=1), np.array([pressure, pressure]))
+        roll = Roll(pitches, loads, stress, np.array([pressure, pressure]))
     return EventDamage.of(event, settled, warnings, roll=roll, rolls=roll is not None, advance=pitches, meshing=swings,
-                          standing=(load_signs(settled)[np.argmax(stress[0])] * np.max(stress, axis=1))[:, None])
+                          standing=np.outer(stress, loads)[:, :, None])
 
 
 def _revolutions(differential, event, frequency, teeth):

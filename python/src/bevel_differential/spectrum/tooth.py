@@ -42,8 +42,8 @@ class Tooth:
 def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], standing: Sequence[list[np.ndarray]], loads: np.ndarray,
                            numbers: tuple[int, int], planets: int) -> tuple[list[Tooth], list[Tooth]]:
     """Teeth of a planet, and of both side gears. `events`: `EventDamage`; `stress`: root stress of passes by gear, each of the shape
-    (meshes, events) [Pa]; `standing`: root stress of standing teeth by gear and event [Pa]; `loads` of the meshes, positive if they
-    drive, shape (meshes, events); `numbers` of teeth of planet and side gear."""
+    (meshes, events) [Pa]; `standing`: root stress of standing teeth by gear and event, each of the shape (meshes,
+    points) [Pa]; `loads` of the meshes, positive if they drive, shape (meshes, events); `numbers` of teeth of planet and side gear."""
     counts = np.array([one.event.count for one in events])
     ends = np.concatenate([[0.0], np.cumsum([one.advance for one in events] * counts)])
     half, turns = numbers[0] / 2.0, np.arange(planets) / planets * numbers[1]
@@ -67,8 +67,6 @@ def _teeth(events, counts, ends, teeth, gear):
     way = np.where(end < begin, -1.0, 1.0)
     visits = np.sum(passes_between(begin, end, at - 0.5 * way, period) + was_in, axis=2).astype(int)
     order = np.argsort(np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period)), axis=2, kind="stable")
-    # a planet's tooth has the opposite load in the right mesh
-    signs = np.sign(np.sum(was_in * (np.where(mesh == 0, 1.0, -1.0) if len(np.unique(mesh[0])) > 1 else 1.0), axis=2))
     # an event that rolls is one roll, however often it occurs
     once = np.array([min(count, 1.0) if one.roll is not None and count == int(count) else count for one, count in zip(events, counts)])
     blocks = dict[tuple, tuple]()
@@ -86,10 +84,15 @@ def _teeth(events, counts, ends, teeth, gear):
                 more += [(load, number, event) for load, number in left_over]
             else:
                 # the FMU has followed a tooth through a history that rolls; it stands for all teeth
-                sign = 1.0 if one.rolls else signs[event, n]
-                histories.append(sign * standing[event] if sign else np.empty(0))
+                meshes = mesh[n] if one.rolls else mesh[n, was_in[event, n]]
+                histories.append(larger(standing[event][np.unique(meshes)]))
         found.append(Tooth(histories, once, more, passes[n]))
     return found
+
+
+def larger(stresses: np.ndarray) -> np.ndarray:
+    """History with the larger peak [Pa] of `stresses`, shape (meshes, points); no points without a mesh."""
+    return max(stresses, key=lambda stress: np.max(abs(stress), initial=0.0), default=np.empty(0))
 
 
 def _visits(loads, number, was_in, is_in):
