@@ -47,9 +47,10 @@ class EventDamage:
 
     `roll`: steady rolling, whose passes are counted tooth by tooth, or `None`; `rolls`: true if other teeth come into mesh; `advance`:
     pitches by which the planets roll relative to the carrier, signed; `meshing`: Miner sums of all other load cycles while teeth roll or
-    swing, shape (4,), in the order of `MODES`; `standing`: root stress of planet and side gear [Pa] by the left and the
-    right mesh while the same teeth stay in mesh, positive if the mesh drives, shape (2, 2, points), without points if teeth roll all the time; `root_stress`: largest root stress of planets and
-    side gears [Pa], shape (2,); `safety_root`, `safety_flank`: smallest factors of all gears; `warnings` of the FMU."""
+    swing, shape (4,), in the order of `MODES`; `standing`: root stress of planet and side gear [Pa] by the left and the right mesh while
+    the same teeth stay in mesh, positive if the mesh drives, shape (2, 2, points), without points if teeth roll all the time;
+    `root_stress`: largest root stress of planets and side gears [Pa], shape (2,); `safety_root`, `safety_flank`: smallest factors of all
+    gears; `warnings` of the FMU."""
 
     event: Event
     roll: Roll | None

@@ -114,8 +114,12 @@ def _most_loaded(events, stress, standing, loads, numbers, planets):
     for gear, (between, meshes) in enumerate([(numbers[0], both if moves else single), (numbers[1] / planets, single)]):
         # the roots of standing teeth are in their histories
         roots = most(between, MESH) * [one.standing.size == 0 for one in events]
-        gears.append([Tooth([larger(one[np.array(of, bool)]) for one in standing[gear]], counts, [(stress[gear][mesh, event], roots[event], event) for mesh in (0, 1) if of[mesh]
-                                                     for event in np.flatnonzero(roots)], np.outer(of, most(between, 0.0))) for of in meshes])
+        teeth = []
+        for of in meshes:
+            loads_of = [(stress[gear][mesh, event], roots[event], event) for mesh in np.flatnonzero(of) for event in np.flatnonzero(roots)]
+            histories = [larger(one[np.array(of, bool)]) for one in standing[gear]]
+            teeth.append(Tooth(histories, counts, loads_of, np.outer(of, most(between, 0.0))))
+        gears.append(teeth)
     return gears
 
 

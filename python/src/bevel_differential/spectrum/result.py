@@ -40,14 +40,11 @@ class SpectrumResult:
     """Damage and life over a duty cycle.
 
     `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling, and slow cycles; `strength`:
-    the S–N curves; `teeth` of planet and side gear; `planets`: their number; `order`: order of the events; `loads`:
-    lines with values and sources of loads that the duty cycle leaves open."""
+    the S–N curves; `order`: order of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
     worst_teeth: WorstTeeth
     strength: Strength
-    teeth: tuple[int, int]
-    planets: int
     order: str
     loads: tuple[str, ...] = ()
 
@@ -236,7 +233,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
         one = partial(_evaluated, differential=differential, teeth=teeth, planets=planets, strength=strength)
         damages = tuple(mapper(one, events))
     worst = worst_teeth(damages, order, (teeth, planets), strength, GATE * strength.bending.strength)
-    result = SpectrumResult(damages, worst, strength, teeth, planets, order, open_loads(events, facts, differential, sources))
+    result = SpectrumResult(damages, worst, strength, order, open_loads(events, facts, differential, sources))
     warn(result.warnings)
     return result
 

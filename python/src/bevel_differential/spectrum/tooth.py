@@ -51,7 +51,8 @@ def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], 
     side_mesh = np.repeat([0, 1], numbers[1])[:, None] + np.zeros(planets, int)
     side_at = np.tile(np.arange(numbers[1]), 2)[:, None] - turns + side_mesh * half
     gears = (planet[0], planet[1] + planet[0] * half), (side_mesh, side_at)
-    return tuple(_teeth(events, counts, ends, teeth, (numbers[gear], stress[gear], standing[gear], loads)) for gear, teeth in enumerate(gears))
+    return tuple(_teeth(events, counts, ends, teeth, (numbers[gear], stress[gear], standing[gear], loads))
+                 for gear, teeth in enumerate(gears))
 
 
 def _teeth(events, counts, ends, teeth, gear):
