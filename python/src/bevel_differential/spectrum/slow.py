@@ -155,8 +155,8 @@ def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], 
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
     worst order. They also meet `loads` of rolling teeth: rows (stress [Pa], number, event). If `has_both_signs` is true, the tooth may
-    have each history with either sign. "written": events follow each other as listed, and `loads` meet each other, without unloading in between. Between the
-    occurrences of an event with several occurrences, the teeth are unloaded."""
+    have each history with either sign. "written": events follow each other as listed, without unloading in between, and `loads` meet each
+    other. Between the occurrences of an event with several occurrences, the teeth are unloaded."""
     if order == "unknown":
         rows = _in_the_worst_order(histories, counts, loads, has_both_signs)
     elif order == "written":
