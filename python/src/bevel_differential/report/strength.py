@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..plot import shown_times
-from ..spectrum.damage import pushed_along
 from . import svg_style, words
 from .blocks import Picture, Section, Table
 from .simulated import Simulated
@@ -57,6 +56,16 @@ def rolls(run: Simulated) -> np.ndarray:
     # the second row of a jump continues the first one
     found[1:] |= found[:-1] & (np.diff(run.time) == 0.0)
     return found
+
+
+def pushed_along(angle: np.ndarray, pitch: float) -> np.ndarray:
+    """Angles by which a gear pushes a window of one pitch along, from row to row."""
+    place, found = 0.0, []
+    for step in np.diff(angle):
+        wanted = place + step
+        place = min(max(wanted, -pitch / 2.0), pitch / 2.0)
+        found.append(abs(wanted - place))
+    return np.array(found)
 
 
 def section(run: Simulated) -> Section:

@@ -1,4 +1,4 @@
-"""Picture of a duty cycle: damage by event, and the load spectrum of the critical mode with its S–N curves. A `result` is a
+"""Picture of a duty cycle: damage by event, and the load spectrum of the critical mode with its S–N curve. A `result` is a
 `SpectrumResult`."""
 
 from pathlib import Path
@@ -51,26 +51,24 @@ def _draw_events(axes, result, colour):
 
 
 def _draw_spectrum(axes, result, colours):
-    """Draws the stress over the number of load cycles in one life that reach it, with the S–N curves."""
+    """Draws the stress over the number of load cycles in one life that reach it, with the S–N curve."""
     duty_cycles = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
-    of_rolling, of_standing = curves(result)
-    parts = [("of rolling teeth", colours[0], rolling_spectrum(result), of_rolling),
-             ("of standing teeth", colours[1], standing_spectrum(result), of_standing)]
+    parts = [("of rolling teeth", colours[0], rolling_spectrum(result)), ("of standing teeth", colours[1], standing_spectrum(result))]
     parts = [part for part in parts if len(part[2][0])]
     highest = max((part[2][0].max() for part in parts), default=1e9)
     stresses = np.linspace(0.02, 1.3, 300) * highest
-    for label, colour, (stress, count), curve in parts:
+    for label, colour, (stress, count) in parts:
         order = np.argsort(-stress)
         reached = np.cumsum(count[order]) * duty_cycles
         # a last point at 0 draws the edge of the last step
         steps = np.array([stress.max(), *stress[order], 0.0]) / MPA
         axes.step([0.1, *reached, reached[-1]], steps, where="pre", color=colour, label=label)
-        axes.plot(curve.life(stresses), stresses / MPA, "--", color=colour, linewidth=1, label=f"S–N curve {label}")
+    axes.plot(curve(result).life(stresses), stresses / MPA, "--", color="black", linewidth=1, label="S–N curve")
     axes.set_xscale("log")
     axes.set_xlim(1.0, 1e13)
     axes.set_ylim(0.0, 1.3 * highest / MPA)
     axes.set_xlabel("cycles at this stress or above, in one life")
-    axes.set_ylabel("rated contact pressure, MPa" if result.is_flank else "root stress, from 0 to its peak, MPa")
+    axes.set_ylabel("rated contact pressure, MPa" if result.is_flank else "root stress of a pulsating cycle, MPa")
     axes.set_title(f"Load spectrum: {result.critical_name}")
     axes.legend()
 
@@ -85,26 +83,30 @@ def _caption(result):
             "The stress nearest to its S–N curve does most of the damage.")
 
 
-def curves(result: Any) -> tuple[SnCurve, SnCurve]:
-    """S–N curves of the critical mode: of teeth that roll, and of teeth that stay in mesh."""
-    strength = result.strength
-    if result.is_flank:
-        return strength.pitting, strength.pitting
-    return (strength.bending if result.critical else strength.idler), strength.bending
+def curve(result: Any) -> SnCurve:
+    """S–N curve of the critical mode."""
+    return result.strength.pitting if result.is_flank else result.strength.bending
 
 
 def rolling_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
-    """Largest stress [Pa] of each event with rolling teeth, and its number of load cycles on a tooth of the critical gear in a duty
-    cycle; shapes (events with rolling,). The stress is the root stress or, for flanks, the rated contact pressure."""
-    rolling = [one for one in result.events if one.event.count * one.turns * one.root_stress > 0.0]
+    """Stresses [Pa] of rolling teeth and their numbers of load cycles on the worst tooth of the critical gear in a duty cycle; shapes
+    (cycles,). The stress is the pulsating root stress of equal damage or, for flanks, the rated contact pressure. Each event that is not
+    steady has one stress, its largest, with the number of cycles that does its damage."""
+    gear, teeth = result.critical % 2, result.worst_teeth
     if result.is_flank:
-        stresses = [result.strength.pitting.strength / one.safety_flank for one in rolling]
+        stresses, counts = teeth.pressures[gear].ravel(), teeth.counts[gear].ravel()
     else:
-        stresses = [one.root_stress * (result.side_ratio if result.critical else 1.0) for one in rolling]
-    # a flank of a planet meets one side gear, a flank of a side gear meets every planet
-    is_side = result.critical % 2 == 1
-    per_turn = result.planets * result.teeth[0] / result.teeth[1] if is_side else 1.0
-    return np.array(stresses), np.array([one.event.count * one.turns * per_turn for one in rolling])
+        stresses, counts = teeth.rolling[gear].pulsating(result.strength), teeth.rolling[gear].count
+    damage = np.array([one.event.count * one.meshing[result.critical] for one in result.events])
+    others = [one for one, sum_ in zip(result.events, damage) if sum_ > 0.0]
+    if result.is_flank:
+        largest = np.array([result.strength.pitting.strength / one.safety_flank for one in others])
+    else:
+        largest = np.array([one.root_stress[gear] for one in others])
+    stresses = np.concatenate([stresses, largest])
+    counts = np.concatenate([counts, damage[damage > 0.0] / curve(result).damage(largest)])
+    is_loaded = (counts > 0.0) & (stresses > 0.0)
+    return stresses[is_loaded], counts[is_loaded]
 
 
 def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
@@ -112,5 +114,5 @@ def standing_spectrum(result: Any) -> tuple[np.ndarray, np.ndarray]:
     Both are empty for flanks, because slow cycles do not damage flanks."""
     if result.is_flank:
         return np.empty(0), np.empty(0)
-    slow = result.slow.scaled(result.side_ratio) if result.critical else result.slow
+    slow = result.worst_teeth.slow[result.critical % 2]
     return slow.pulsating(result.strength), slow.count

@@ -18,9 +18,12 @@ from ..text import aligned
 from ..values import DifferentialError, FileName, Value, variable_suggestion
 from ..warned import by_owner, silenced, warn
 from .cycle import QUANTITIES, read_cycle
-from .damage import MODES, Event, EventDamage, evaluate
+from .damage import MODES, Event, EventDamage
 from .driven import DRIVES, check_commands, drives_of, open_loads
-from .slow import ORDERS, SlowCycles, Strength, count_slow_cycles
+from .history import history
+from .passes import WorstTeeth, worst_teeth
+from .slow import ORDERS, SlowCycles, Strength
+from .steady import steady
 
 HOUR, KM = 3600.0, 1000.0
 NAMES = ("planet root", "side root", "planet flank", "side flank")
@@ -28,31 +31,38 @@ TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
 # ranges of stress up to this fraction of the strength do not count as cycles, as in the FMU
 GATE = 0.01
+# relative difference of equal sums by rounding
+EQUAL = 1e-9
 
 
 @dataclass(frozen=True)
 class SpectrumResult:
     """Damage and life over a duty cycle.
 
-    `events`: `EventDamage` of one occurrence of each; `slow`: the slow cycles, as root stress of the planets; `slow_damage`: their Miner
-    sums over one duty cycle, at the roots of planet and side gear, by event, shape (events, 2); `strength`: the S–N curves; `teeth` of
-    planet and side gear; `planets`: their number; `side_ratio`: root stress of the side gears over that of the planets; `order`: order
-    of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
+    `events`: `EventDamage` of one occurrence of each; `worst_teeth`: their load cycles in steady rolling, and slow cycles; `strength`:
+    the S–N curves; `order`: order of the events; `loads`: lines with values and sources of loads that the duty cycle leaves open."""
 
     events: tuple[EventDamage, ...]
-    slow: SlowCycles
-    slow_damage: np.ndarray
+    worst_teeth: WorstTeeth
     strength: Strength
-    teeth: tuple[int, int]
-    planets: int
-    side_ratio: float
     order: str
     loads: tuple[str, ...] = ()
 
     @property
+    def slow(self) -> SlowCycles:
+        """Slow cycles at the root of the worst tooth of a planet."""
+        return self.worst_teeth.slow[0]
+
+    @property
+    def slow_damage(self) -> np.ndarray:
+        """Miner sums of slow cycles per duty cycle, at the roots of planet and side gear, by event, shape (events, 2)."""
+        return self.worst_teeth.slow_damage
+
+    @property
     def by_event(self) -> np.ndarray:
-        """Miner sums per duty cycle, shape (events, 4): roots of planet and side gear, then their flanks. Slow cycles are included."""
-        found = np.array([one.event.count * one.meshing for one in self.events])
+        """Miner sums of the worst teeth per duty cycle, shape (events, 4): roots of planet and side gear, then their flanks. Slow cycles
+        are included."""
+        found = self.worst_teeth.damage + [one.event.count * one.meshing for one in self.events]
         found[:, :2] += self.slow_damage
         return found
 
@@ -64,7 +74,7 @@ class SpectrumResult:
     @property
     def critical(self) -> int:
         """Index in `MODES` of the largest damage."""
-        return int(np.argmax(self.by_event.sum(axis=0)))
+        return _largest(self.by_event.sum(axis=0))
 
     @property
     def critical_name(self) -> str:
@@ -103,6 +113,15 @@ class SpectrumResult:
         return self.cycles_to_failure * self.km
 
     @property
+    def how_summed(self) -> str:
+        """Sentence that says if the sums follow the teeth or are upper bounds."""
+        if self.order == "unknown":
+            return "sums are upper bounds: as many passes of one tooth as any start position allows"
+        if any(one.event.signals and one.event.count > 0.0 and np.any(one.meshing) for one in self.events):
+            return "sums are those of the worst tooth, tooth by tooth; histories that roll are upper bounds"
+        return "sums are those of the worst tooth, tooth by tooth"
+
+    @property
     def worst(self) -> EventDamage:
         """Event with the largest damage of the critical mode in a cycle."""
         return self.events[int(np.argmax(self.by_event[:, self.critical]))]
@@ -118,13 +137,14 @@ class SpectrumResult:
         Fields: event, count, hours and km per cycle, Miner sums per cycle by the FMU's names of damage outputs, "slow.planet" and
         "slow.side" that are contained in them, share (of the critical mode), worst_mode, root_stress (of the planets, Pa),
         safety.root_min and safety.flank_min of the event."""
-        damages, total = self.by_event, max(self.by_event.sum(axis=0).max(), np.finfo(float).tiny)
+        damages, critical = self.by_event, self.critical
+        total = max(damages[:, critical].sum(), np.finfo(float).tiny)
         rows = []
         for event_damage, damage, slow in zip(self.events, damages, self.slow_damage):
-            mode = NAMES[int(np.argmax(damage))] if damage.max() > 0.0 else ""
+            mode = NAMES[_largest(damage)] if damage.max() > 0.0 else ""
             event = event_damage.event
             rows.append((event.name, event.count, event.count * event.duration / HOUR, event.count * event.distance / KM, *damage,
-                         *slow, damage[self.critical] / total, mode, event_damage.root_stress, event_damage.safety_root,
+                         *slow, damage[critical] / total, mode, event_damage.root_stress[0], event_damage.safety_root,
                          event_damage.safety_flank))
         fields = ["event", "count", "hours", "km", *MODES, "slow.planet", "slow.side", "share", "worst_mode", "root_stress",
                   "safety.root_min", "safety.flank_min"]
@@ -148,6 +168,7 @@ class SpectrumResult:
         """Life, damage by mode and by event, and safety factors, as text."""
         km = f", {self.km:.4g} km" if isfinite(self.km) else ""
         lines = [f"duty cycle: {len(self.events)} events, {self.hours:.4g} h{km}; order of events: {self.order}",
+                 self.how_summed,
                  *self.loads,
                  "damage per cycle: " + ", ".join(f"{name} {value:.3g}" for name, value in zip(NAMES, self.damage.values()))]
         if isfinite(self.cycles_to_failure):
@@ -208,32 +229,29 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
             check_commands(event, drives_of(event.values, facts, differential.fmu), values)
         if not any(event.count > 0.0 for event in events):
             raise DifferentialError("count: no event of the cycle occurs; give one a count above 0")
-        damages = tuple(mapper(partial(_evaluated, differential=differential, teeth=teeth), events))
-    # both roots follow one force, so the ratio is the same in all loaded events
-    ratio = next((damage.side_ratio for damage in damages if np.isfinite(damage.side_ratio)), 1.0)
-    strength = Strength.of(facts)
-    histories, counts = [damage.standing for damage in damages], [event.count for event in events]
-    slow = count_slow_cycles(histories, counts, order, GATE * strength.bending.strength)
-    by_event = np.stack([_slow_by_event(cycles, strength, len(events)) for cycles in (slow, slow.scaled(ratio))], axis=1)
-    result = SpectrumResult(damages, slow, by_event, strength, teeth, int(facts[PLANETS]), ratio, order,
-                            open_loads(events, facts, differential, sources))
+        strength, planets = Strength.of(facts), int(facts[PLANETS])
+        one = partial(_evaluated, differential=differential, teeth=teeth, planets=planets, strength=strength)
+        damages = tuple(mapper(one, events))
+    worst = worst_teeth(damages, order, (teeth, planets), strength, GATE * strength.bending.strength)
+    result = SpectrumResult(damages, worst, strength, order, open_loads(events, facts, differential, sources))
     warn(result.warnings)
     return result
 
 
-def _evaluated(event, differential, teeth):
+def _largest(damages):
+    """Index of the largest of `damages`, the first one if several are equal."""
+    return int(np.argmax(damages >= (1.0 - EQUAL) * np.max(damages)))
+
+
+def _evaluated(event, differential, teeth, planets, strength):
+    """Damage of one occurrence of `event`. The function changes nothing; it and its arguments can be sent to other processes."""
     try:
-        return evaluate(event, differential, teeth)
+        found = (history if event.signals else steady)(differential, event, teeth, planets, strength)
+        # the FMU accepts values that have no effect in this event without an error; a constant signal has its value from the start
+        changing = {name for name, (_, values) in event.signals.items() if np.ptp(values) > 0.0}
+        for name, why in differential.unfelt.items():
+            if name in event.values or name in changing:
+                raise DifferentialError(f"{name}: {why}")
+        return found
     except DifferentialError as failure:
         raise DifferentialError(f"event {event.name!r}: {failure}", kind=failure.kind) from None
-
-
-def _slow_by_event(cycles, strength, events):
-    """Damage of slow cycles at the root of the worse flank, shape (events,). The damage of each cycle is divided in proportion to the
-    stresses of the events at its ends."""
-    damage = cycles.count * strength.bending.damage(cycles.pulsating(strength))
-    found = np.zeros(events)
-    share = abs(cycles.low) / (abs(cycles.low) + abs(cycles.high))
-    np.add.at(found, cycles.low_event, damage * share)
-    np.add.at(found, cycles.high_event, damage * (1.0 - share))
-    return found

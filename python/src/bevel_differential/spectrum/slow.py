@@ -11,7 +11,7 @@ D   = Σ n_i/N_f(σ_i)                                            Palmgren and M
 σ   = 2σ_a/((1 + M) K(σ_m/σ_a)),   M = 2 Y_M − 1                FKM guideline; Y_M idler factor
 ```"""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import log
 from typing import Self
@@ -45,6 +45,10 @@ class SnCurve:
         """Damage of one cycle from 0 to each `stress` [Pa]: 1/N_f, at most 1; 0 without stress. Same shape."""
         ratio = np.maximum(np.asarray(stress, float), 0.0) / self.strength
         return np.minimum(ratio ** self.slope / self.cycles, 1.0)
+
+    def stress(self, damage: float) -> float:
+        """Peak [Pa] of the cycle from 0 that does this `damage`."""
+        return self.strength * (damage * self.cycles) ** (1.0 / self.slope)
 
     def life(self, stress: np.ndarray) -> np.ndarray:
         """Cycles to failure at each `stress` > 0 [Pa]. Same shape."""
@@ -86,7 +90,7 @@ class Strength:
 
 @dataclass(frozen=True)
 class SlowCycles:
-    """Cycles of root stress of a planet in one pass of the duty cycle; all arrays have the shape (cycles,).
+    """Cycles of root stress of a tooth in one duty cycle; all arrays have the shape (cycles,).
 
     `low`, `high` [Pa]: both ends; `count`: number of cycles; `low_event`, `high_event`: numbers of the events at the ends."""
 
@@ -95,6 +99,14 @@ class SlowCycles:
     count: np.ndarray
     low_event: np.ndarray
     high_event: np.ndarray
+
+    @classmethod
+    def of(cls, rows: Iterable[tuple], least: float = 0.0) -> Self:
+        """Cycles of the rows (low, high, count, low_event, high_event) with a range above `least` [Pa]."""
+        rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
+        low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
+        return cls(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
+                   np.array(high_event, int))
 
     @property
     def span(self) -> np.ndarray:
@@ -106,15 +118,29 @@ class SlowCycles:
         """Mean of peak and valley [Pa]."""
         return 0.5 * (self.high + self.low)
 
-    def scaled(self, factor: float) -> "SlowCycles":
-        """Copy with `factor` times the stress, for the mating gear."""
-        return SlowCycles(self.low * factor, self.high * factor, self.count, self.low_event, self.high_event)
-
     def pulsating(self, strength: Strength) -> np.ndarray:
         """Peaks of cycles from 0 [Pa] that do the same damage to the root of the worse flank. At the other flank the mean has the opposite
         sign."""
         both = [strength.pulsating(self.span, sign * self.mean) for sign in (1.0, -1.0)]
         return max(both, key=lambda stress: np.sum(self.count * strength.bending.damage(stress)))
+
+    def chosen(self, chosen: np.ndarray) -> "SlowCycles":
+        """Cycles for which `chosen`, shape (cycles,), is true."""
+        return SlowCycles(*(values[chosen] for values in (self.low, self.high, self.count, self.low_event, self.high_event)))
+
+    def total(self, strength: Strength) -> float:
+        """Damage to the root of the worse flank."""
+        return float(np.sum(self.count * strength.bending.damage(self.pulsating(strength))))
+
+    def damage_by_event(self, strength: Strength, events: int) -> np.ndarray:
+        """Damage to the root of the worse flank, shape (`events`,). The damage of each cycle is divided in proportion to the stresses of
+        the events at its ends."""
+        damage = self.count * strength.bending.damage(self.pulsating(strength))
+        found = np.zeros(events)
+        share = abs(self.low) / (abs(self.low) + abs(self.high))
+        np.add.at(found, self.low_event, damage * share)
+        np.add.at(found, self.high_event, damage * (1.0 - share))
+        return found
 
     def matrix(self, bins: int = 10) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Rainflow matrix: (edges of range, edges of mean [Pa], counts of shape (bins, bins))."""
@@ -122,23 +148,31 @@ class SlowCycles:
         return spans, means, counts
 
 
-def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0) -> SlowCycles:
+def count_slow_cycles(histories: Sequence[np.ndarray], counts: Sequence[float], order: str, least: float = 0.0,
+                      loads: Sequence[tuple[float, float, int]] = (), has_both_signs: bool = False) -> SlowCycles:
     """Slow cycles of events with `histories` (arrays of stress [Pa], empty if no teeth stay in mesh) that occur `counts` times. Ranges
     up to `least` [Pa] are left out.
 
     `order` "unknown": every occurrence begins and ends without load, and the largest peaks meet the deepest valleys, which is the
-    worst order. "written": events follow each other as listed, without unloading in between, and so do the occurrences of an event:
-    a count of n has the same cycles as n equal events in a row."""
+    worst order. They also meet `loads` of rolling teeth: rows (stress [Pa], number, event). If `has_both_signs` is true, the tooth may
+    have each history with either sign. "written": events follow each other as listed, without unloading in between, and so do the
+    occurrences of an event: a count of n has the same cycles as n equal events in a row. `loads` meet each other."""
     if order == "unknown":
-        rows = _in_the_worst_order(histories, counts)
+        rows = _in_the_worst_order(histories, counts, loads, has_both_signs)
     elif order == "written":
-        rows = _as_written(histories, counts)
+        rows = [*_as_written(histories, counts), *worst_pairs(loads)]
     else:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
-    rows = [row for row in rows if row[1] - row[0] > least and row[2] > 0.0]
-    low, high, count, low_event, high_event = zip(*rows) if rows else ((),) * 5
-    return SlowCycles(np.array(low, float), np.array(high, float), np.array(count, float), np.array(low_event, int),
-                      np.array(high_event, int))
+    return SlowCycles.of(rows, least)
+
+
+def worst_pairs(loads: Sequence[Sequence]) -> list[tuple]:
+    """Rows (valley, peak, count, event of the valley, event of the peak) of a tooth under `loads`, rows (stress, number, event): the
+    highest peaks meet the deepest valleys. Between two loads of one sign, the tooth is without load."""
+    peaks, valleys = (sorted((list(load) for load in loads if sign * load[0] > 0.0), key=lambda load: -abs(load[0]))
+                      for sign in (1.0, -1.0))
+    above, below = (sum(load[1] for load in found) for found in (peaks, valleys))
+    return _pairs([*peaks, [0.0, below, 0]], [*valleys, [0.0, above, 0]])
 
 
 def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int, int]]:
@@ -155,8 +189,8 @@ def _occurrence(history):
     return np.concatenate([[0.0], history, [0.0]])
 
 
-def _in_the_worst_order(histories, counts):
-    rows, peaks, valleys = [], [], []
+def _in_the_worst_order(histories, counts, loads, has_both_signs):
+    rows, ends = [], []
     for event, (history, count) in enumerate(zip(histories, counts)):
         block = _occurrence(history)
         low, high = block.min(), block.max()
@@ -166,9 +200,10 @@ def _in_the_worst_order(histories, counts):
         once = sum(row[2] for row in widest) - 1.0
         rows += [(row[0], row[1], row[2] * count, event, event) for row in inner if (row[0], row[1]) != (low, high)]
         rows.append((low, high, max(once, 0.0) * count, event, event))
-        peaks.append([high, count, event])
-        valleys.append([low, count, event])
-    return rows + _pairs(sorted(peaks, key=lambda peak: -peak[0]), sorted(valleys, key=lambda valley: valley[0]))
+        ends += [(high, count, event), (low, count, event)]
+    if has_both_signs:
+        ends += [(-stress, count, event) for stress, count, event in ends]
+    return rows + worst_pairs([*ends, *loads])
 
 
 def _pairs(peaks, valleys):
