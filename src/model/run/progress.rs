@@ -15,6 +15,11 @@ use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
+/// Time of a communication step for which the limit of attempts is renewed with each interval of the clock [s]: a day. A
+/// step of an hour may therefore take more attempts than one of a second. A time without end, from a damaged state, still
+/// ends with an error.
+const RENEWED: f64 = 86_400.0;
+
 /// Restarts the integration at the present, because inputs or something else have changed.
 pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
     let is_jump = state.pending_step.is_some();
@@ -111,7 +116,7 @@ fn step_to_stop(
     let (mut outcome, mut renewed) = (Ok(()), 0.0);
     while clock.time < clock.now && outcome.is_ok() {
         outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
-        if clock.time - renewed >= LONGEST_INTERVAL {
+        if clock.time - renewed >= LONGEST_INTERVAL && clock.time < RENEWED {
             (*budget, renewed) = (integration::budget(model), clock.time);
         }
     }
@@ -134,6 +139,7 @@ fn step_past_stop(
     let mut begin = time - last_point;
     let mut target = if stop.is_change { clock.end } else { last_point + (stop.time - time) };
     clock.now = target;
+    let mut advanced = 0.0;
     // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
@@ -161,8 +167,10 @@ fn step_past_stop(
         // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
         (begin, last_point, target) = (begin + by, last_point - by, target - by);
-        // the limit of attempts counts for each interval, so that a step of an hour may take more than one of a second
-        *budget = integration::budget(model);
+        advanced += by;
+        if advanced < RENEWED {
+            *budget = integration::budget(model);
+        }
     }
 }
 
