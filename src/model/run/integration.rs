@@ -246,8 +246,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Maximum number of attempted steps for plain teeth in a communication step of up to a second, or in each second of a
-/// longer one. It limits the waiting time of a host to some seconds.
+/// Maximum number of attempted steps for plain teeth in a communication step. `progress` renews it during long steps. It limits the waiting time of a host to some seconds.
 const BUDGET: u64 = 2_000_000;
 /// Cost that effects on bodies (drag, shafts, dry friction) add to a step, relative to a step of plain teeth.
 const EFFECTS: usize = 3;
@@ -292,7 +291,7 @@ fn explain(
             solver.fixed_step
         ),
         Failure::TooManySteps => format!(
-            "{} attempts at steps were not enough for one communication step, or for a second of it: {}; shorten it, \
+            "{} attempts at steps were not enough for one communication step: {}; shorten it, \
              loosen solver.relative_tolerance = {tolerance:e}, or {}",
             budget(model),
             effort::too_many_steps(model, inputs, state, before),

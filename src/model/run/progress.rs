@@ -15,10 +15,20 @@ use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
-/// Time of a communication step for which the limit of attempts is renewed with each interval of the clock [s]: a day. A
-/// step of an hour may therefore take more attempts than one of a second. A time without end, from a damaged state, still
-/// ends with an error.
-const RENEWED: f64 = 86_400.0;
+/// Time of a communication step for which the limit of attempts can be renewed [s]: an hour. A step of an hour may
+/// therefore take more attempts than one of a second. A time without end, from a damaged state, still ends with an error.
+const RENEWED: f64 = 3600.0;
+/// Number of attempts in an interval of the clock after which the limit is not renewed: several times the number that a
+/// rattle at standstill needs.
+const CALM: u64 = 2000;
+
+/// Renews the `budget` of attempts at the end of an interval of the clock, `advanced` [s] after the start of the step.
+fn renew(model: &Model, budget: &mut u64, advanced: f64) {
+    let full = integration::budget(model);
+    if advanced <= RENEWED && full.saturating_sub(*budget) <= CALM {
+        *budget = full;
+    }
+}
 
 /// Restarts the integration at the present, because inputs or something else have changed.
 pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
@@ -116,8 +126,9 @@ fn step_to_stop(
     let (mut outcome, mut renewed) = (Ok(()), 0.0);
     while clock.time < clock.now && outcome.is_ok() {
         outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
-        if clock.time - renewed >= LONGEST_INTERVAL && clock.time < RENEWED {
-            (*budget, renewed) = (integration::budget(model), clock.time);
+        if clock.time - renewed >= LONGEST_INTERVAL {
+            renew(model, budget, clock.time);
+            renewed = clock.time;
         }
     }
     wrap_and_constrain(model, state);
@@ -168,9 +179,7 @@ fn step_past_stop(
         let by = clock.set_back();
         (begin, last_point, target) = (begin + by, last_point - by, target - by);
         advanced += by;
-        if advanced < RENEWED {
-            *budget = integration::budget(model);
-        }
+        renew(model, budget, advanced);
     }
 }
 
