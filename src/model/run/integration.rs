@@ -246,7 +246,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Maximum number of attempted steps for plain teeth in a communication step. `progress` renews it during long steps. It limits the waiting time of a host to some seconds.
+/// Maximum number of attempted steps for plain teeth in a communication step. It limits the waiting time of a host to
+/// some seconds. `progress` renews it during long steps.
 const BUDGET: u64 = 2_000_000;
 /// Cost that effects on bodies (drag, shafts, dry friction) add to a step, relative to a step of plain teeth.
 const EFFECTS: usize = 3;
