@@ -61,6 +61,8 @@ def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
         by_record = straight.run(signals, ["left.speed", "left.shaft_torque"], 0.05, input_slopes=False)
     there = through_fmpy(fmu_file, {}, ["left.speed", "left.shaft_torque"], 0.05, signals=signals)
     assert same(by_arrays, by_record)
+    # fmpy has no second row at a jump
+    by_arrays = by_arrays[np.append(True, np.diff(by_arrays["time"]) > 0.0)]
     assert len(by_arrays) == len(there) and np.array_equal(by_arrays["time"], there["time"])
     # fmpy holds values within a step, and rounds a value between two points differently
     for name in ("left.speed", "left.shaft_torque"):
@@ -74,6 +76,8 @@ def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(f
     names = ["left.speed", "left.shaft_torque", "heat.clutch"]
     with Differential(given, fmu=fmu_file) as slipping:
         here = slipping.run({"limited_slip.preload": (times, preloads)}, names, 0.06, 1e-3)
+        # without the second row at the jump
+        here = here[np.append(True, np.diff(here["time"]) > 0.0)]
         held = slipping.run({"limited_slip.preload": 50.0}, names, 0.06, 1e-3)
         with slipping.fmu.open() as instance:
             instance.initialise({**given, "limited_slip.preload": 50.0})
@@ -92,7 +96,7 @@ def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(f
 def test_a_jump_between_points_is_a_point(fmu_file):
     with Differential(fmu=fmu_file) as straight:
         found = straight.run({"left.load_torque": ([0.0, 0.0035, 0.0035], [835.0, 835.0, 0.0])}, stop=0.005)
-    assert found["time"].tolist() == [0.0, 0.001, 0.002, 0.003, 0.0035, 0.004, 0.005]
+    assert found["time"].tolist() == [0.0, 0.001, 0.002, 0.003, 0.0035, 0.0035, 0.004, 0.005]
 
 
 @pytest.mark.parametrize("written", ["4.5 mm", (4.5, "mm"), "4500 um", "0.0045", 0.0045, (0.0045, "m"), np.float64(0.0045)])

@@ -46,14 +46,13 @@ def test_the_least_distance_of_drawn_stresses_to_drawn_limits_is_the_safety_fact
     assert 100.0 / over[0] == pytest.approx(float(run.record["safety.flank_min"][-1]), rel=MET)
 
 
-def test_limits_of_planets_fall_where_they_begin_to_roll_and_not_before(fmu_file):
-    run = simulated(fmu_file, STEADY_TURN)
+def test_limits_of_planets_fall_when_they_have_met_both_side_gears_and_not_before(fmu_file):
+    run = simulated(fmu_file, {**STEADY_TURN, "spin.command": 12.0})
     planets = limits(run)[1]
     strength, idler = (float(run.value(f"strength.{name}")) for name in ("bending_strength", "idler_factor"))
     spin = np.abs(run.series("planet[1].spin_angle") - run.series("planet[1].spin_angle")[0])
-    pitch = 2.0 * np.pi / float(run.value("geometry.planet_teeth"))
-    assert np.all(planets.limit[spin < 0.49 * pitch] == strength)
-    assert np.all(planets.limit[spin > 0.51 * pitch] == idler * strength) and np.any(spin > 0.51 * pitch)
+    assert np.all(planets.limit[spin < 0.99 * np.pi] == strength)
+    assert np.all(planets.limit[spin > 1.01 * np.pi] == idler * strength) and np.any(spin > 1.01 * np.pi)
 
 
 def test_the_scale_of_the_pattern_ends_at_the_largest_pressure_outside_the_seam(fmu_file):

@@ -307,7 +307,9 @@ def test_a_swing_of_less_than_a_pitch_passes_twice(fmu_file):
     signals = {"spin.command": (np.repeat(times, 2)[1:-1], np.repeat(spin[:-1], 2))}
     found = spectrum([event(duration=20.0, left=600.0, right=600.0, signals=signals)], LUMPED, fmu=fmu_file)
     once = spectrum([rolled(2.0, 1200.0)], LUMPED, fmu=fmu_file)
-    assert all_damages(found)[2:] == pytest.approx(20.0 * all_damages(once)[2:], rel=1e-3)
+    # 20 passes; the bound takes each at the largest load of its stroke, which contains the blow of the reversal
+    passes = all_damages(found)[2:] / all_damages(once)[2:]
+    assert np.all(passes > 20.0 - 1e-2) and np.all(passes < 23.0), passes
 
 
 def test_the_sum_of_a_history_is_an_upper_bound_for_all_start_positions(fmu_file):

@@ -263,16 +263,17 @@ def test_nothing_that_the_car_sets_is_without_influence(fmu_file, contact, speed
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_short_request_gives_the_same_speed_at_any_step(sign):
+def test_a_short_request_gives_the_same_speed_at_any_step(fmu_file, sign):
     pulse = [0.0, 0.01005, 0.0102, 0.01035], [0.0, 0.0, sign * 200.0, 0.0]
-    records = [Car({"scene.gear_contact": "ideal"}).run(["body.speed"], 0.02, step, request=pulse) for step in (5e-4, 2e-4)]
+    car = Car({"scene.gear_contact": "ideal"}, fmu=fmu_file)
+    records = [car.run(["body.speed"], 0.02, step, request=pulse) for step in (5e-4, 2e-4)]
     assert [len(record) for record in records] == [41, 101]
     speeds = [record["body.speed"][-1] for record in records]
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-3) and sign * speeds[1] > 0.0
 
 
-def test_a_jump_of_the_steering_angle_has_two_rows():
-    record = Car({"scene.gear_contact": "ideal"}).run(["body.steer"], 0.005, 1e-3, request=50.0, speed=10.0,
-                                                      steer=([0.0, 0.0025, 0.0025], [0.0, 0.0, 0.01]))
+def test_a_jump_of_the_steering_angle_has_two_rows(fmu_file):
+    car = Car({"scene.gear_contact": "ideal"}, fmu=fmu_file)
+    record = car.run(["body.steer"], 0.005, 1e-3, request=50.0, speed=10.0, steer=([0.0, 0.0025, 0.0025], [0.0, 0.0, 0.01]))
     assert record["time"] == pytest.approx([0.0, 0.001, 0.002, 0.0025, 0.0025, 0.003, 0.004, 0.005])
     assert record["body.steer"].tolist() == [0.0] * 4 + [0.01] * 4

@@ -42,30 +42,18 @@ class Limited:
 def limits(run: Simulated) -> tuple[Limited, ...]:
     """Stresses and limits of the flanks, the roots of the planets, and the roots of the side gears."""
     bending, contact = (np.full(len(run.time), float(run.value(f"strength.{kind}_strength"))) for kind in ("bending", "contact"))
-    # teeth of rolling planets are loaded on both flanks
-    planets = np.where(rolls(run), float(run.value("strength.idler_factor")), 1.0) * bending
+    # teeth of planets that roll are loaded on both flanks
+    planets = np.where(bend_both_ways(run), float(run.value("strength.idler_factor")), 1.0) * bending
     return tuple(Limited(name, run.series(name), limit) for name, limit in zip(LABELS, (contact, planets, bending)))
 
 
-def rolls(run: Simulated) -> np.ndarray:
-    """True for each point if a planet has rolled since the point before. Motion within a tooth pitch does not count as rolling."""
-    pitch = 2.0 * math.pi / float(run.value("geometry.planet_teeth"))
+def bend_both_ways(run: Simulated) -> np.ndarray:
+    """True for each point from which on a planet has rolled over half a revolution, so that its teeth have met both side gears."""
     found = np.zeros(len(run.time), dtype=bool)
     for planet in range(1, int(run.value("geometry.planet_count")) + 1):
-        found[1:] |= pushed_along(run.series(f"planet[{planet}].spin_angle"), pitch) > 0.0
-    # the second row of a jump continues the first one
-    found[1:] |= found[:-1] & (np.diff(run.time) == 0.0)
+        angle = run.series(f"planet[{planet}].spin_angle")
+        found |= np.maximum.accumulate(angle) - np.minimum.accumulate(angle) >= math.pi
     return found
-
-
-def pushed_along(angle: np.ndarray, pitch: float) -> np.ndarray:
-    """Angles by which a gear pushes a window of one pitch along, from row to row."""
-    place, found = 0.0, []
-    for step in np.diff(angle):
-        wanted = place + step
-        place = min(max(wanted, -pitch / 2.0), pitch / 2.0)
-        found.append(abs(wanted - place))
-    return np.array(found)
 
 
 def section(run: Simulated) -> Section:
@@ -101,7 +89,7 @@ def _draw(picture, run, stresses: tuple[Limited, ...]):
             label, colour = LABELS[limited.output]
             panel.plot(times, limited.stress / MPA, color=colour, label=label)
             top = max(top, float(np.max(limited.stress)) / MPA, float(np.max(limited.limit)) / MPA)
-            # rolling at a point describes the step that ends there
+            # the limit at a point describes the step that ends there
             panel.step(times, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
         panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
@@ -121,7 +109,8 @@ def _caption(run, stresses):
                      f"{words.moment(run.time[k], run.time[-1])}, {words.percent(limited.stress[k] / limited.limit[k])} of the limit of {words.quantity(limited.limit[k] / MPA, 'MPa')}")
     highest = float(np.max(run.series("stress.contact_max"))) / MPA
     return (f"Stresses of all teeth that are rated, each with its own limit, at the points at which they come nearest to it: "
-            f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll are loaded on both flanks and keep "
+            f"{'; '.join(parts)}. Limits are strengths at the knee; teeth of planets that roll over half a revolution bend both ways and "
+            "keep "
             f"{words.number(float(run.value('strength.idler_factor')))} of their bending strength (strength.idler_factor). Flanks are "
             "rated as one pair at the inner point of single contact. Where pairs touch nearer to a base circle Hertz's formula gives up "
             f"to {words.quantity(highest, 'MPa')} (stress.contact_max), for which there is no strength.")
