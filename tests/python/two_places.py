@@ -240,9 +240,9 @@ def stresses(scene, o):
     planet, side = o["stress.root_planet_max"], o["stress.root_side_max"]
     if min(planet, side) > 0.0:
         # with tooth pairs, each root has the height of its own pair
-        if scene.start["scene.gear_contact"] == "lumped":
+        if scene.contact == LUMPED:
             yield scene.constant("root of the planet over that of the side gear", planet / side, 1.0)
-        if scene.is_even and scene.start["scene.gear_contact"] == "lumped":
+        if scene.is_even and scene.contact == LUMPED:
             yield scene.constant("root stress over the square of pressure", planet / pitch**2 * 1e9, 1.0 + planet / pitch**2 * 1e9)
     for pair in loaded(o):
         ends = ENDS if grows else ["middle"]
