@@ -64,12 +64,13 @@ pub fn too_many_steps(model: &Model, inputs: &Inputs, state: &State, before: &St
     ];
     let (most, why) = rejected.into_iter().max_by_key(|(count, _)| *count).unwrap_or_default();
     let accepted = now.accepted - before.accepted;
+    let all = accepted + rejected.iter().map(|(count, _)| count).sum::<u64>();
     let fastest = fastest(model, inputs, state);
     if most >= accepted {
-        format!("{most} of them were rejected {why}; {fastest}")
+        format!("{most} of the last {all} were rejected {why}; {fastest}")
     } else {
         let size = state.control.last;
-        format!("{accepted} of them were accepted, the last with a size of {size:.1e} s; {fastest}")
+        format!("{accepted} of the last {all} were accepted, the last one with a size of {size:.1e} s; {fastest}")
     }
 }
 
@@ -166,7 +167,10 @@ mod tests {
         let (model, inputs, mut state) = held();
         state.statistics = Statistics { rejected_ledger: 1002, rejected_error: 3, ..Statistics::default() };
         let text = too_many_steps(&model, &inputs, &state, &Statistics::default());
-        assert!(text.starts_with("1002 of them were rejected because their energy ledger did not close"), "{text}");
+        assert!(
+            text.starts_with("1002 of the last 1005 were rejected because their energy ledger did not close"),
+            "{text}"
+        );
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
         with_equations!(&model, &state, &inputs, |equations| {
             let friction = |i: usize| friction_on(&state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k));
@@ -176,7 +180,7 @@ mod tests {
         let before = state.statistics;
         state.statistics.accepted += 77;
         let text = too_many_steps(&model, &inputs, &state, &before);
-        assert!(text.starts_with("77 of them were accepted, the last with a size of"), "{text}");
+        assert!(text.starts_with("77 of the last 77 were accepted, the last one with a size of"), "{text}");
         assert_eq!(fewer_steps(&model, &state), "look at the inputs");
     }
 

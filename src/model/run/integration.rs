@@ -247,7 +247,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
 }
 
 /// Maximum number of attempted steps for plain teeth in a communication step. It limits the waiting time of a host to
-/// some seconds. `progress` renews it during long steps.
+/// some seconds. `progress` extends it during long steps.
 const BUDGET: u64 = 2_000_000;
 /// Cost that effects on bodies (drag, shafts, dry friction) add to a step, relative to a step of plain teeth.
 const EFFECTS: usize = 3;
@@ -292,8 +292,8 @@ fn explain(
             solver.fixed_step
         ),
         Failure::TooManySteps => format!(
-            "{} attempts at steps were not enough for one communication step: {}; shorten it, \
-             loosen solver.relative_tolerance = {tolerance:e}, or {}",
+            "{} attempts at steps, and a tenth of them for each second, were not enough for one communication step: {}; \
+             shorten it, loosen solver.relative_tolerance = {tolerance:e}, or {}",
             budget(model),
             effort::too_many_steps(model, inputs, state, before),
             effort::fewer_steps(model, state)

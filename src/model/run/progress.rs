@@ -15,18 +15,18 @@ use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::{Inputs, Method};
 
-/// Time of a communication step for which the limit of attempts can be renewed [s]: an hour. A step of an hour may
-/// therefore take more attempts than one of a second. A time without end, from a damaged state, still ends with an error.
-const RENEWED: f64 = 3600.0;
-/// Number of attempts in an interval of the clock after which the limit is not renewed: several times the number that a
-/// rattle at standstill needs.
-const CALM: u64 = 2000;
+/// Time of a communication step during which the limit of attempts grows [s]: an hour.
+const LONGEST_GROWTH: f64 = 3600.0;
+/// Share of the limit of attempts that each second of a communication step adds.
+const GROWTH: f64 = 0.1;
 
-/// Renews the `budget` of attempts at the end of an interval of the clock, `advanced` [s] after the start of the step.
-fn renew(model: &Model, budget: &mut u64, advanced: f64) {
-    let full = integration::budget(model);
-    if advanced <= RENEWED && full.saturating_sub(*budget) <= CALM {
-        *budget = full;
+/// Adds to the `budget` of attempts what a completed interval of the clock allows, so that the limit does not depend on
+/// the length of a communication step. `advanced` [s] is the time since the start of the step; `remaining` [s] is the
+/// time to its stop, which is negative only if a damaged state leads beyond it.
+fn extend(budget: &mut u64, model: &Model, advanced: f64, remaining: f64) {
+    if advanced <= LONGEST_GROWTH && remaining >= 0.0 {
+        let limit = integration::budget(model);
+        *budget = limit.min(*budget + (GROWTH * limit as f64) as u64);
     }
 }
 
@@ -123,12 +123,12 @@ fn step_to_stop(
     let begin = state.time();
     let length = stop.time - begin;
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
-    let (mut outcome, mut renewed) = (Ok(()), 0.0);
+    let (mut outcome, mut extended) = (Ok(()), 0.0);
     while clock.time < clock.now && outcome.is_ok() {
         outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
-        if clock.time - renewed >= LONGEST_INTERVAL {
-            renew(model, budget, clock.time);
-            renewed = clock.time;
+        if clock.time - extended >= LONGEST_INTERVAL {
+            extend(budget, model, clock.time, length - clock.time);
+            extended = clock.time;
         }
     }
     wrap_and_constrain(model, state);
@@ -179,7 +179,7 @@ fn step_past_stop(
         let by = clock.set_back();
         (begin, last_point, target) = (begin + by, last_point - by, target - by);
         advanced += by;
-        renew(model, budget, advanced);
+        extend(budget, model, advanced, stop.time - (begin + clock.time));
     }
 }
 
