@@ -183,6 +183,7 @@ const ADDED: &[&str] = &[
     "coupling.right.energy_error",
     "coupling.energy_ratio",
     "coupling.step_advice",
+    "coupling.advice_state",
 ];
 
 /// Moves the rows of `ADDED` after all other rows, in the order of `ADDED`. Returns the new index of each row.

@@ -9,6 +9,9 @@ from bevel_differential.vehicle import Car, Tyre
 from coupled_hosts import ERRORS, FREE, LAG, LOADS, MOTION, Coupled, Host, couple
 
 ADVICE = ["coupling.energy_ratio", "coupling.step_advice"]
+# meanings of coupling.advice_state
+STATE = "coupling.advice_state"
+GIVEN, STILL, NO_REACTION, NOT_POSSIBLE, UNSTABLE = 1.0, 2.0, 3.0, 4.0, 5.0
 
 
 def shaft():
@@ -106,6 +109,56 @@ def test_an_hour_at_a_standstill_changes_nothing_and_the_advice_returns(fmu, sig
     assert first[-1, -1] > 0.0 and again[-1, -1] > 0.0
 
 
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_a_reversal_keeps_the_advice(fmu, sign):
+    host, size, states = Host(500.0, 0.5, 1.0, 0.2), 1e-3, []
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "scene.start": "rest"})
+        port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], STATE])
+        row = port.read()
+        host.start(*row[:2])
+        for step in range(4000):
+            before = row[:2]
+            row = port.step([sign * (20.0 if step < 2000 else -20.0), host.torque(*before)], size)
+            host.advance(size, before, row[:2])
+            states.append(row[2])
+    assert states[2000:].count(GIVEN) > 0.9 * 2000
+
+
+@pytest.mark.parametrize("gears", ["ideal", "lumped"])
+def test_wheels_that_stand_in_their_brakes_get_no_old_advice(fmu, gears):
+    host, size = Host(500.0, 0.5, 1.0, 0.2), 1e-3
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "effects.wheel_brake": True, "scene.gear_contact": gears, "contact.law": "line",
+                                    "scene.start": "rest"})
+        port = instance.port(["carrier.torque_command", *BRAKES, LOADS["left"]], [*MOTION["left"], STATE, ADVICE[1]])
+        row = port.read()
+        host.start(*row[:2])
+        for step in range(3000):
+            before, brake = row[:2], 0.0 if step < 1000 else 300.0
+            row = port.step([20.0 if step < 1000 else 0.0, brake, brake, host.torque(*before)], size)
+            host.advance(size, before, row[:2])
+            if step == 999:
+                assert row[2] == GIVEN and row[3] > 0.0
+                # the inertia behind the spring soon stands, too
+                host.damping = 20.0
+    assert row[2:] == [STILL, 0.0]
+
+
+def test_an_exchange_without_an_energy_error_has_no_advice_and_says_so(fmu):
+    # a spring behind a Gauss-Seidel master
+    run, host, angle = [], Host(500.0, 0.5, 1e3), 0.0
+    with fmu.open() as instance:
+        instance.initialise(FREE | {"effects.coupling_advice": True, "coupling.host_delay": -0.5, "scene.start": "rest"})
+        port = instance.port(["carrier.torque_command", LOADS["left"]], [MOTION["left"][1], STATE, ADVICE[1]])
+        row = port.read()
+        for _ in range(600):
+            angle += 1e-3 * row[0]
+            row = port.step([20.0, host.stiffness * angle + host.damping * row[0]], 1e-3)
+            run.append(row[1:])
+    assert run[-1] == [NOT_POSSIBLE, 0.0]
+
+
 def test_inputs_with_derivatives_are_no_ramps(coupled):
     def end(ramps):
         run = coupled("shaft", SIZE, 0, True, stop=0.1, **{"solver.input_ramp": ramps})
@@ -129,7 +182,7 @@ def test_a_car_that_follows_the_advice_has_the_wanted_ratio(fmu, wanted):
 def test_the_cut_of_a_car_costs_less_energy_than_the_page_says(fmu):
     car = Car({"contact.law": "line", "effects.coupling_advice": True}, left=Tyre(friction=0.15), right=Tyre(friction=0.9), fmu=fmu)
     record = car.run(ADVICE, stop=1.0, request=([0.0, 0.3], [0.0, 120.0]))
-    assert 0.0 < max(record["coupling.energy_ratio"][200:]) < 2e-3
+    assert 0.0 < max(record["coupling.energy_ratio"][200:]) < 3e-3
     assert car.longest_step() == pytest.approx(6.9e-3, rel=0.01)
 
 
@@ -138,11 +191,13 @@ def played(fmu, torque, size=1e-3, stop=1.0):
     run = Coupled()
     with fmu.open() as instance:
         instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0, "right.load_torque": 10.0})
-        port = instance.port([LOADS["left"]], ADVICE)
+        port = instance.port([LOADS["left"]], [*ADVICE, STATE])
+        run.states = []
         for step in range(round(stop / size)):
-            ratio, advice = port.step([torque(step * size)], size)
+            ratio, advice, state = port.step([torque(step * size)], size)
             run.ratio.append(ratio)
             run.advice.append(advice)
+            run.states.append(state)
         run.messages = instance.messages
     return run
 
@@ -163,7 +218,7 @@ def test_a_host_that_does_not_react_gets_no_warning(fmu, table):
 
 def test_a_constant_torque_has_no_error_and_needs_no_advice(fmu):
     run = played(fmu, TABLES["constant"])
-    assert not any(run.ratio) and not any(run.advice)
+    assert not any(run.ratio) and not any(run.advice) and set(run.states) == {NO_REACTION}
 
 
 def test_jumps_at_given_times_are_no_reaction(fmu):
@@ -190,7 +245,7 @@ def test_a_growing_oscillation_is_reported_although_its_ratio_is_small(fmu):
     # the limit is 2 c/k = 0.11 ms
     run = couple(fmu, {"left": Host(9000.0, 0.5, 1e3, speed=0.0)}, 6e-4, 1.0, values={"carrier.speed_command": 1.0})
     assert max(run.ratio[100:]) < 0.1
-    assert len(run.warnings) == 1 and "grows from period to period" in run.warnings[0]
+    assert len(run.warnings) == 1 and "unstable cut at the left side" in run.warnings[0]
     stable = couple(fmu, {"left": Host(9000.0, 0.5, 1e3, speed=0.0)}, 8e-5, 1.0, values={"carrier.speed_command": 1.0})
     assert not stable.warnings
 
@@ -215,7 +270,7 @@ def values_of(port, torques):
 
 
 def test_rollback_and_saved_states_keep_all_values(fmu):
-    shown = [*ERRORS, *ADVICE]
+    shown = [*ERRORS, *ADVICE, STATE]
     torques = [20.0 * math.sin(0.3 * step) for step in range(60)]
     with fmu.open() as instance:
         instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0})

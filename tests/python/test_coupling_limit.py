@@ -139,23 +139,25 @@ def test_repetitions_of_a_step_converge_up_to_the_limit_of_rollback(scene, fmu):
             assert (changes[-1] < changes[5]) == converges, (part, changes[5], changes[-1])
 
 
-def test_a_side_driven_by_speed_meets_an_inertia(scene):
+@pytest.mark.parametrize("damper", [0.0, 30.0])
+def test_a_side_driven_by_speed_meets_an_inertia_with_a_damper_to_the_ground(scene, damper):
     # the other wheel stands as a rock behind a rigid shaft, so the half-shaft is a spring to the ground
     k, c = 9000.0, 12.0
     values = {"scene.left_drive": "speed", "effects.half_shaft": True, "half_shaft.left_stiffness": k, "half_shaft.left_damping": c,
               "half_shaft.right_stiffness": 1e8, "half_shaft.right_damping": 1e4, "inertia.right_end": 1e5, "scene.gear_contact": "ideal",
               "carrier.speed_command": 0.0, "left.speed_command": 0.0, "left.load_torque": 0.0, "right.load_torque": 0.0}
-    made = coupling(scene(values), [Host.parse("left:J=1")])
+    made = coupling(scene(values), [Host.parse(f"left:J=1,c={damper}" if damper else "left:J=1")])
 
     def radius(h):
-        # speed, twist and torque of the last step, all held
-        return np.abs(np.linalg.eigvals([[1.0, 0.0, h], [-h, 1.0, 0.0], [-k * h - c, k, 0.0]])).max()
+        # speed, twist and torque of the last step, all held; the inertia decays exactly
+        keep, per_torque = np.exp(-damper * h), -np.expm1(-damper * h) / damper if damper else h
+        return np.abs(np.linalg.eigvals([[keep, 0.0, per_torque], [-h, 1.0, 0.0], [-k * h - c, k, 0.0]])).max()
 
     steps = np.linspace(1e-4, 5e-3, 5000)
     assert made.limit == pytest.approx(next(step for step in steps if radius(step) > 1.0), rel=0.01)
     # slow motion meets the spring and the damper
     assert made.apparent()["left"].stiffness == pytest.approx(k + c / made.limit, rel=0.01)
-    same = coupling(scene(values), [Host.of("left", [[0.0]], [[1.0]], [[1.0]], [[0.0]], "torque")])
+    same = coupling(scene(values), [Host.of("left", [[-damper]], [[1.0]], [[1.0]], [[0.0]], "torque")])
     assert same.limit == made.limit
 
 
@@ -221,7 +223,7 @@ def test_the_linearised_unit_predicts_a_small_step(fmu):
 @pytest.mark.parametrize("text, words", [
     ("front:k=1,c=1", "front: it is no port"), ("left:k=-1,c=1", "k is a number above 0"), ("left:k=x,c=1", "k is a number"),
     ("left:k=1,c=1,c=2", "each once"), ("left:c=1", "give k, c and reads"), ("left:k=1,c=1,reads=force", "reads=force: it is one of"),
-    ("left:k=1,c=1,reads=torque", "reads speed, angle or both"), ("left:9000", "write PORT:"), ("left", "give k, c and reads")])
+    ("left:k=1,c=1,reads=torque", "reads speed, angle or both"), ("left:9000", "write PORT:"), ("left", "J and c at a port driven by speed")])
 def test_a_wrong_host_is_named(text, words):
     with pytest.raises(DifferentialError, match=words):
         Host.parse(text)
@@ -231,7 +233,7 @@ def test_wrong_uses_are_named(scene):
     spring = Host.spring("left", 1.0, 1.0)
     with pytest.raises(DifferentialError, match="left: the scene drives it by torque, so its host has only k, c and J"):
         coupling(scene(LOADED), [Host.inertia("left", 1.0)])
-    with pytest.raises(DifferentialError, match="carrier: the scene drives it by speed, so its host has only J"):
+    with pytest.raises(DifferentialError, match="carrier: the scene drives it by speed, so its host has only J and c"):
         coupling(scene({}), [Host.spring("carrier", 1.0, 1.0)])
     with pytest.raises(DifferentialError, match="carrier: gears without teeth follow its speed at once"):
         coupling(scene({"scene.gear_contact": "ideal"}), [Host.inertia("carrier", 1.0)])

@@ -98,18 +98,19 @@ impl Simulation {
         found
     }
 
-    /// Warning about the cut between host and unit if it changes much of the transmitted energy, or if its energy error
-    /// grows.
+    /// Warning about the cut between host and unit if it is unstable, or if it changes much of the transmitted energy.
     fn costly_coupling(&self) -> Option<Problem> {
         let coupling = self.coupling.as_ref()?;
-        let growth = coupling.growth()?;
+        let growth = coupling.growth(&self.cut())?;
         let port = ["carrier", "left side", "right side"][growth.port];
-        let what = if growth.grows {
-            "energy that the cut creates grows from period to period"
+        let what = if growth.is_unstable {
+            format!(
+                "unstable cut at the {port}: a swing of the torque grows from period to period, because the host answers late"
+            )
         } else {
-            "cut changes much energy"
+            format!("the cut at the {port} changes much energy")
         };
-        let advice = coupling.advice(self.model.parameters.specs.coupling_advice.wanted_ratio);
+        let (advice, _) = coupling.advice(self.model.parameters.specs.coupling_advice.wanted_ratio, &self.cut());
         let advised = if advice > 0.0 {
             format!("coupling.step_advice is {} s", six_digits(advice))
         } else {
@@ -117,8 +118,8 @@ impl Simulation {
         };
         Some(problem!(
             "coupling.energy_ratio",
-            "the {what} at the {port}: coupling.energy_ratio is {} with steps of {} s at t = {:.6} s; {advised}; shorter steps, \
-             input derivatives, or moving the cut inside help (docs/coupling.md); reported once",
+            "{what}; coupling.energy_ratio is {} with steps of {} s at t = {:.6} s; {advised}; shorter steps, input derivatives, \
+             or moving the cut inside help (docs/coupling.md); reported once",
             six_digits(coupling.ratio()),
             six_digits(coupling.step()),
             self.state.time()

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use super::{Simulation, StepFailure};
 use crate::model::dynamics::event::AdvanceOptions;
 use crate::model::effect_kinds::{BUILT, Changes};
-use crate::model::effects::coupling_advice::{Coupling, PORTS, PortStep};
+use crate::model::effects::coupling_advice::{Coupling, Cut, PORTS, PortStep, Shaft};
 use crate::model::scene::{CARRIER, Inputs};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
@@ -86,7 +86,17 @@ impl Simulation {
         for (port, step) in steps.iter_mut().enumerate() {
             self.exchange(port, [start[port], end[port]], step);
         }
-        coupling.add(&steps, self.model.parameters.specs.coupling_advice.host_delay);
+        coupling.add(&steps, &self.cut());
+    }
+
+    /// What the unit knows of the host.
+    pub(in crate::model) fn cut(&self) -> Cut {
+        let (specs, imposed) = (&self.model.parameters.specs, self.model.ideal.plan.side_imposed);
+        let shaft = |s: usize| {
+            let (stiffness, damping) = (specs.half_shaft.stiffness[s], specs.half_shaft.damping[s]);
+            imposed[s].then_some(Shaft { stiffness, damping })
+        };
+        Cut { delay: specs.coupling_advice.host_delay, shafts: [None, shaft(0), shaft(1)] }
     }
 
     /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
@@ -134,7 +144,8 @@ impl Simulation {
         let readings = &mut readings[const { places_of("coupling_advice", Changes::ByStep) }];
         readings[..PORTS].copy_from_slice(&coupling.errors());
         let wanted = self.model.parameters.specs.coupling_advice.wanted_ratio;
-        readings[PORTS..].copy_from_slice(&[coupling.ratio(), coupling.advice(wanted)]);
+        let (step, state) = coupling.advice(wanted, &self.cut());
+        readings[PORTS..].copy_from_slice(&[coupling.ratio(), step, f64::from(state as u8)]);
     }
 
     /// Record of the exchange with the host, for snapshots.

@@ -15,8 +15,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_set(parser)
     parser.add_argument("--host", metavar="HOST", action="append", required=True,
                         help="PORT:k=9000,c=12,J=1,reads=speed: spring, damper and the inertia behind them at the port carrier, left or "
-                             "right, in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1. May be "
-                             "repeated")
+                             "right, in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1,c=30, "
+                             "an inertia and a damper to the ground. May be repeated")
     parser.add_argument("--master", choices=MASTERS, default=MASTERS[0],
                         help="jacobi: both sides step at the same time; gauss-seidel: the unit steps first (default: jacobi)")
     parser.add_argument("--input", choices=INPUTS, default=INPUTS[0], help="inputs held over a step, or on lines (default: held)")

@@ -1,4 +1,4 @@
-"""Host at one port of the unit: spring and damper with an inertia behind them, an inertia alone, or any linear system."""
+"""Host at one port of the unit: spring and damper with an inertia behind them, an inertia with a damper, or any linear system."""
 
 import math
 from dataclasses import dataclass
@@ -69,13 +69,16 @@ class Host:
         return cls(port, reads, law, words, free)
 
     @classmethod
-    def inertia(cls, port: str, inertia: float) -> Self:
-        """Inertia [kg.m2] that reads the torque of a port driven by speed and returns its speed."""
-        return cls(port, TORQUE, Linear.of([[0.0]], [[1.0 / inertia]], [[1.0]], [[0.0]]), f"inertia {inertia:g} kg.m2, reads torque")
+    def inertia(cls, port: str, inertia: float, damping: float = 0.0) -> Self:
+        """Inertia [kg.m2] that reads the torque of a port driven by speed and returns its speed. A damper [N.m.s/rad] to the ground, such
+        as a tyre that slips, brakes it."""
+        damper = f", damper {damping:g} N.m.s/rad to the ground" if damping else ""
+        law = Linear.of([[-damping / inertia]], [[1.0 / inertia]], [[1.0]], [[0.0]])
+        return cls(port, TORQUE, law, f"inertia {inertia:g} kg.m2{damper}, reads torque")
 
     @classmethod
     def parse(cls, text: str) -> Self:
-        """Host from text such as "left:k=9000,c=12,J=1,reads=speed" or, at a port driven by speed, "left:J=1". SI units."""
+        """Host from text such as "left:k=9000,c=12,J=1,reads=speed" or, at a port driven by speed, "left:J=1,c=30". SI units."""
         port, _, rest = text.partition(":")
         given = {}
         for item in filter(None, rest.split(",")):
@@ -85,9 +88,9 @@ class Host:
             given[name] = value if name == "reads" else _positive(text, name, value)
         reads = given.pop("reads", "speed" if "k" in given else TORQUE)
         if "k" not in given:
-            if set(given) != {"J"} or reads != TORQUE:
-                raise DifferentialError(f"{text}: give k, c and reads for a spring with a damper, or only J at a port driven by speed")
-            return cls.inertia(port, given["J"])
+            if "J" not in given or reads != TORQUE:
+                raise DifferentialError(f"{text}: give k, c and reads for a spring with a damper, or J and c at a port driven by speed")
+            return cls.inertia(port, given["J"], given.get("c", 0.0))
         return cls.spring(port, given["k"], given.get("c", 0.0), given.get("J", math.inf), reads)
 
     @property

@@ -38,7 +38,7 @@ def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bo
         literals = {number: name for name, number in (variable.literals or {}).items()}
         drive = literals[int(scene.value(variable.name))]
         if (drive == "speed") != (host.reads == TORQUE):
-            host_of = "J" if drive == "speed" else "k, c and J"
+            host_of = "J and c" if drive == "speed" else "k, c and J"
             raise DifferentialError(f"{host.port}: the scene drives it by {drive}, so its host has only {host_of}; set {variable.name}, or "
                                     "give another host")
         if ideal and host.port == "carrier" and drive == "speed":

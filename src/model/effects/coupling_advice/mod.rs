@@ -9,15 +9,16 @@
 //! M = u(n + ½ + `host_delay`),
 //!
 //! with u linear between its values at whole numbers. The cut creates the energy (M − ū) x at a load that resists, and
-//! (ū − M) x at the carrier. `port` evaluates one port, `regression` shows if its host reacts, `memory` is the time over
-//! which sums decay, and `record` contains all ports.
+//! (ū − M) x at the carrier. `port` evaluates one port, `regression` shows if its host reacts, `swing` shows if its torque
+//! grows from period to period, `memory` is the time over which sums decay, and `record` contains all ports.
 
 mod memory;
 mod port;
 mod record;
 mod regression;
 mod spec;
+mod swing;
 
-pub use port::PortStep;
-pub use record::{Coupling, Growth, PORTS};
+pub use port::{PortStep, Shaft};
+pub use record::{AdviceState, Coupling, Cut, Growth, PORTS};
 pub use spec::CouplingAdviceSpec;

@@ -1,15 +1,19 @@
-//! One port: energy error of a step, and the sums of its errors.
+//! One port: energy error of a step, the sums of its errors, and the steps that they allow.
 
 use serde::{Deserialize, Serialize};
 
 use super::memory::{LEAST_STEPS, Oscillation};
-use super::regression::Regression;
-use crate::numeric::finite;
+use super::regression::{Law, Regression};
+use super::swing::Swing;
+use crate::numeric::{finite, pow, sqrt};
 
 /// Magnitude up to which values count. Larger ones belong to a motion that has diverged.
 const LARGEST: f64 = 1e12;
-/// Growth of the energy error from half-period to half-period that counts as growth.
-const GROWS: f64 = 1.02;
+/// Ratio of the time over which sums decay to that of the filters of the regression, and least number of their steps.
+const FILTER: f64 = 8.0;
+const LEAST_FILTER_STEPS: f64 = 10.0;
+/// Rate of the port, relative to the fastest one before, below which it stands still.
+const STILL: f64 = 1e-4;
 
 /// Exchange of one port over one communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -79,55 +83,120 @@ fn answer(steps: [&PortStep; 4], delay: f64) -> f64 {
     }
 }
 
+/// Half-shaft of a side driven by speed, which turns the movement of the port into its torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Shaft {
+    /// Stiffness [N·m/rad].
+    pub stiffness: f64,
+    /// Damping [N·m·s/rad].
+    pub damping: f64,
+}
+
 /// Sums of one port.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Port {
     /// Energy that the cut has created since the start [J].
     pub error: f64,
+    /// Decaying sum of the energy that passed [J].
+    pub passed: f64,
     /// Decaying sum of the magnitudes of the energy errors [J].
     pub errors: f64,
+    /// Decaying sum of the magnitudes of the energy errors of order 1, each divided by its step [J/s].
+    first_order: f64,
+    /// Decaying sum of the magnitudes of the energy errors of order 2, each divided by the square of its step [J/s²].
+    second_order: f64,
     /// True if the port moved in the last step that was added.
     pub moves: bool,
+    /// Largest magnitude of the rate at which the port has moved.
+    fastest: f64,
+    /// True if the host's values followed a line in the last step.
+    is_line: bool,
     /// Reaction of the host.
-    pub regression: Regression,
+    regression: Regression,
     /// Oscillation of u.
     pub oscillation: Oscillation,
-    /// Magnitude and sum of the energy errors since u last changed sides, and the magnitude before [J].
-    half_period: [f64; 3],
-    /// Number of successive half-periods in which the created energy has grown.
-    pub growths: u32,
+    /// Swings of the torque.
+    swing: Swing,
 }
 
-finite!(Port { error, errors, regression, oscillation, half_period; growths, moves });
+finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, oscillation, swing; moves, is_line });
 
 impl Port {
-    /// Adds the second of four `steps` with the energy `error` [J]. Old errors are multiplied by `keep`.
+    /// Adds the second of four `steps` of a host with `delay`. Its energy error is `error` [J], and its torque is the
+    /// rate of the movement if the port `is_shaft`, or else the host's value. Old errors are multiplied by `keep`.
     #[inline]
-    pub fn add(&mut self, steps: [&PortStep; 4], error: f64, delay: f64, keep: f64) {
-        let PortStep { given, moved, changed, h, .. } = *steps[1];
+    pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), delay: f64, keep: f64) {
+        let PortStep { given, moved, changed, h, is_line, .. } = *steps[1];
         self.error += error;
+        self.passed = keep * self.passed + steps[1].passed().abs();
         self.errors = keep * self.errors + error.abs();
+        self.first_order *= keep;
+        self.second_order *= keep;
+        if is_line && delay == 0.0 {
+            self.second_order += error.abs() / (h * h);
+        } else {
+            self.first_order += error.abs() / h;
+        }
         // a standstill shows nothing, however long it lasts
-        self.moves = self.regression.is_motion(moved);
+        self.fastest = self.fastest.max((moved / h).abs());
+        self.moves = moved.abs() > STILL * self.fastest * h;
         if !self.moves {
             return;
         }
         // the reaction shows in the motion of this port, however slow other motions are
         let memory = self.oscillation.memory().max(LEAST_STEPS * h);
-        self.regression.add(given, [answer(steps, delay), moved, changed], memory / (memory + h));
-        self.half_period[0] += error.abs();
-        self.half_period[1] += error;
-        if self.oscillation.add(given, h) {
-            let [magnitude, sum, before] = self.half_period;
-            let grows = sum > 0.0 && before > 0.0 && magnitude > GROWS * before;
-            self.growths = if grows { self.growths.saturating_add(1) } else { 0 };
-            self.half_period = [0.0, 0.0, magnitude];
-        }
+        let filter = (memory / FILTER).max(LEAST_FILTER_STEPS * h);
+        let values = [answer(steps, delay), moved, changed];
+        self.regression.add(given, values, memory / (memory + h), filter / (filter + h));
+        self.oscillation.add(given, h);
+        self.swing.add(if is_shaft { moved / h } else { given }, h, (delay, is_line));
+        self.is_line = is_line;
     }
 
     /// True if the host reacts: the motion explains at least the `fraction` of the changes of u.
     pub fn reacts(&self, fraction: f64) -> bool {
-        self.regression.reacts(fraction, self.oscillation.has_period())
+        self.regression.law(fraction).is_some()
+    }
+
+    /// Number of successive swings of the torque that have grown.
+    pub fn growths(&self) -> u32 {
+        self.swing.growths
+    }
+
+    /// Magnitude of the energy errors divided by the energy that passed, which is at least `least` [J].
+    pub fn ratio(&self, least: f64) -> f64 {
+        let passed = self.passed.max(least);
+        if passed > 0.0 { self.errors / passed } else { 0.0 }
+    }
+
+    /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It is
+    /// infinite without an error.
+    pub fn step_of_ratio(&self, wanted: f64, least: f64) -> f64 {
+        let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed.max(least));
+        if a + b > 0.0 { 2.0 * c / (a + sqrt(a * a + 4.0 * b * c)) } else { f64::INFINITY }
+    }
+
+    /// Longest stable step [s] of a host with `delay` that reacts, behind the unit's `shaft` or at a torque. It is infinite
+    /// if the cut shows no limit.
+    ///
+    /// A spring k, an inertia with the mobility b and damping make an oscillation whose damping acts the time τ ahead:
+    /// c/k of the damper beside the spring, and the ratio of both coefficients of the host's law. Held inputs act
+    /// (½ + `delay`) h late, so they are stable up to (½ + `delay`) h = τ, and up to ω h = 2. The line through the last two values
+    /// is a two-step Adams-Bashforth method, whose factor 1 + (ω h)⁴/4 in a step must not exceed the damping 1 + τ ω² h/2.
+    pub fn stable_step(&self, delay: f64, shaft: Option<Shaft>) -> f64 {
+        let Some(law) = self.regression.law(0.0).filter(|law| law.per_movement > 0.0) else { return f64::INFINITY };
+        let Law { per_movement, per_rate, .. } = law;
+        let own = shaft.map_or(0.0, |shaft| shaft.damping / shaft.stiffness);
+        let ahead = own + per_rate.max(0.0) / per_movement;
+        let rate = shaft.map(|shaft| sqrt(shaft.stiffness * per_movement));
+        let limit = match (self.is_line, rate) {
+            (true, Some(rate)) => pow(2.0 * ahead * rate, 1.0 / 3.0) / rate,
+            (true, None) => f64::INFINITY,
+            (false, Some(rate)) => (2.0 / rate).min(ahead / (0.5 + delay).max(0.0)),
+            (false, None) => ahead / (0.5 + delay).max(0.0),
+        };
+        // without any damping, no step is stable, and the growth tells it
+        if limit > 0.0 { limit } else { f64::INFINITY }
     }
 }
 

@@ -1,11 +1,11 @@
-//! Record of all ports: sums that decay, and the ratio and the advice that follow from them.
+//! Record of all ports: the ratio, the advice and its state, which follow from their sums.
 
 use serde::{Deserialize, Serialize};
 
 use super::memory::LEAST_STEPS;
-use super::port::{LAG, Port, PortStep, energy_difference};
+use super::port::{LAG, Port, PortStep, Shaft, energy_difference};
 use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED};
-use crate::numeric::{Finite, finite, sqrt};
+use crate::numeric::{Finite, finite};
 
 /// Number of ports: carrier, left side, right side.
 pub const PORTS: usize = 3;
@@ -18,11 +18,37 @@ const SIGNS: [f64; PORTS] = [-1.0, 1.0, 1.0];
 const LEAST_WEIGHT: f64 = 30.0;
 /// Ratio above which a warning is reported.
 const HIGH: f64 = 0.1;
-/// Number of successive half-periods of growth after which a warning is reported.
+/// Number of successive swings with growth after which the cut is unstable: four periods.
 const GROWTHS: u32 = 8;
+/// Fraction of the energy through all ports that is the lower bound of the denominator of each port's ratio.
+const LEAST_SHARE: f64 = 0.05;
 
 /// Position and its rate of each port at a communication point: angle and speed, or twist and torque of the half-shaft.
 pub type Places = [[f64; 2]; PORTS];
+
+/// What the unit knows of the host: its delay in steps, and the half-shafts of sides driven by speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Cut {
+    /// Delay of the host's answer in communication steps.
+    pub delay: f64,
+    /// Half-shaft behind each port; `None` at a port driven by torque.
+    pub shafts: [Option<Shaft>; PORTS],
+}
+
+/// Meaning of the advised step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AdviceState {
+    /// The advised step is given.
+    Given = 1,
+    /// 0, because nothing moves.
+    NothingMoves = 2,
+    /// 0, because no host reacts.
+    NoReaction = 3,
+    /// 0, because the exchange of this master has no energy error.
+    NotPossible = 4,
+    /// A swing grows by the cut. The advised step is at most half the present one.
+    UnstableCut = 5,
+}
 
 /// Record of the exchange between host and unit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -39,32 +65,24 @@ pub struct Coupling {
     has_changed: bool,
     /// Sum of the weights of all steps in the sums.
     weight: f64,
-    /// Decaying sum of the energy that passed through the ports [J].
-    passed: f64,
-    /// Decaying sum of the magnitudes of the energy errors of order 1, each divided by its step [J/s].
-    first_order: f64,
-    /// Decaying sum of the magnitudes of the energy errors of order 2, each divided by the square of its step [J/s²].
-    second_order: f64,
     /// Sums of each port.
     ports: [Port; PORTS],
 }
 
-finite!(Coupling {
-    last, steps, weight, passed, first_order, second_order, ports; count, has_changed, follows
-});
+finite!(Coupling { last, steps, weight, ports; count, has_changed, follows });
 
 /// Cause of a warning.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// Port with the largest error.
+    /// Port with the shortest stable step, or with the largest ratio.
     pub port: usize,
-    /// True if the energy error grows from period to period; otherwise, the ratio is high.
-    pub grows: bool,
+    /// True if a swing grows by the cut; otherwise, the ratio is high.
+    pub is_unstable: bool,
 }
 
 impl Coupling {
-    /// Adds a step of all ports, of a host with `delay`. A carrier driven by speed has an empty step.
-    pub fn add(&mut self, steps: &[PortStep; PORTS], delay: f64) {
+    /// Adds a step of all ports. A carrier driven by speed has an empty step.
+    pub fn add(&mut self, steps: &[PortStep; PORTS], cut: &Cut) {
         if !(steps[LEFT].h > 0.0 && steps.iter().all(PortStep::is_moderate)) {
             return;
         }
@@ -77,12 +95,12 @@ impl Coupling {
         self.steps.iter_mut().zip(steps).for_each(|(steps, step)| steps[place] = *step);
         self.count = self.count.wrapping_add(1);
         if self.has_changed && self.count > LAG as u64 {
-            self.evaluate(delay);
+            self.evaluate(cut);
         }
     }
 
     /// Adds the second of the last four steps to the sums.
-    fn evaluate(&mut self, delay: f64) {
+    fn evaluate(&mut self, cut: &Cut) {
         let has_earlier = self.count > LAG as u64 + 1;
         // the oldest of the four steps is the one that the next step replaces
         let places: [usize; 4] = std::array::from_fn(|k| (self.count as usize + k) & 3);
@@ -90,27 +108,12 @@ impl Coupling {
         let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
         let keep = memory / (memory + h);
         self.weight = keep * self.weight + 1.0;
-        let (mut passed, mut first, mut second) = (0.0, 0.0, 0.0);
-        for ((port, steps), sign) in self.ports.iter_mut().zip(&self.steps).zip(SIGNS) {
+        for (k, (port, steps)) in self.ports.iter_mut().zip(&self.steps).enumerate() {
             let steps = places.map(|place| &steps[place]);
-            if steps[1].h == 0.0 {
-                continue;
+            if steps[1].h > 0.0 {
+                let error = SIGNS[k] * energy_difference(steps, cut.delay, has_earlier);
+                port.add(steps, (error, cut.shafts[k].is_some()), cut.delay, keep);
             }
-            let error = sign * energy_difference(steps, delay, has_earlier);
-            passed += steps[1].passed().abs();
-            if steps[1].is_line && delay == 0.0 {
-                second += error.abs();
-            } else {
-                first += error.abs();
-            }
-            port.add(steps, error, delay, keep);
-        }
-        self.passed = keep * self.passed + passed;
-        self.first_order *= keep;
-        self.second_order *= keep;
-        if first + second > 0.0 {
-            self.first_order += first / h;
-            self.second_order += second / (h * h);
         }
     }
 
@@ -124,40 +127,61 @@ impl Coupling {
         self.steps[LEFT][(self.count.wrapping_sub(1) & 3) as usize].h
     }
 
-    /// Magnitude of the energy errors divided by the energy that passed.
+    /// Lower bound of the denominators of all ratios [J]. A port that passes almost nothing does not raise the ratio.
+    fn least_passed(&self) -> f64 {
+        LEAST_SHARE * self.ports.iter().map(|port| port.passed).sum::<f64>()
+    }
+
+    /// Largest ratio of a port: magnitude of its energy errors divided by the energy that passed.
     pub fn ratio(&self) -> f64 {
-        let errors: f64 = self.ports.iter().map(|port| port.errors).sum();
-        if self.passed > 0.0 { errors / self.passed } else { 0.0 }
+        let least = self.least_passed();
+        self.ports.iter().fold(0.0, |largest, port| largest.max(port.ratio(least)))
     }
 
-    /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It
-    /// is 0 if nothing moves, if no host reacts, or if there is no error.
-    pub fn advice(&self, wanted: f64) -> f64 {
-        let moves = self.ports.iter().any(|port| port.moves);
-        let reacts = self.ports.iter().any(|port| port.reacts(EXPLAINED));
-        let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed);
-        if !(moves && reacts && c > 0.0 && a + b > 0.0) {
-            return 0.0;
+    /// Smallest advice of a port whose host reacts [s], and its meaning: the step at which the ratio would be `wanted`, but
+    /// at most the longest stable step.
+    pub fn advice(&self, wanted: f64, cut: &Cut) -> (f64, AdviceState) {
+        let none = |state| (0.0, state);
+        if !self.has_changed {
+            return none(AdviceState::NoReaction);
         }
-        let advice = 2.0 * c / (a + sqrt(a * a + 4.0 * b * c));
-        if advice.is_finite() { advice } else { 0.0 }
+        if !self.ports.iter().any(|port| port.moves) {
+            return none(AdviceState::NothingMoves);
+        }
+        let reacting = || self.ports.iter().zip(cut.shafts).filter(|(port, _)| port.reacts(EXPLAINED));
+        if reacting().next().is_none() {
+            return none(AdviceState::NoReaction);
+        }
+        let least = self.least_passed();
+        let by_ratio = reacting().map(|(port, _)| port.step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
+        let stable = reacting().map(|(port, shaft)| port.stable_step(cut.delay, shaft)).fold(f64::INFINITY, f64::min);
+        if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
+            return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);
+        }
+        if by_ratio.is_finite() { (by_ratio.min(stable), AdviceState::Given) } else { none(AdviceState::NotPossible) }
     }
 
-    /// Cause of a warning, if there is one: ports at which the host reacts cause a high ratio, or their energy errors
-    /// grow.
+    /// Cause of a warning, if there is one: a swing at a port at which the host reacts grows by the cut, or its ratio is
+    /// high although its values oscillate.
     #[inline]
-    pub fn growth(&self) -> Option<Growth> {
-        let is_high = |errors: f64| errors > HIGH * self.passed;
-        let any_grows = self.ports.iter().any(|port| port.growths >= GROWTHS);
-        let all: f64 = self.ports.iter().map(|port| port.errors).sum();
-        if self.weight < LEAST_WEIGHT || !(any_grows || is_high(all)) {
+    pub fn growth(&self, cut: &Cut) -> Option<Growth> {
+        let least = self.least_passed();
+        let is_high = |port: &Port| port.errors > HIGH * port.passed.max(least) && port.oscillation.has_period();
+        let is_unstable = |port: &Port| port.growths() >= GROWTHS;
+        if self.weight < LEAST_WEIGHT || !self.ports.iter().any(|port| is_unstable(port) || is_high(port)) {
             return None;
         }
         let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
-        let of = |port: usize| self.ports[port].errors;
-        let port = reacting().max_by(|&a, &b| of(a).total_cmp(&of(b)))?;
-        let grows = reacting().any(|port| self.ports[port].growths >= GROWTHS);
-        (grows || is_high(reacting().map(of).sum())).then_some(Growth { port, grows })
+        // all ports swing with the one that is unstable, which has the shortest stable step
+        let stable = |port: usize| self.ports[port].stable_step(cut.delay, cut.shafts[port]);
+        let unstable = reacting().filter(|&port| is_unstable(&self.ports[port]));
+        if let Some(port) = unstable.min_by(|&a, &b| stable(a).total_cmp(&stable(b))) {
+            return Some(Growth { port, is_unstable: true });
+        }
+        let ratio = |port: usize| self.ports[port].ratio(least);
+        let port =
+            reacting().filter(|&port| is_high(&self.ports[port])).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+        Some(Growth { port, is_unstable: false })
     }
 
     /// True if a simulation can continue from these numbers.
@@ -169,6 +193,7 @@ impl Coupling {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::numeric::sqrt;
 
     /// Record of a spring at the left side, of torque `sign` · 4 φ, which turns to and fro in steps of 1 ms.
     fn spring(sign: f64, is_line: bool) -> Coupling {
@@ -178,7 +203,7 @@ mod tests {
             let left =
                 PortStep { given: 4.0 * angle, mean: 4.0 * angle, moved, changed: 0.5 * moved, h: 1e-3, is_line };
             let right = PortStep { h: 1e-3, ..PortStep::default() };
-            coupling.add(&[PortStep::default(), left, right], 0.0);
+            coupling.add(&[PortStep::default(), left, right], &Cut::default());
             angle += moved;
         }
         coupling
@@ -186,23 +211,24 @@ mod tests {
 
     #[test]
     fn the_advice_scales_the_step_by_the_order_of_the_exchange() {
-        let wanted = 1e-3;
+        let (wanted, cut) = (1e-3, Cut::default());
         let held = spring(1.0, false);
-        assert!((held.advice(wanted) - 1e-3 * wanted / held.ratio()).abs() < 1e-15);
+        assert!((held.advice(wanted, &cut).0 - 1e-3 * wanted / held.ratio()).abs() < 1e-15);
         let lines = spring(1.0, true);
-        assert!((lines.advice(wanted) - 1e-3 * sqrt(wanted / lines.ratio())).abs() < 1e-15);
+        assert!((lines.advice(wanted, &cut).0 - 1e-3 * sqrt(wanted / lines.ratio())).abs() < 1e-15);
     }
 
     #[test]
     fn the_mirror_image_has_the_same_bits() {
         let [image, mirrored] = [1.0, -1.0].map(|sign| spring(sign, false));
         assert_eq!(image.errors(), mirrored.errors());
-        assert_eq!([image.ratio(), image.advice(0.01)], [mirrored.ratio(), mirrored.advice(0.01)]);
+        let cut = Cut::default();
+        assert_eq!([image.ratio(), image.advice(0.01, &cut).0], [mirrored.ratio(), mirrored.advice(0.01, &cut).0]);
     }
 
     #[test]
     fn values_that_are_not_finite_make_a_record_invalid() {
         assert!(spring(1.0, false).is_valid());
-        assert!(!Coupling { passed: f64::NAN, ..spring(1.0, false) }.is_valid());
+        assert!(!Coupling { weight: f64::NAN, ..spring(1.0, false) }.is_valid());
     }
 }

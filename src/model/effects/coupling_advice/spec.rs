@@ -43,16 +43,24 @@ impl Declare for CouplingAdviceSpec {
             unit: units::ONE,
             display: None,
             changes: Changes::ByStep,
-            description: "Magnitude of the energy errors of all cuts divided by the energy through the ports, as sums that \
-                          decay over about two periods of the motion",
+            description: "Largest ratio of a port: magnitude of the energy errors of its cut divided by the energy through it, as \
+                          sums that decay over about two periods of the motion",
         },
         Reading {
             name: "coupling.step_advice",
             unit: units::SECOND,
             display: None,
             changes: Changes::ByStep,
-            description: "Communication step at which coupling.energy_ratio would be coupling.wanted_ratio; 0 = no advice: \
-                          nothing moves, or the host does not react",
+            description: "Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the longest \
+                          stable step; coupling.advice_state says what 0 means",
+        },
+        Reading {
+            name: "coupling.advice_state",
+            unit: units::ONE,
+            display: None,
+            changes: Changes::ByStep,
+            description: "Meaning of coupling.step_advice: 1 = given, 2 = nothing moves, 3 = no host reacts, 4 = not possible for \
+                          this master, 5 = unstable cut",
         },
     ];
 
