@@ -51,7 +51,8 @@ pub fn settings(table: &Table) -> Result<Vec<Setting>, Problems> {
     }
     let missing: Vec<_> = known().take(KEYS.len() - 1).filter(|key| !table.contains_key(*key)).collect();
     if !missing.is_empty() {
-        problems.push(format!("{} is missing", missing.join(", ")));
+        let are = if missing.len() > 1 { "are" } else { "is" };
+        problems.push(format!("{} {are} missing", missing.join(", ")));
     }
     let values = KEYS.map(|(key, like)| match table.get(key) {
         Some(value) => dimension(key, value, like).map_err(|problem| problems.push(problem)).unwrap_or(f64::NAN),
@@ -118,7 +119,11 @@ fn packs([faces, friction, inner, outer, drive, coast, lever, spring]: [f64; 8])
         ),
         // without any ramp that presses, the start values of both are right
         ("limited_slip.pressed_by", if presses { "both_sides" } else { "own_side" }.into(), ""),
-        ("limited_slip.coast_ratio", if presses { by_coast / by_drive } else { 1.0 }.into(), "ramp_drive and ramp_coast"),
+        (
+            "limited_slip.coast_ratio",
+            if presses { by_coast / by_drive } else { 1.0 }.into(),
+            "ramp_drive and ramp_coast",
+        ),
         ("limited_slip.mean_radius", mean.into(), "inner and outer"),
         ("limited_slip.friction_area", (faces * PI * (outer * outer - inner * inner)).into(), "faces, inner and outer"),
         ("limited_slip.plate_coefficient", friction.into(), ""),
