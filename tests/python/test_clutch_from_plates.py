@@ -3,7 +3,7 @@
 from math import inf, nan, pi, sqrt
 
 import pytest
-from bevel_differential import Clutch, Differential, DifferentialError
+from bevel_differential import Clutch, Differential, DifferentialError, Scene
 
 # a pack with four faces from 40 to 60 mm, pressed by ramps of 45° in drive and 60° in coast at 35 mm, and by 500 N of springs
 PACK = {"faces": 4, "friction": 0.12, "inner": 0.040, "outer": 0.060, "ramp_drive": "45 deg", "ramp_coast": "60 deg",
@@ -82,7 +82,7 @@ def test_a_self_locking_pack_is_allowed_and_the_fmu_warns(plates, fmu):
 @pytest.mark.parametrize("name, value, words", [
     ("faces", 0, ["1 or more"]), ("faces", 2.5, ["whole number"]), ("faces", True, ["number"]), ("faces", "many", ["number"]),
     ("friction", 0.0, ["0.01 or more", "at most 1"]), ("friction", 1.5, ["at most 1"]), ("friction", nan, ["finite"]),
-    ("inner", 0.0, ["above 0 mm", "numbers are in m"]), ("inner", 0.06, ["not below outer = 0.06"]), ("inner", "70 mm", ["not below"]),
+    ("inner", 0.0, ["above 0 mm", "numbers are in m"]), ("inner", 0.06, ["not below outer = 60 mm"]), ("inner", "70 mm", ["not below"]),
     ("inner", inf, ["finite"]), ("outer", "60 deg", ["unit 'deg'", "mm"]), ("outer", None, ["number"]),
     ("ramp_drive", 45, ["above 0 deg and at most 90 deg", "numbers are in rad"]), ("ramp_drive", "0 deg", ["above 0 deg"]),
     ("ramp_drive", "91 deg", ["at most 90 deg"]), ("ramp_coast", -0.1, ["above 0 deg"]), ("ramp_coast", "60", ["at most 90 deg", "rad"]),
@@ -100,8 +100,67 @@ def test_a_value_that_the_fmu_would_refuse_is_refused_with_its_arguments(plates,
 
 
 def test_ramps_that_press_only_in_coast_are_refused_with_a_remedy(plates):
-    refused(lambda: plates(ramp_drive="90 deg"), "ramp_drive = '90 deg' presses nothing", "ramp_coast = '60 deg'", "turn the signs",
+    refused(lambda: plates(ramp_drive="90 deg"), "Clutch.from_plates: ramp_drive = 90 deg presses nothing", "ramp_coast = 60 deg", "turn the signs",
             "exchange ramp_drive and ramp_coast")
+
+
+# scene files
+
+FILE = """description = "packs"
+stop_time = 1.0
+step = "1 ms"
+outputs = ["left.shaft_torque"]
+clutch = {{{clutch}}}
+[set]
+scene.gear_contact = "lumped"
+{set}
+"""
+IN_FILE = {"faces": "4", "friction": "0.12", "inner": '"40 mm"', "outer": "0.060", "ramp_drive": '"45 deg"', "ramp_coast": '"60 deg"',
+           "ramp_radius": '"35 mm"', "spring_force": '"0.5 kN"'}
+
+
+@pytest.fixture
+def of_file(fmu, tmp_path):
+    """of_file(dimensions, set): values of a scene file with these packs."""
+    def read(dimensions=IN_FILE, set=""):
+        file = tmp_path / "scene.toml"
+        file.write_text(FILE.format(clutch=", ".join(f"{name} = {value}" for name, value in dimensions.items()), set=set), encoding="utf-8")
+        with Scene.load(file, fmu) as scene:
+            return dict(scene.values)
+    return read
+
+
+def test_a_scene_file_has_the_packs_of_its_dimensions(of_file, fmu):
+    found = of_file()
+    assert found.pop("scene.gear_contact") is not None and found.pop("effects.limited_slip")
+    assert fmu.variable("limited_slip.pressed_by").written(found.pop("limited_slip.pressed_by")) == "both_sides"
+    assert found == pytest.approx({
+        "limited_slip.preload": PRELOAD, "limited_slip.torque_coefficient": KAPPA, "limited_slip.coast_ratio": COAST,
+        "limited_slip.mean_radius": 0.05, "limited_slip.friction_area": AREA, "limited_slip.plate_coefficient": 0.12}, rel=1e-12)
+
+
+def test_values_of_a_scene_file_replace_those_of_the_packs(of_file):
+    found = of_file(set='limited_slip.preload = "3 N.m"\neffects.limited_slip = false')
+    assert found["limited_slip.preload"] == 3.0 and not found["effects.limited_slip"]
+    assert found["limited_slip.torque_coefficient"] == pytest.approx(KAPPA, rel=1e-12)
+
+
+def test_springs_may_be_left_out_of_a_scene_file(of_file):
+    assert of_file({name: value for name, value in IN_FILE.items() if name != "spring_force"})["limited_slip.preload"] == 0.0
+
+
+@pytest.mark.parametrize("changes, words", [
+    ({"faces": "2.5"}, ["faces = 2.5: must be a whole number of 1 or more"]), ({"faces": "true"}, ["faces = true", "number"]),
+    ({"outer": '"60 deg"'}, ["outer = \"60 deg\"", "deg", "mm"]), ({"outer": '"30 mm"'}, ["inner = 40 mm is not below outer = 30 mm"]),
+    ({"ramp_drive": "45"}, ["ramp_drive = 45: must be above 0 deg and at most 90 deg; numbers are in rad"]),
+    ({"ramp_drive": '"90 deg"'}, ["presses nothing", "exchange"]), ({"friction": "1.5", "ramp_radius": "0"}, ["friction = 1.5", "ramp_radius = 0"]),
+    ({"plates": "4"}, ["there is no dimension plates", "known: faces"]), ({"faces": "100"}, ["torque_coefficient", "calculated from faces"])])
+def test_dimensions_in_a_scene_file_are_refused_by_their_name(of_file, changes, words):
+    refused(lambda: of_file(IN_FILE | changes), "clutch: ", *words)
+
+
+def test_all_missing_dimensions_of_a_scene_file_are_listed(of_file):
+    refused(lambda: of_file({"faces": "4"}), "clutch: friction, inner, outer, ramp_drive, ramp_coast, ramp_radius are missing")
 
 
 @pytest.mark.parametrize("arguments, words", [((0.99,), ["tbr = 0.99", "1 or more"]), ((inf,), ["tbr", "finite"]), (("x",), ["tbr"]),

@@ -17,7 +17,7 @@ from bevel_differential import DifferentialError, Scene, losses as package
 from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Quantity, Text
 from bevel_differential.designs.sweep import Stopped
-from bevel_differential.losses import VARIABLES, inputs, losses
+from bevel_differential.losses import VARIABLES, command, inputs, losses
 from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting,
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
@@ -187,6 +187,7 @@ def test_tables_have_units_and_the_same_numbers(mapped, tmp_path):
 
     slip, locking = array("slip_bpts"), array("locking_tbl")
     assert array("Trq_bpts") == pytest.approx(mapped.lines[0]) and array("eta_tbl") == pytest.approx(np.ones((3, 3, 3)))
+    assert "% eta_tbl is 1 everywhere, because the scene has no drag" in script
     assert locking.shape == (3, 3, len(slip), 3) and np.all(np.diff(slip) > 0.0)
     for place, at in enumerate(slip):
         assert locking[1, 1, place, 1] == pytest.approx(-2.0 * np.sign(at) * PRELOAD * over_kinetic(at), rel=1e-5, abs=1e-6)
@@ -229,7 +230,35 @@ def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(fmu_file
             power = abs(torque) * speed
             eta = 1.0 - loss / power if torque > 0.0 else power / (power + loss)
             assert table[i, k, 0] == pytest.approx(max(eta, 0.01), rel=1e-4)
-    assert "power out over power in" in script and "overrun" in script
+    assert "power out over power in" in script and "overrun" in script and "no drag" not in script
+
+
+@pytest.mark.parametrize("set, table, torque, speed", [
+    # the speed follows from the wheels, and the command of the speed has no effect
+    ({"scene.carrier_drive": "torque", "carrier.torque_command": -400.0, **dict.fromkeys(("scene.left_drive", "scene.right_drive"), "speed"),
+      "left.speed_command": -80.0, "right.speed_command": -70.0}, None, 400.0, 75.0),
+    # the torque follows from the loads, and the command of the torque has no effect
+    ({"scene.carrier_drive": "speed", "carrier.speed_command": 30.0, "carrier.torque_command": 9.0, "left.load_torque": 100.0,
+      "right.load_torque": 200.0}, None, 300.0, 30.0),
+    # an input grows during the scene, slowly, so that inertia adds little to the torque
+    ({"scene.carrier_drive": "speed", "left.load_torque": 100.0, "right.load_torque": 200.0}, (0.0, 60.0), 300.0, 60.0),
+])
+def test_axes_end_at_the_torque_and_the_speed_that_the_scene_reaches(set, table, torque, speed, fmu_file):
+    tables = [] if table is None else [("carrier.speed_command", [0.0, 10.0], list(table), None)]
+    with Scene("reached", stop=10.0, step=1.0, set={"scene.gear_contact": "ideal", **set}, tables=tables, fmu=fmu_file) as made:
+        asked = SimpleNamespace(torque=None, speed=None, difference=None, temperature=None)
+        of_torque, of_speed, *_ = (of.levels() for of in command._axes(made, asked))
+    assert of_torque[-1] == pytest.approx(torque, rel=1e-3) and of_speed[-1] == pytest.approx(speed, rel=1e-3)
+    assert of_torque[0] == pytest.approx(0.1 * of_torque[-1]) and of_speed[0] == pytest.approx(0.1 * of_speed[-1])
+
+
+def test_a_map_without_drag_says_why_its_efficiencies_are_1(capsys, fmu_file, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text('description = "no drag"\nstop_time = 0.01\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\n'
+                     'scene.gear_contact = "ideal"\ncarrier.speed_command = 30.0\n', encoding="utf-8")
+    assert main(["losses", str(scene), "--quick", "--unseen", "0", "--difference", "5", "--simulink", str(tmp_path / "map.m"), "--workers", "0",
+                 "--fmu", fmu_file]) == 0
+    assert "map.m: eta_tbl is 1 everywhere, because the scene has no drag" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("option, value, words", [("--difference", "-1 rad/s..1 rad/s", "above 0"), ("--bound", "2", "2,0.1"),

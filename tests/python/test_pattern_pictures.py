@@ -1,8 +1,10 @@
-"""Pictures of the command `pattern`: a flank and its line load have the same axis along the face."""
+"""Pictures of the command `pattern`: a flank and its line load have the same axis along the face; captions follow the scenes."""
 
 import pytest
 from bevel_differential import style
 from bevel_differential.command import main
+from bevel_differential.pattern.picture import REMARKS
+from matplotlib.text import Text
 
 # gears with long and low flanks, and with short and high ones
 GEARS = [("4.5 mm", "20 mm"), ("6 mm", "6 mm"), ("3 mm", "12 mm")]
@@ -22,3 +24,21 @@ def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_
     # equal scales in both directions
     box = flank.get_window_extent()
     assert box.width / box.height == pytest.approx((ends[0][3] - ends[0][2]) / (flank.get_ylim()[1] - flank.get_ylim()[0]), rel=1e-6)
+
+
+@pytest.mark.parametrize("names", [["aligned"], ["planet_out", "hypoid_forward"], ["aligned", "mine"]])
+def test_pictures_of_scenes_say_nothing_about_the_documentation_s_cases(names, tmp_path, monkeypatch, fmu_file):
+    """The documentation's cases have names, which a user's scene file may have, too."""
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    figures = []
+    monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
+    for name in names:
+        (tmp_path / f"{name}.toml").write_text('description = "own"\nstop_time = 0.02\nstep = "1 ms"\noutputs = ["left.speed"]\n'
+                                               '[set]\nspin.command = "200 deg/s"\nscene.planet_spin = "imposed"\n', encoding="utf-8")
+    assert main(["pattern", *(str(tmp_path / f"{name}.toml") for name in names), "--quick", "--out", str(tmp_path / "out")]) == 0
+    patterns, lines = figures
+    texts = " ".join(text.get_text() for figure in figures for text in figure.findobj(Text))
+    assert not [remark for remark in REMARKS.values() if remark in texts]
+    assert "the study" not in texts and "pin out of place" not in texts and "direction of spin" not in texts
+    # all scenes are in both pictures
+    assert all(any(name in axes.get_title(loc="left") for axes in figure.axes) for name in names for figure in (patterns, lines))

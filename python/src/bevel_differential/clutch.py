@@ -2,10 +2,10 @@
 
 import copy
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Self
 
+from .answers import ask
 from .fmu import Fmu
 from .values import DifferentialError, FileName, Value
 
@@ -44,43 +44,18 @@ class Clutch:
 
         While the clutches slip, the torques of the wheels differ by κ T plus twice the preload. Raises `DifferentialError`."""
         of = _Arguments("Clutch.from_plates", Fmu.of(fmu))
-        count = of.number("faces", faces, least=1.0)
-        if count != int(count):
-            raise DifferentialError(f"{of.call}: faces = {faces!r}: it is a whole number of 1 or more")
-        share = of.like("friction", friction, "limited_slip.plate_coefficient")
-        smaller, larger = (of.length(name, radius) for name, radius in (("inner", inner), ("outer", outer)))
-        if not smaller < larger:
-            raise DifferentialError(f"{of.call}: inner = {inner!r} is not below outer = {outer!r}; both are radii of the faces, in m if "
-                                    "they are numbers")
-        drive, coast = (_cotangent(of.angle(name, angle)) for name, angle in (("ramp_drive", ramp_drive), ("ramp_coast", ramp_coast)))
-        lever = of.length("ramp_radius", ramp_radius)
-        force = of.number("spring_force", spring_force, "planet[1].thrust_force", least=0.0)
-        if drive == 0.0 and coast > 0.0:
-            raise DifferentialError(
-                f"{of.call}: ramp_drive = {ramp_drive!r} presses nothing, but ramp_coast = {ramp_coast!r} presses the packs: the FMU "
-                "refers the coast ramps to the drive ramps, so these must press; turn the signs of all torques and speeds of the scene, "
-                "and exchange ramp_drive and ramp_coast")
-        mean = 0.5 * (smaller + larger)
-        per_force = count * share * mean
-        found: dict[str, Value] = {
-            "effects.limited_slip": True,
-            "limited_slip.preload": per_force * force,
-            "limited_slip.torque_coefficient": per_force / lever * drive,
-            # without any ramp that presses, the start values of both are right
-            "limited_slip.pressed_by": "both_sides" if drive else "own_side",
-            "limited_slip.coast_ratio": coast / drive if drive else 1.0,
-            "limited_slip.mean_radius": mean,
-            "limited_slip.friction_area": count * math.pi * (larger * larger - smaller * smaller),
-            "limited_slip.plate_coefficient": share,
+        lengths, angles = {"inner": inner, "outer": outer, "ramp_radius": ramp_radius}, {"ramp_drive": ramp_drive, "ramp_coast": ramp_coast}
+        dimensions = {
+            "faces": of.number("faces", faces, least=1.0),
+            "friction": of.like("friction", friction, "limited_slip.plate_coefficient"),
+            **{name: of.length(name, radius) for name, radius in lengths.items()},
+            **{name: of.angle(name, angle) for name, angle in angles.items()},
+            "spring_force": of.number("spring_force", spring_force, "planet[1].thrust_force", least=0.0),
         }
-        of.check(found, {
-            "preload": "faces, friction, inner, outer and spring_force",
-            "torque_coefficient": "faces, friction, inner, outer, ramp_drive and ramp_radius",
-            "coast_ratio": "ramp_drive and ramp_coast",
-            "mean_radius": "inner and outer",
-            "friction_area": "faces, inner and outer",
-        })
-        return cls(found)
+        try:
+            return cls(ask({"ask": "clutch", "of": dimensions})["set"])
+        except DifferentialError as error:
+            raise DifferentialError(f"{of.call}: {error}", kind=error.kind) from None
 
     @classmethod
     def from_bias_ratio(cls, tbr: Value, preload: Value = 0.0, *, fmu: FileName | Fmu | None = None) -> Self:
@@ -132,16 +107,6 @@ class _Arguments:
         """Angle of a ramp, above 0 and up to 90° [rad]."""
         return min(self.number(name, value, "geometry.pressure_angle", above=0.0, most=RIGHT_ANGLE + PARALLEL), RIGHT_ANGLE)
 
-    def check(self, values: Mapping[str, Any], causes: Mapping[str, str]) -> None:
-        """Checks that values of `limited_slip`, which follow from the arguments in `causes`, are in the ranges of the FMU."""
-        for name, arguments in causes.items():
-            variable = self.fmu.variable(f"limited_slip.{name}")
-            number, low, high = values[variable.name], _limit(variable.minimum), _limit(variable.maximum)
-            if not (low is None or low <= number) or not (high is None or number <= high):
-                unit = "" if variable.unit in (None, "1") else f" {variable.unit}"
-                raise DifferentialError(f"{self.call}: {variable.name} = {number:.6g}{unit}, calculated from {arguments}, is outside "
-                                        f"[{low:g}, {high:g}]{unit}")
-
 
 def _shown(variable, limit):
     unit, size = variable.shown(limit)
@@ -154,8 +119,3 @@ def _limit(value):
 
 def _written(value):
     return " ".join(map(str, value)) if isinstance(value, tuple) else repr(value)
-
-
-def _cotangent(angle):
-    """1/tan of the angle of a ramp; exactly 0 at 90°."""
-    return 0.0 if RIGHT_ANGLE - angle < PARALLEL else 1.0 / math.tan(angle)

@@ -3,6 +3,7 @@
 import importlib
 import importlib.metadata
 import json
+import os
 import shlex
 import shutil
 import sys
@@ -14,6 +15,8 @@ from urllib.request import url2pathname
 from .values import DifferentialError
 
 PACKAGE = "bevel-differential"
+# variable of the environment that names the backend of matplotlib
+BACKEND = "MPLBACKEND"
 
 
 def install(module: str, extra: str) -> str:
@@ -28,6 +31,25 @@ def require(module: str, extra: str) -> ModuleType:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:
         raise DifferentialError(install(missing.name or module, extra), kind="failed") from None
+
+
+def matplotlib(extra: str) -> ModuleType:
+    """Imports matplotlib with the user's backend. If this backend cannot be imported, as one of a notebook in another environment, the
+    backend is Agg."""
+    try:
+        return require("matplotlib", extra)
+    except (ValueError, ImportError):
+        chosen = os.environ.pop(BACKEND, None)
+        if chosen is None:
+            raise
+        # its modules would lack the attributes that only a complete import sets
+        for name in [name for name in sys.modules if name.partition(".")[0] == "matplotlib"]:
+            del sys.modules[name]
+        os.environ[BACKEND] = "Agg"
+        try:
+            return require("matplotlib", extra)
+        finally:
+            os.environ[BACKEND] = chosen
 
 
 def version() -> str | None:

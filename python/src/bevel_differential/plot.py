@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 
-from .extras import require
+from .extras import matplotlib
 from .fmu import Fmu
 from .readable import time_scale
 from .values import DifferentialError, FileName
@@ -27,7 +27,7 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
 
     Writes `file` (PNG, SVG or PDF) if it is given. Returns the matplotlib figure. It does not belong to pyplot, so it need not be
     closed."""
-    require("matplotlib", "plot")
+    matplotlib("plot")
     from . import style
 
     names = tuple(name for name in getattr(record, "dtype", np.dtype(float)).names or () if name != "time")

@@ -9,16 +9,19 @@ import re
 import textwrap
 from pathlib import Path
 
-import matplotlib
-from cycler import cycler
-from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-from PIL import Image
-
+from . import extras
 from .output_file import checked
 from .readable import plain
 from .values import DifferentialError
 from .writing import write_whole
+
+matplotlib = extras.matplotlib("plot")
+
+# after the choice of the backend, which comes with the first import
+from cycler import cycler  # noqa: E402
+from matplotlib.figure import Figure  # noqa: E402
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
+from PIL import Image  # noqa: E402
 
 BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
 PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
@@ -44,8 +47,7 @@ STYLE = {
 
 
 def apply() -> None:
-    """Sets the style for the process, which draws into files."""
-    matplotlib.use("Agg")
+    """Sets the style for the process."""
     matplotlib.rcParams.update(STYLE)
 
 

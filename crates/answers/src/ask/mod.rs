@@ -30,6 +30,8 @@ pub enum Question {
     Scenes(scenes::ScenesQuestion),
     /// The former names of variables.
     FormerNames,
+    /// Settings of clutch packs from their dimensions.
+    Clutch(scenes::ClutchQuestion),
     /// Settings of all points of a measured clutch curve.
     Curve(scenes::CurveQuestion),
     /// Values of a scene: settings at the start, later and over time, and outputs.
@@ -68,6 +70,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
     let answer = match question {
         Question::Scenes(question) => question.answer(),
         Question::FormerNames => Ok(scenes::former_names()),
+        Question::Clutch(question) => question.answer(),
         Question::Curve(question) => question.answer(),
         Question::Scene(question) => question.values(progress),
         Question::Acting(question) => question.acting(progress),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result};
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
+use toml::Table;
 
 use super::source::{Source, seconds};
 use crate::pattern::cases::{self, PatternCase};
@@ -14,7 +15,7 @@ use crate::pattern::{Patterns, findings};
 use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::{Setting, changed_values, value};
-use crate::scene::{self, InputTable, Scene, acting, curve, former_names, loads, plan, script, ssv};
+use crate::scene::{self, InputTable, Scene, acting, clutch, curve, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// Request for all scenes of a folder.
@@ -22,6 +23,14 @@ use crate::text::{shown, whole_file};
 #[serde(deny_unknown_fields)]
 pub struct ScenesQuestion {
     scenes: PathBuf,
+}
+
+/// Request about clutch packs.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClutchQuestion {
+    /// Dimensions by name, as in a scene file.
+    of: Table,
 }
 
 /// Request about a measured clutch curve.
@@ -96,6 +105,12 @@ impl ScenesQuestion {
         let scene_json =
             |scene: &Scene| json!({"name": scene.name, "description": scene.description, "file": scene.file});
         Ok(json!({"scenes": scenes.iter().map(scene_json).collect::<Vec<_>>()}))
+    }
+}
+
+impl ClutchQuestion {
+    pub(super) fn answer(&self) -> Result<Value> {
+        Ok(json!({"set": values(&clutch::settings(&self.of)?)}))
     }
 }
 

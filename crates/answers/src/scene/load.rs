@@ -8,6 +8,8 @@
 //! input_slopes = false                   # hold the values of tables within a step; otherwise interpolate linearly
 //! display_units = ["rpm", "kN"]          # units for displayed values, instead of the usual ones
 //!
+//! clutch = { faces = 8, friction = 0.1 }  # packs from all their dimensions, see `clutch`; [set] overrides their values
+//!
 //! [set]                                  # any parameter or input of the FMU
 //! geometry.module = "4.5 mm"             # with a unit, or a number in SI
 //! scene.start = "rolling"                # literal of an enumeration
@@ -42,7 +44,7 @@ use super::display_units::DisplayUnits;
 use super::set::{Setting, output, real, variable, written};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
-use super::{Event, InputTable, Scene, former_names, input_file};
+use super::{Event, InputTable, Scene, clutch, former_names, input_file};
 use crate::problem::{Problem, Problems, question_error};
 use crate::text::{not_text, shown};
 
@@ -59,6 +61,8 @@ pub struct File {
     input_slopes: Option<Value>,
     #[serde(default)]
     display_units: Vec<String>,
+    #[serde(default)]
+    clutch: Option<Table>,
     #[serde(default)]
     set: Table,
     #[serde(default)]
@@ -108,7 +112,8 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
 pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let mut problems = Problems::default();
     let (stop_time, step) = times(entry, &mut problems);
-    let settings = settings("[set]", &entry.set, Some(folder(file)), &mut problems);
+    let set = settings("[set]", &entry.set, Some(folder(file)), &mut problems);
+    let settings = with_clutch(entry.clutch.as_ref(), set, &mut problems);
     let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
     settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
     let mut events: Vec<Event> = entry.at.iter().filter_map(|at| event(at.clone(), stop_time, &mut problems)).collect();
@@ -229,6 +234,16 @@ fn settings(place: &str, table: &Table, folder: Option<&Path>, problems: &mut Pr
         }
     }
     found
+}
+
+/// Settings of the clutch packs in `table`, followed by the settings `set`, which replace those of the same variables.
+fn with_clutch(table: Option<&Table>, set: Vec<Setting>, problems: &mut Problems) -> Vec<Setting> {
+    let packs = table.map_or(Ok(Vec::new()), clutch::settings).unwrap_or_else(|found| {
+        problems.extend(found.0.into_iter().map(|problem| problem.prefixed("clutch: ")));
+        Vec::new()
+    });
+    let is_replaced = |of_pack: &Setting| set.iter().any(|setting| setting.row.name == of_pack.row.name);
+    packs.into_iter().filter(|of_pack| !is_replaced(of_pack)).chain(set.iter().copied()).collect()
 }
 
 fn flatten<'a>(prefix: &str, table: &'a Table, out: &mut Vec<(String, &'a Value)>) {

@@ -2,6 +2,7 @@
 
 pub mod acting;
 pub mod assignments;
+pub mod clutch;
 pub mod curve;
 pub mod display_units;
 pub mod former_names;

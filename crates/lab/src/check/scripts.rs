@@ -81,14 +81,14 @@ pub const REAL_TIME: Script = Script {
     about: "Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)",
     options: || {
         vec![
-            flag("quick", "Leave out steps of 10 µs").conflicts_with("write"),
-            flag("write", "Also renew the table in docs/inside/cost.md"),
+            flag("quick", "Leave out steps of 10 µs and the levels").conflicts_with("write"),
+            flag("write", "Also renew the tables in docs/inside/cost.md and docs/accuracy.md"),
         ]
     },
     file: "crates/lab/python/real_time.py",
     doing: "counting",
     given: &[Given::Target("real-time"), Given::Target(BUILD), Given::Named("quick")],
-    sections: &[("docs/inside/cost.md", "real-time", "")],
+    sections: &[("docs/inside/cost.md", "real-time", ""), ("docs/accuracy.md", "levels", "levels.md")],
     ..DEFAULTS
 };
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..answers import Progress, about, ask
-from ..extras import require
+from ..extras import matplotlib
 from ..readable import plain
 from ..scene import Scene
 from ..values import FileName, Value
@@ -88,7 +88,7 @@ class Accuracy:
 
     def plot(self, file: FileName | None = None) -> "Figure":
         """Draws the error of all runs against their cost."""
-        require("matplotlib", "plot")
+        matplotlib("plot")
         from .. import style
 
         with style.styled():

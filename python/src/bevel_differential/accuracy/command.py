@@ -25,7 +25,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Finds the setting, prints it and writes files. If no setting is accurate enough, this is a finding."""
-    from ..extras import require
+    from ..extras import matplotlib
     from ..progress import shown
     from ..values import DifferentialError
     from ..writing import write_whole
@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.write and arguments.write.exists():
         raise DifferentialError(f"{arguments.write} is there already: remove it, or name another with --write FILE")
     if arguments.plot:
-        require("matplotlib", "plot")
+        matplotlib("plot")
     begin = time.monotonic()
     with shown(arguments.progress) as progress:
         found = accuracy(arguments.scene, arguments.want, arguments.within, from_=arguments.from_, set=changes(arguments),

@@ -21,12 +21,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Runs the tests, prints their conclusions and writes files. Raises `DifferentialError`."""
-    from ..extras import require
+    from ..extras import matplotlib
     from ..values import DifferentialError, suggestion
     from ..writing import in_folder, write_whole
     from . import TESTS, bench, scene_file
 
-    require("matplotlib", "plot")
+    matplotlib("plot")
     for name in arguments.test:
         if name not in TESTS:
             raise DifferentialError(f"there is no test {name!r}{suggestion(name, TESTS)}; known: {', '.join(TESTS)}", kind="use")

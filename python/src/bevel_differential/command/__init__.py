@@ -11,7 +11,8 @@ from contextlib import contextmanager, redirect_stdout, suppress
 from io import UnsupportedOperation
 from typing import Any, NoReturn, TextIO, cast
 
-from ..extras import install, version
+from ..extras import BACKEND, install, version
+from ..letters import replaced
 from ..text import aligned
 from ..values import DifferentialError, suggestion
 from ..warned import printed
@@ -104,7 +105,14 @@ def _to_the_end() -> Iterator[None]:
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Runs the command with these arguments, by default those of the process. Returns its exit status."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
+    if argv is None:
+        # the program draws only files; a process started in a notebook inherits its backend, which may not be installed here
+        os.environ[BACKEND] = "Agg"
+    with replaced():
+        return _main(list(sys.argv[1:] if argv is None else argv))
+
+
+def _main(arguments):
     try:
         if not arguments or arguments[0] in ("-h", "--help", "help"):
             print(_overview())

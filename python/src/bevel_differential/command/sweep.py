@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 
 from . import DONE, FINDING
-from .arguments import add_farm, add_file, add_fmu, add_set, add_stop, add_units, assignment, farm, once
+from .arguments import add_farm, add_file, add_files, add_fmu, add_set, add_stop, add_units, assignment, farm, once
 
 # keys of a plan file, and the names of the options here
 KEYS = {"scene": "scene", "stop": "stop", "set": "set", "vary": "vary", "plan": "plan", "runs": "runs", "seed": "seed", "want": "want",
@@ -30,7 +30,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--from", dest="start", metavar="TIME", help="quantities count from this time on, such as \"0.14 s\"")
     parser.add_argument("--plan-file", metavar="FILE", help=f"all of this as TOML, with the keys {', '.join(KEYS)}")
     add_file(parser, "--out", "Parquet file", "results; --resume continues from this file")
-    add_file(parser, "--csv", "table", "write all runs as a table")
+    add_files(parser, "all runs as a table", "quantities over varied values, and the Pareto front of the objectives")
+    parser.add_argument("--objective", metavar="OBJECTIVE", action="append", default=[],
+                        help="a wanted quantity to \"maximise OUTPUT:STATISTIC\" or \"minimise …\"; the picture shows the Pareto front of two or "
+                             "more")
     parser.add_argument("--resume", action="store_true", help="run only the designs that are missing in the results")
     parser.add_argument("--force", action="store_true", help="overwrite existing results")
     add_units(parser)
@@ -42,15 +45,24 @@ def run(arguments: argparse.Namespace) -> int:
     """Runs the sweep and prints its results. Failed runs, and a sweep without a feasible design, are findings. Raises
     `DifferentialError`, `KeyboardInterrupt`."""
     from ..designs.sweep import sweep, text
+    from ..extras import matplotlib
+    from ..optimise.problem import Objective
     from ..scene import Scene
     from ..records import write
     from ..values import DifferentialError
 
     given = _merged(arguments)
+    if arguments.plot:
+        # before the work, because it needs further packages
+        from ..designs.picture import draw
+
+        matplotlib("plot")
     if not given.get("scene"):
         raise DifferentialError("name a scene: --scene NAME")
     with Scene.load(given["scene"], arguments.fmu, given.get("stop"), arguments.unit) as scene:
         scene.set(given["set"])
+        objectives = [Objective.parse(scene.fmu, text) for text in arguments.objective]
+        given["want"] += [str(each.want) for each in objectives if str(each.want) not in given["want"]]
         result = sweep(scene, given["vary"], given["plan"], given.get("runs"), given["seed"], given["want"], given["condition"],
                        given["start"], arguments.out, arguments.resume, arguments.force, **farm(arguments), progress=True)
         scene.fmu.check_shown(arguments.unit, [*result.metadata["vary"], *(name.partition(":")[0] for name in result.metadata["figures"])])
@@ -58,6 +70,8 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.csv:
             columns = result.displayed(scene.fmu)
             print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")
+        if arguments.plot:
+            print(f"written: {draw(result, scene.fmu, arguments.plot, objectives)}")
     return FINDING if result.failures() or not any(result.table["feasible"].to_pylist()) else DONE
 
 

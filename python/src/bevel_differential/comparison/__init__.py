@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..fmu import Fmu
 from ..points import TimeValue, duration
 from ..records import write
@@ -127,7 +127,7 @@ class Comparison:
 
     def plot(self, file: FileName | None = None) -> "Figure":
         """Draws the curves of all scenes, in a panel for each output. If `file` is given, it is written as PNG, SVG or PDF."""
-        require("matplotlib", "plot")
+        matplotlib("plot")
         from .picture import draw
 
         return draw(self, file)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..values import FileName
 from . import Coupling
 from .masters import INPUTS, LINES, MASTERS
@@ -18,7 +18,7 @@ LINEAR, END = 0.1, 100.0
 
 def draw(made: Coupling, file: FileName) -> Path:
     """Draws a coupling into `file`; returns its path."""
-    require("matplotlib", "plot")
+    matplotlib("plot")
     from .. import style
 
     sizes = np.geomspace(BELOW * made.step, ABOVE * made.step, POINTS)

@@ -5,10 +5,11 @@ import argparse
 from ..command import DONE, FINDING
 from ..command.arguments import add_farm, add_file, add_files, add_fmu, add_quick, add_scene, add_units, farm, once
 
-# default values of the axes; those of torque and speed are fractions of the scene's values
+# default values of the axes; those of torque and speed are fractions of the largest values that the scene reaches
 TORQUE, SPEED, DIFFERENCE, TEMPERATURE = "torque", "speed", "difference", "temperature"
 USUAL = {DIFFERENCE: "0.5 rad/s..20 rad/s", TEMPERATURE: "-20 degC, 20 degC, 80 degC, 120 degC"}
-OPTIONS = {TORQUE: "carrier torque (default: a tenth to all of the scene's)", SPEED: "carrier speed (default: a tenth to all of the scene's)",
+REACHED = "default: a tenth to all of the largest that the scene reaches"
+OPTIONS = {TORQUE: f"carrier torque ({REACHED})", SPEED: f"carrier speed ({REACHED})",
            DIFFERENCE: f"difference of the wheel speeds, above 0; both directions run (default: {USUAL[DIFFERENCE]})",
            TEMPERATURE: f"oil temperature (default: {USUAL[TEMPERATURE]})"}
 
@@ -48,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
     from .grid import GOAL
     from .picture import draw
     from .report import write as write_report
-    from .tables import save, save_for_simulink
+    from .tables import lossless, save, save_for_simulink
 
     if arguments.report:
         need()
@@ -72,6 +73,8 @@ def run(arguments: argparse.Namespace) -> int:
                         (arguments.report, write_report)):
         if file:
             print(f"written: {write(made, file)}")
+    if arguments.simulink and (why := lossless(made)):
+        print(f"{arguments.simulink}: {why}")
     if arguments.simulink and (why := left_out(made)):
         print(f"{arguments.simulink} has no tables of the coupling torque: {why}")
     return FINDING if made.estimate > GOAL else DONE
@@ -81,16 +84,23 @@ def _axes(scene, arguments):
     from ..designs import Dimension
     from . import VARIABLES
 
-    def size(name):
-        return abs(float(scene.value(name)))
-
-    torque = size("carrier.torque_command") or size("left.load_torque") + size("right.load_torque")
-    speed = size("carrier.speed_command") or size("left.speed_command")
-    usual = {**USUAL, TORQUE: f"{0.1 * torque!r}..{torque!r}", SPEED: f"{0.1 * speed!r}..{speed!r}"}
+    usual = dict(USUAL)
+    if not (arguments.torque and arguments.speed):
+        usual |= {name: f"{0.1 * reached!r}..{reached!r}" for name, reached in zip((TORQUE, SPEED), _reached(scene))}
     for name, variable in zip(OPTIONS, VARIABLES):
         text = getattr(arguments, name) or usual[name]
         # a range without a count starts with only its two ends
         yield Dimension.parse(scene.fmu, variable, f"{text}:2" if ".." in text and ":" not in text else text)
+
+
+def _reached(scene):
+    """Largest magnitudes of the torque and the speed of the carrier in the scene."""
+    from ..warned import silenced
+
+    # the runs of the map pass on the warnings of the FMU
+    with silenced():
+        record = scene.run(["carrier.torque", "carrier.speed"])
+    return [float(abs(record[name]).max()) for name in ("carrier.torque", "carrier.speed")]
 
 
 def _bound(text):

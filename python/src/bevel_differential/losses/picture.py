@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..values import FileName
 from . import MeasuredMap
 from .axes import axes as axes_of
@@ -23,7 +23,7 @@ SMALLEST = 1e-4
 
 def draw(made: MeasuredMap, file: FileName) -> Path:
     """Draws a map into `file`; returns its path."""
-    require("matplotlib", "plot")
+    matplotlib("plot")
     from .. import style
 
     with style.styled():

@@ -41,6 +41,8 @@ CONVENTION = [
     "% The blocks' documentation names one table for both signs and no exchange of input and output; that of the Gearbox block, which",
     "% reads the same table, multiplies the torque by eta. For losses in overrun take the n-D tables below, right for both signs.",
 ]
+# a fraction of the power below this is rounding
+ROUNDING = 1e-6
 # a torque below this counts as zero, N·m: the usual bound allows this error of the map
 NONE = 0.1
 
@@ -79,7 +81,7 @@ def _row(kind, point, figures, torques):
 def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
     """Writes a MATLAB script with the arrays for the masks of blocks and for n-D Lookup Tables."""
     torque, speed, slip, temperature = made.lines
-    share = efficiency(places([torque, speed, np.zeros(1), temperature]), made.stuck[..., :MAPPED])[:, :, 0]
+    share = _efficiencies(made)
     # over the signed difference, including the stuck means at 0
     slips = np.concatenate([-slip[::-1], [0.0], slip])
     whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
@@ -89,6 +91,7 @@ def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
         "% Blocks Open Differential and Limited Slip Differential, Efficiency factors = Driveshaft torque, temperature and speed:",
         *CONVENTION,
+        *(f"% {text}." for text in [lossless(made)] if text),
         _vector("Trq_bpts", torque), _vector("omega_bpts", speed), _vector("Temp_bpts", temperature),
         _array("eta_tbl", np.clip(share, LEAST, 1.0)),
         *_coupling(made),
@@ -99,6 +102,20 @@ def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
     ]
     write_whole(file, "\n".join(text) + "\n")
     return Path(file)
+
+
+def lossless(made: MeasuredMap) -> str:
+    """Reason why all values of eta_tbl are 1; empty if some are below."""
+    if np.any(_efficiencies(made) < 1.0 - ROUNDING):
+        return ""
+    return ("eta_tbl is 1 everywhere, because the scene has no drag, so that nothing is lost without a difference of wheel speeds; the losses "
+            "by a difference are in locking_tbl and lost_tbl")
+
+
+def _efficiencies(made):
+    """Efficiencies without a difference of wheel speeds, shape (torques, speeds, temperatures)."""
+    torque, speed, _, temperature = made.lines
+    return efficiency(places([torque, speed, np.zeros(1), temperature]), made.stuck[..., :MAPPED])[:, :, 0]
 
 
 def _coupling(made):

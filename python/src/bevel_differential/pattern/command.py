@@ -34,7 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
         for name, content in {**found["files"], "findings.md": found["document"]}.items():
             write_whole(folder / name, content)
         progress(0.9, "drawing")
-        style.apply()
-        pictures = draw(folder)
+        with style.styled():
+            pictures = draw(folder, not arguments.scenes)
     print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")
     return DONE

@@ -2,11 +2,16 @@
 
 from pathlib import Path
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 from .. import style
 from ..records import read
+
+# after the style, which chooses the backend
+from matplotlib import colormaps  # noqa: E402
+from matplotlib.cm import ScalarMappable  # noqa: E402
+from matplotlib.colors import Normalize  # noqa: E402
+from matplotlib.patches import Polygon  # noqa: E402
 
 PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
 # remarks on the cases of the documentation
@@ -27,7 +32,7 @@ REMARKS = {
 # kinds of teeth, for captions
 TEETH = {"solid": "solid teeth", "impact": "teeth with contact.law = impact", "line": "teeth with contact.law = line",
          "line_weber": "teeth with contact.law = line_weber"}
-# cases whose lines of contact are drawn; the first two available ones count
+# cases of the documentation whose lines of contact are drawn; the first two available ones count
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
 # relative radius of the flanks over its value at the pitch point, below which the foot is a seam (as in the report and on the page)
@@ -43,15 +48,16 @@ THINNEST = 0.12
 LEGEND = 0.4
 
 
-def draw(folder: Path) -> list[str]:
-    """Draws the patterns whose files are in `folder`. Returns the names of the pictures."""
+def draw(folder: Path, of_documentation: bool) -> list[str]:
+    """Draws the patterns whose files are in `folder`. Returns the names of the pictures. `of_documentation`: true for the cases of the
+    documentation, which have remarks; scenes of users may have the same names."""
     data = {name: read(folder / f"{name}.csv")[1] for name in ["pattern", "contacts", "summary", "outline"]}
     outlines = {}
     for row in data["outline"]:
         outlines.setdefault(row["case"], {})[row["mark"]] = row
     cases = [(row["case"], row["title"]) for row in data["summary"]]
-    patterns(folder, data, outlines, cases)
-    lines(folder, data, outlines, cases)
+    patterns(folder, data, outlines, cases, REMARKS if of_documentation else {})
+    lines(folder, data, outlines, cases, of_documentation)
     return ["contact_pattern.png", "contact_lines.png"]
 
 
@@ -60,7 +66,7 @@ def tooth(axes, outline, names=False):
     toe, heel = outline["tip"]["toe_cone"], outline["tip"]["heel_cone"]
     corners = [(toe, outline["root"]["toe_height"]), (heel, outline["root"]["heel_height"]),
                (heel, outline["tip"]["heel_height"]), (toe, outline["tip"]["toe_height"])]
-    axes.add_patch(plt.Polygon(corners, closed=True, fill=False, ec=style.TEXT, lw=1.3, zorder=4))
+    axes.add_patch(Polygon(corners, closed=True, fill=False, ec=style.TEXT, lw=1.3, zorder=4))
     marks = [("pitch", "-.", "pitch line"), ("base", ":", "base circle: end of the involute"),
              ("start", "--", "rigid contact begins")]
     for mark, line, name in marks:
@@ -83,7 +89,7 @@ def limits(outline):
     return (tip["toe_cone"] - 1.3, tip["heel_cone"] + 1.3), (outline["root"]["heel_height"] - 0.3, tip["heel_height"] + 0.4)
 
 
-def patterns(folder, data, outlines, cases):
+def patterns(folder, data, outlines, cases, remarks):
     columns = min(COLUMNS, len(cases))
     rows = -(-len(cases) // columns)
     # height of a flank and of its line load, over its width: all flanks have the same scale in both directions
@@ -95,16 +101,18 @@ def patterns(folder, data, outlines, cases):
     margin = 0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0
     grid = figure.add_gridspec(rows, columns + 2, width_ratios=[margin + 1e-3, *[1.0] * columns, margin + 1e-3])
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
-    scale, first = plt.Normalize(0.0, top_of(data, cases)), None
+    scale, first = Normalize(0.0, top_of(data, cases)), None
     for i, (name, title) in enumerate(cases):
         row, column = divmod(i, columns)
         axes = figure.add_subplot(grid[row, column + 1])
         first = first or axes
         result = next(one for one in data["summary"] if one["case"] == name)
         flank(axes, outlines[name], [one for one in data["pattern"] if one["case"] == name], scale)
-        remark = REMARKS.get(name, "")
+        remark = remarks.get(name, "")
         axes.set_title(f"{title} ({result['flank']} flank)", fontsize=11.5, loc="left", pad=19 if remark else None)
-        style.note(axes, 0.0, 1.07, remark, ha="left", fontsize=style.SMALL)
+        # between flank and title, whatever the height of the flank
+        axes.annotate(remark, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points", fontsize=style.SMALL,
+                      color=style.TEXT, annotation_clip=False)
         # a part of the flank's panel, so that both show the same places along the face whatever the shape of the flank
         wide, high = limits(outlines[name])
         own = LOAD_HEIGHT * np.ptp(wide) / np.ptp(high)
@@ -115,17 +123,16 @@ def patterns(folder, data, outlines, cases):
             below.set_ylabel("line load,\nN/mm", fontsize=style.SMALL)
         if i >= len(cases) - columns:
             below.set_xlabel("cone distance R, mm")
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, PRESSURE), ax=figure.axes, orientation="horizontal", shrink=1.0 if columns == 1 else 0.5,
+    bar = figure.colorbar(ScalarMappable(scale, PRESSURE), ax=figure.axes, orientation="horizontal", shrink=1.0 if columns == 1 else 0.5,
                           aspect=50, extend="max", pad=0.01)
     bar.set_label("largest Hertz pressure of the engagement, MPa")
     legend(figure, first)
-    is_study = REMARKS.keys() >= dict(cases).keys()
-    where = ("the study's turn (835 N·m on each half-shaft)" if is_study else f"the scene {cases[0][1]}" if len(cases) == 1 else
+    where = ("the study's turn (835 N·m on each half-shaft)" if remarks else f"the scene {cases[0][1]}" if len(cases) == 1 else
              "the given scenes")
     shared = "One scale for all panels; only" if len(cases) > 1 else "Only"
     errors = ("Offsets bring one end of the face into contact first, and the load moves there; an error of the shaft angle turns the "
               "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
-              "opposite one. ") if is_study else ""
+              "opposite one. ") if remarks else ""
     style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
                   "trapezoid with the small end (toe) left; colour is the largest pressure at each spot while one pair goes from "
                   f"first touch to parting, as marking compound would show it. {shared} the seam at the base "
@@ -185,13 +192,13 @@ def strip(data, name):
     return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
 
 
-def lines(folder, data, outlines, cases):
+def lines(folder, data, outlines, cases, of_documentation):
     names = dict(cases)
-    chosen = [name for name in LINES if name in names][:2] or [name for name, _ in cases][:2]
+    chosen = [name for name in (LINES if of_documentation else names) if name in names][:2]
     # one column for each of two cases; a single case fills two columns, row by row
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
     figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
-    colours, scale = plt.get_cmap(PRESSURE), plt.Normalize(0.0, top_of(data, cases))
+    colours, scale = colormaps[PRESSURE], Normalize(0.0, top_of(data, cases))
     for column, name in enumerate(chosen):
         rows = [row for row in data["contacts"] if row["case"] == name]
         followed = sorted({row["time"] for row in rows if row["followed"]})
@@ -215,12 +222,12 @@ def lines(folder, data, outlines, cases):
     toe, heel, height = wide.min(), wide.max(), np.ptp(tall)
     for axes in grid.flat:
         axes.set_xlim(toe, max(heel + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * height))
-    bar = figure.colorbar(plt.cm.ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
+    bar = figure.colorbar(ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
     bar.set_label("Hertz pressure, MPa")
     legend(figure, grid[0, 0])
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
-            "the side gear and ends with its own. ") if names.keys() <= REMARKS.keys() else ""
+            "the side gear and ends with its own. ") if of_documentation else ""
     style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, "
                   f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
                   f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
@@ -236,7 +243,7 @@ def draw_line(axes, line, heel, colour, indent):
         ends = [row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]]
         heights = [row["planet_height"] * end / row["cone"] for end in ends]
         corners = [(ends[k], heights[k] + side * half) for k, side in [(0, -1), (1, -1), (1, 1), (0, 1)]]
-        axes.add_patch(plt.Polygon(corners, lw=0.4, color=colour(row["pressure"])))
+        axes.add_patch(Polygon(corners, lw=0.4, color=colour(row["pressure"])))
     force = force_of(line)
     centre = sum(row["line_load"] * row["width"] * row["cone"] for row in line) / force
     height = np.interp(centre, [row["cone"] for row in line], [row["planet_height"] for row in line])

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..plot import by_unit, draw_panel, shown_times
 
 if TYPE_CHECKING:
@@ -42,11 +42,11 @@ def drawn(name: str, height: float = 4.0) -> Callable[[Callable[..., None]], Cal
     def decorated(draw):
         @wraps(draw)
         def written(*arguments):
-            matplotlib = require("matplotlib", "report")
+            found = matplotlib("report")
             from cycler import cycler
             from matplotlib.figure import Figure
 
-            with matplotlib.rc_context({**STYLE, "axes.prop_cycle": cycler(color=CYCLE)}):
+            with found.rc_context({**STYLE, "axes.prop_cycle": cycler(color=CYCLE)}):
                 picture = Figure(figsize=(WIDTH, height), layout="constrained")
                 draw(picture, *arguments)
                 return _svg(picture, name)

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from ..answers import Progress
-from ..extras import require
+from ..extras import matplotlib, require
 from ..progress import part, silent
 from ..scene import Scene
 from ..values import FileName
@@ -43,8 +43,8 @@ def write(scene: Scene, file: FileName, quick: bool = False, progress: Progress 
 
 def need() -> None:
     """Fails if a package that writes reports is missing."""
-    for module in ("matplotlib", "jinja2"):
-        require(module, "report")
+    matplotlib("report")
+    require("jinja2", "report")
 
 
 def page(title: str, description: str, sections: Sequence[Section]) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..readable import plain
 from ..values import FileName
 from .slow import SnCurve
@@ -18,7 +18,7 @@ MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 def draw(result: Any, file: FileName) -> Path:
     """Draws a `SpectrumResult` into `file`; returns its path."""
-    require("matplotlib", "plot")
+    matplotlib("plot")
     from .. import style
 
     with style.styled():

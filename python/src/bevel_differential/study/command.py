@@ -20,12 +20,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Simulates, compares, and writes files."""
-    from .. import style
     from ..fmu import Fmu
     from ..progress import part, shown
-    from ..report.write import write
+    from ..report.write import need, write
     from ..scene import Scene
     from ..writing import in_folder, write_whole
+
+    need()
+    from .. import style
     from .comparison import Comparison
     from .figures import draw
     from .simulation import simulate_cases, start_values

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..extras import require
+from ..extras import matplotlib
 from ..readable import in_words
 from ..records import write
 from ..text import aligned
@@ -134,7 +134,7 @@ def _table(lines):
 
 def draw(plan: Plan, result: Result, file: FileName) -> Path:
     """Draws the result: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
-    require("matplotlib", "plot")
+    matplotlib("plot")
     from .. import style
 
     found = verdicts(plan.study, result)
