@@ -14,6 +14,8 @@ const FILTER: f64 = 8.0;
 const LEAST_FILTER_STEPS: f64 = 10.0;
 /// Rate of the port, relative to the fastest one before, below which it stands still.
 const STILL: f64 = 1e-4;
+/// Number of successive still steps after which the port does not move.
+const STILL_STEPS: u32 = 5;
 
 /// Exchange of one port over one communication step.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -105,8 +107,8 @@ pub struct Port {
     first_order: f64,
     /// Decaying sum of the magnitudes of the energy errors of order 2, each divided by the square of its step [J/s²].
     second_order: f64,
-    /// True if the port moved in the last step that was added.
-    pub moves: bool,
+    /// Number of successive steps in which the port stood still.
+    still: u32,
     /// Largest magnitude of the rate at which the port has moved.
     fastest: f64,
     /// True if the host's values followed a line in the last step.
@@ -119,7 +121,7 @@ pub struct Port {
     swing: Swing,
 }
 
-finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, oscillation, swing; moves, is_line });
+finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, oscillation, swing; still, is_line });
 
 impl Port {
     /// Adds the second of four `steps` of a host with `delay`. Its energy error is `error` [J], and its torque is the
@@ -139,10 +141,11 @@ impl Port {
         }
         // a standstill shows nothing, however long it lasts
         self.fastest = self.fastest.max((moved / h).abs());
-        self.moves = moved.abs() > STILL * self.fastest * h;
-        if !self.moves {
+        if moved.abs() <= STILL * self.fastest * h {
+            self.still = self.still.saturating_add(1);
             return;
         }
+        self.still = 0;
         // the reaction shows in the motion of this port, however slow other motions are
         let memory = self.oscillation.memory().max(LEAST_STEPS * h);
         let filter = (memory / FILTER).max(LEAST_FILTER_STEPS * h);
@@ -151,6 +154,11 @@ impl Port {
         self.oscillation.add(given, h);
         self.swing.add(if is_shaft { moved / h } else { given }, h, (delay, is_line));
         self.is_line = is_line;
+    }
+
+    /// True if the port moves. At the turning point of an oscillation, it stands still for a single step.
+    pub fn moves(&self) -> bool {
+        self.still < STILL_STEPS
     }
 
     /// True if the host reacts: the motion explains at least the `fraction` of the changes of u.

@@ -145,12 +145,11 @@ impl Coupling {
         if !self.has_changed {
             return none(AdviceState::NoReaction);
         }
-        if !self.ports.iter().any(|port| port.moves) {
-            return none(AdviceState::NothingMoves);
-        }
-        let reacting = || self.ports.iter().zip(cut.shafts).filter(|(port, _)| port.reacts(EXPLAINED));
+        let all = || self.ports.iter().zip(cut.shafts).filter(|(port, _)| port.reacts(EXPLAINED));
+        let reacting = || all().filter(|(port, _)| port.moves());
         if reacting().next().is_none() {
-            return none(AdviceState::NoReaction);
+            let moves = all().next().is_none() && self.ports.iter().any(Port::moves);
+            return none(if moves { AdviceState::NoReaction } else { AdviceState::NothingMoves });
         }
         let least = self.least_passed();
         let by_ratio = reacting().map(|(port, _)| port.step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
