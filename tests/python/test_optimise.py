@@ -20,9 +20,9 @@ from bevel_differential.designs.task import Row
 from bevel_differential.optimise import command as optimise_command
 from bevel_differential.optimise import front
 from bevel_differential.optimise.design_task import Confirmed, DesignRow, DesignTask, confirm
-from bevel_differential.optimise.pair import Pair, tool_room, violations
+from bevel_differential.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
-from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
+from bevel_differential.quantities import QUANTITIES
 from bevel_differential.optimise.report import compared_with_front, scene_text, write_gears
 from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
@@ -123,7 +123,7 @@ def test_a_standard_rack_has_room_for_the_tool_radius_of_its_standard():
 
 def test_checks_refuse_what_the_fmu_refuses_or_warns_of(fmu_file):
     fmu, draw = Fmu.of(fmu_file), np.random.default_rng(4)
-    starts = {name: value for name, value in Catalogue(fmu).starts().items() if name.startswith("geometry.")}
+    starts = {name: value for name, value in fmu.starts().items() if name.startswith("geometry.")}
     sound = 0
     with Scene("gears", stop=1e-4, step=1e-4, outputs=["geometry.contact_ratio"], fmu=fmu_file) as scene:
         for _ in range(400):

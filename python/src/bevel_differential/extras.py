@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.metadata
+import importlib.util
 import json
 import shlex
 import shutil
@@ -28,6 +29,16 @@ def require(module: str, extra: str) -> ModuleType:
         return importlib.import_module(module)
     except ModuleNotFoundError as missing:
         raise DifferentialError(install(missing.name or module, extra), kind="failed") from None
+
+
+def needed(module: str, extra: str) -> None:
+    """Fails like `require` if the module is missing, without importing it: a check before long work."""
+    try:
+        found = importlib.util.find_spec(module) is not None
+    except (ModuleNotFoundError, ValueError):
+        found = False
+    if not found:
+        raise DifferentialError(install(module, extra), kind="failed")
 
 
 def version() -> str | None:

@@ -58,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         if arguments.csv:
             columns = result.displayed(scene.fmu)
             print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")
-    return FINDING if result.failures() or not any(result.table["feasible"].to_pylist()) else DONE
+    return FINDING if result.failures() or result.undefined() or not any(result.table["feasible"].to_pylist()) else DONE
 
 
 def _merged(arguments):

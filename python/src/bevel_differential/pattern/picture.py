@@ -27,7 +27,7 @@ REMARKS = {
 # kinds of teeth, for captions
 TEETH = {"solid": "solid teeth", "impact": "teeth with contact.law = impact", "line": "teeth with contact.law = line",
          "line_weber": "teeth with contact.law = line_weber"}
-# cases whose lines of contact are drawn; the first two available ones count
+# cases of the documentation whose lines of contact are drawn; the first two available ones count, then other cases
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
 # relative radius of the flanks over its value at the pitch point, below which the foot is a seam (as in the report and on the page)
@@ -187,7 +187,7 @@ def strip(data, name):
 
 def lines(folder, data, outlines, cases):
     names = dict(cases)
-    chosen = [name for name in LINES if name in names][:2] or [name for name, _ in cases][:2]
+    chosen = list(dict.fromkeys([*(name for name in LINES if name in names), *names]))[:2]
     # one column for each of two cases; a single case fills two columns, row by row
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
     figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
