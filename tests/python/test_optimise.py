@@ -431,8 +431,13 @@ def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
         found(problem, folder / "out")
     lines = str(error.value).splitlines()
     assert lines[0] == "no feasible design among 16. Designs refused by each check:"
-    refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:] if line.startswith("  ")}
+    nearest = next(place for place, line in enumerate(lines) if line.startswith("The nearest one fails in: "))
+    refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:nearest]}
     assert sum(refused.values()) >= 16 and any("envelope.diameter" in check for check in refused)
+    # the nearest design with all of its values
+    shown = dict(line.strip().split(" = ") for line in lines[nearest + 1:-1])
+    assert shown.keys() == {"geometry.module", "geometry.face_width", "gears.mass", "safety.root_min", "envelope.diameter", "face.width_in_modules"}
+    assert shown["geometry.module"].endswith(" mm") and float(shown["envelope.diameter"].removesuffix(" mm")) > 20.0
     assert lines[-1].startswith("Widen the ranges")
 
 
