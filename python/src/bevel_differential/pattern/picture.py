@@ -185,9 +185,14 @@ def strip(data, name):
     return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
 
 
+def with_lines(names):
+    """Names of the cases whose lines of contact are drawn: two, if there are two."""
+    return list(dict.fromkeys([*(name for name in LINES if name in names), *names]))[:2]
+
+
 def lines(folder, data, outlines, cases):
     names = dict(cases)
-    chosen = list(dict.fromkeys([*(name for name in LINES if name in names), *names]))[:2]
+    chosen = with_lines(list(names))
     # one column for each of two cases; a single case fills two columns, row by row
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
     figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
