@@ -67,6 +67,13 @@ def test_a_command_without_its_packages_names_what_installs_them(words, extra, f
     assert done.returncode == 1 and re.search(rf'is missing; .*pip install "{re.escape(str(PYTHON))}\[{extra}\]"$', last), done.stderr
 
 
+@pytest.mark.parametrize("words", [["run", "study_turning", "--plot", "a.png"], ["run", "study_turning", "--csv", "a.parquet"],
+                                   ["spectrum", "no.csv"]])
+def test_missing_packages_are_found_before_the_work(words, fmu_file, tmp_path):
+    done = without(*words, "--fmu", fmu_file, folder=tmp_path)
+    assert done.returncode == 1 and "is missing; install" in done.stderr and not done.stdout and "warning" not in done.stderr
+
+
 @pytest.mark.parametrize("folder, written", [(".", "./python"), ("docs", "../python"), ("docs/figures", "../../python")])
 def test_in_a_clone_the_hint_is_a_path_from_the_current_folder(folder, written, monkeypatch):
     monkeypatch.chdir(PYTHON.parent / folder)

@@ -5,7 +5,7 @@ import warnings
 from math import inf
 
 import pytest
-from bevel_differential import Differential, DifferentialWarning, Scene
+from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask
 from bevel_differential.command import main
 from bevel_differential.values import NOBODY_SET
@@ -219,18 +219,71 @@ def test_the_plan_warns_of_loads_that_turn_the_wheels_backward(tmp_path):
         ask({"ask": "plan", "of": about(file)})
 
 
-def test_python_warns_of_them(fmu_file):
+def short(action):
+    """Warnings about start values that nobody set."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", DifferentialWarning)
+        action()
+    return [str(one.message) for one in caught if "start values of the study" in str(one.message)]
+
+
+def test_python_warns_of_their_number_in_one_line_and_lists_them(fmu_file):
     with Differential({"geometry.module": "5 mm", "contact.law": "line"}, fmu=fmu_file) as differential:
-        with pytest.warns(DifferentialWarning, match="nobody set.*right.load_torque = 835 N.m") as caught:
-            differential.run(stop=0.002)
-    assert sum("nobody set" in str(one.message) for one in caught) == 1
+        found = listed(differential.nobody_set())
+        assert found["right.load_torque"] == "835 N.m" and "geometry.module" not in found
+        line, = short(lambda: differential.run(stop=0.002))
+    assert line.startswith(f"{len(found)} start values") and "nobody_set()" in line and "accept_start_values" in line and "\n" not in line
 
 
-def test_commands_print_a_line_for_each_group_of_them(fmu_file, capsys):
-    assert main(["run", "study_turning", "--stop", "1 ms", "--set", "geometry.module=5 mm", "--fmu", fmu_file]) == 0
-    lines = capsys.readouterr().err.splitlines()
-    place = lines.index(f"warning: {NOBODY_SET.strip()}")
-    assert lines[place + 1].startswith("  geometry: planet_teeth = ") and any(line.startswith("  inertia: ") for line in lines[place + 2:])
+def test_accepted_start_values_are_not_mentioned(fmu_file):
+    own = {"geometry.module": "5 mm", "scene.gear_contact": "ideal"}
+    accepted = ["right.load_torque", "inertia.carrier"]
+    whole = listed(Differential(own, fmu=fmu_file).nobody_set())
+    for kind in (lambda **more: Differential(own, fmu=fmu_file, **more),
+                 lambda **more: Scene("own", outputs=["left.speed"], stop=0.002, set=own, fmu=fmu_file, **more)):
+        with kind(accept_start_values=accepted) as some, kind(accept_start_values=True) as every:
+            assert short(lambda: some.run(stop=0.002))[0].startswith(f"{len(whole) - 2} start values")
+            assert set(listed(some.nobody_set())) == set(whole) - set(accepted)
+            assert not short(lambda: every.run(stop=0.002)) and every.nobody_set() == ""
+    car = {"motor": Motor(9.5, peak=300.0), "fmu": fmu_file}
+    assert len(short(lambda: Car(own, **car).run(stop=0.01))) == 1
+    with warnings.catch_warnings():
+        warnings.filterwarnings("error", ".*nobody set")
+        Car(own, accept_start_values=True, **car).run(stop=0.01)
+
+
+@pytest.mark.parametrize("accepted, left", [("true", ""), ('["geometry.side_teeth", "inertia.carrier"]', "2 fewer"), ("false", "all"), (None, "all")])
+def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, fmu_file, tmp_path, capsys):
+    file = tmp_path / "own.toml"
+    key = "" if accepted is None else f"accept_start_values = {accepted}\n"
+    file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\n{key}[set]\ngeometry.module = "5 mm"\n'
+                    'scene.gear_contact = "ideal"\n', encoding="utf-8")
+    with Scene.load(file, fmu=fmu_file) as scene:
+        whole = len(listed(Differential(scene.values, fmu=fmu_file).nobody_set()))
+        count = {"": 0, "2 fewer": whole - 2, "all": whole}[left]
+        # the scene keeps it when it is sent to workers and to the library
+        for kept in (scene, Scene(**scene.__getstate__())):
+            assert kept.nobody_set().count(" = ") == count
+            assert len(short(lambda: ask({"ask": "plan", "of": about(kept)}))) == bool(count)
+    for command in (["run", str(file)], ["sweep", "--scene", str(file), "--vary", "left.load_torque=1, 2", "--plan", "grid", "--want",
+                                         "left.speed", "--workers", "0"]):
+        assert main([*command, "--fmu", fmu_file]) == 0
+        lines = [line for line in capsys.readouterr().err.splitlines() if "nobody set" in line]
+        # the sweep varies one of the values
+        less = command[0] == "sweep"
+        assert [line.split()[1] for line in lines] == ([str(count - less)] if count else [])
+
+
+@pytest.mark.parametrize("accepted, part", [('["geometry.modul"]', "did you mean geometry.module"), ('["left.speed"]', "left.speed is an output"),
+                                            ("3", "true, false, or a list"), ("[3]", "3 is not a name")])
+def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, tmp_path, fmu_file):
+    file = tmp_path / "own.toml"
+    file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\naccept_start_values = {accepted}\n',
+                    encoding="utf-8")
+    with pytest.raises(DifferentialError, match=part):
+        Scene.load(file, fmu=fmu_file)
+    with pytest.raises(DifferentialError, match="calculated|did you mean geometry.module|is a list|list of names"):
+        Differential(fmu=fmu_file, accept_start_values={"3": "geometry.module", "[3]": "x"}.get(accepted, [accepted[2:-2]]))
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])

@@ -20,9 +20,9 @@ from bevel_differential.designs.task import Row
 from bevel_differential.optimise import command as optimise_command
 from bevel_differential.optimise import front
 from bevel_differential.optimise.design_task import Confirmed, DesignRow, DesignTask, confirm
-from bevel_differential.optimise.pair import Pair, tool_room, violations
+from bevel_differential.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
-from bevel_differential.optimise.quantities import QUANTITIES, Catalogue
+from bevel_differential.quantities import QUANTITIES
 from bevel_differential.optimise.report import compared_with_front, scene_text, write_gears
 from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
@@ -123,7 +123,7 @@ def test_a_standard_rack_has_room_for_the_tool_radius_of_its_standard():
 
 def test_checks_refuse_what_the_fmu_refuses_or_warns_of(fmu_file):
     fmu, draw = Fmu.of(fmu_file), np.random.default_rng(4)
-    starts = {name: value for name, value in Catalogue(fmu).starts().items() if name.startswith("geometry.")}
+    starts = {name: value for name, value in fmu.starts().items() if name.startswith("geometry.")}
     sound = 0
     with Scene("gears", stop=1e-4, step=1e-4, outputs=["geometry.contact_ratio"], fmu=fmu_file) as scene:
         for _ in range(400):
@@ -431,8 +431,13 @@ def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
         found(problem, folder / "out")
     lines = str(error.value).splitlines()
     assert lines[0] == "no feasible design among 16. Designs refused by each check:"
-    refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:] if line.startswith("  ")}
+    nearest = next(place for place, line in enumerate(lines) if line.startswith("The nearest one fails in: "))
+    refused = {line.split(None, 1)[1]: int(line.split(None, 1)[0]) for line in lines[1:nearest]}
     assert sum(refused.values()) >= 16 and any("envelope.diameter" in check for check in refused)
+    # the nearest design with all of its values
+    shown = dict(line.strip().split(" = ") for line in lines[nearest + 1:-1])
+    assert shown.keys() == {"geometry.module", "geometry.face_width", "gears.mass", "safety.root_min", "envelope.diameter", "face.width_in_modules"}
+    assert shown["geometry.module"].endswith(" mm") and float(shown["envelope.diameter"].removesuffix(" mm")) > 20.0
     assert lines[-1].startswith("Widen the ranges")
 
 

@@ -61,7 +61,7 @@ def test_the_summary_is_in_the_usual_units(fmu_file):
 
 @pytest.mark.parametrize("old, new, parts", [
     ("stop_time = \"20.3 ms\"", "stop_time = \"20.3 mm\"", ["stop_time", "ms"]),
-    ("stop_time = \"20.3 ms\"", "", ["missing field `stop_time`"]),
+    ("stop_time = \"20.3 ms\"", "", ["missing: stop_time", "a scene has description, stop_time, step and outputs"]),
     ("step =", "stop =", ["unknown field `stop`", "`step`"]),
     ("geometry.planet_teeth", "geometry.planet_tooth", ["[set]", "geometry.planet_tooth", "did you mean geometry.planet_teeth"]),
     ("\"0.1 N.m\"", "\"0.1 kg\"", ["right.load_torque", "unit kg", "N.m"]),
@@ -82,6 +82,15 @@ def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
     with pytest.raises(DifferentialError) as error:
         Scene.load(everything, fmu=fmu_file)
     assert all(part in str(error.value) for part in parts), error.value
+
+
+def test_missing_keys_are_listed_together_with_other_errors(fmu_file, tmp_path):
+    file = tmp_path / "bare.toml"
+    file.write_text("[set]\ngeometry.modul = 1\n", encoding="utf-8")
+    with pytest.raises(DifferentialError) as error:
+        Scene.load(file, fmu=fmu_file)
+    first, second = str(error.value).splitlines()
+    assert "missing: description, stop_time, step, outputs" in first and "did you mean geometry.module" in second
 
 
 @pytest.mark.parametrize("old, new, parts", [

@@ -5,9 +5,12 @@ import csv
 import numpy as np
 import pytest
 from bevel_differential import Scene, compare
+from bevel_differential.answers import about, ask
+from bevel_differential.designs.sweep import sweep
 from bevel_differential.designs.task import Task
 from bevel_differential.points import at_times, from_time
 from bevel_differential.report.forces import rolling
+from bevel_differential.report.simulated import Simulated
 
 TORQUE, POWER = "carrier.torque", "power.in"
 # two wheels of 1 kg·m² that turn freely under the drive
@@ -42,6 +45,24 @@ def test_a_jump_has_two_rows_and_the_mean_across_it_is_exact(kind, step, sign, f
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         assert [float(row["time"]) for row in rows] == record["time"].tolist()
         assert [float(row[TORQUE]) for row in rows] == record[TORQUE].tolist()
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("step", [0.02, 0.25])
+def test_run_report_sweep_comparison_and_accuracy_have_the_same_figures_with_the_first_point(step, sign, fmu_file):
+    # from 300 N·m down to 0 within 0.5 s: the first point is the largest
+    table = "carrier.torque_command", [0.0, 0.5], [sign * 300.0, 0.0], None
+    with Scene("falling", stop=1.0, step=step, outputs=[TORQUE], tables=[table], set=FREE, fmu=fmu_file) as scene:
+        mean, least, most = sign * 75.0, min(sign * 300.0, 0.0), max(sign * 300.0, 0.0)
+        wants = [f"{TORQUE}:{word}" for word in ("mean", "min", "max")]
+        shown = [float(cell) for cell in scene.summary(scene.run()).splitlines()[1].split()[2:5]]
+        assert shown == pytest.approx([least, mean, most], abs=1e-6)
+        row, = sweep(scene, {"inertia.carrier": "0.02"}, "grid", wants=wants, workers=0).table.to_pylist()
+        assert [row[want] for want in wants] == pytest.approx([mean, least, most], abs=1e-6)
+        assert compare(scene, scene).table()["falling (1)"][:2].tolist() == pytest.approx([mean, sign * 300.0])
+        assert Simulated.of(scene).mean(TORQUE) == pytest.approx(mean)
+        found = ask({"ask": "accuracy", "of": about(scene), "want": wants, "within": "1%"})
+        assert found["values"] == pytest.approx([mean, least, most], abs=1e-6)
 
 
 def test_a_figure_from_a_jump_on_does_not_contain_the_values_before_it(fmu_file):

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 from duty_cycles import FLANKS, HEAD, ROOTS, spectrum_of
 
-from bevel_differential import Differential, DifferentialError
+from bevel_differential import Differential, DifferentialError, DifferentialWarning
 from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.spectrum.damage import MODES
 from bevel_differential.spectrum.history import strokes
-from bevel_differential.spectrum.picture import curve, rolling_spectrum, standing_spectrum
+from bevel_differential.spectrum.picture import _caption, curve, rolling_spectrum, standing_spectrum
+from bevel_differential.spectrum.result import STANDS
 from bevel_differential.spectrum.slow import closed_cycles, count_slow_cycles
 from bevel_differential.spectrum.tooth import passes_between
 
@@ -132,8 +133,8 @@ def test_drive_and_overrun_straight_ahead_by_hand(cycle, stress):
     assert [result.damage[name] for name in FLANKS] == [0.0, 0.0]
     assert result.hours == pytest.approx((3 * 10 + 2 * 5) / 3600.0)
     assert result.km == pytest.approx(50.0 * result.hours)
-    assert result.life_hours == pytest.approx(result.hours / found[0], rel=1e-6)
-    assert result.life_km == pytest.approx(result.km / found[0], rel=1e-6)
+    assert result.cycles_to_failure == pytest.approx(1.0 / found[0], rel=1e-6)
+    assert np.isnan(result.life_hours) and np.isnan(result.life_km)
 
 
 def test_a_turn_does_the_damage_of_its_passes_by_hand(cycle, stress):
@@ -348,6 +349,26 @@ def test_straight_ahead_nothing_passes_and_only_changes_of_load_damage_the_roots
     unchanged = spectrum([event()], order="written", fmu=fmu_file)
     assert np.array_equal(all_damages(unchanged), np.zeros(4))
     assert np.isinf(unchanged.life_hours) and "no event" in unchanged.summary()
+
+
+def test_without_rolling_planets_there_is_no_life_by_hours(cycle, tmp_path):
+    head = "name,count,duration [h],speed [km/h],torque [N.m]"
+    for sign in (1, -1):
+        for hours in (400, 400_000):
+            with pytest.warns(DifferentialWarning, match="no event rolls the planets.*add turn_radius or speed_difference"):
+                still = cycle(head, f"road,1,{hours},{sign * 100},300")
+            assert still.damage["damage.planet"] > 0.0 and np.isnan(still.life_hours) and np.isnan(still.life_km)
+            assert "life: none" in still.summary() and "life by" not in still.summary()
+            assert "no life" in _caption(still)
+    # a curve that does not occur rolls nothing; one that occurs gives a life
+    for count, lives in ((0, False), (1, True)):
+        curve = cycle(f"{head},turn_radius [m]", "road,1,400,100,300,", f"curve,{count},0.01,20,300,20")
+        assert np.isfinite(curve.life_hours) == lives and (STANDS in curve.warnings) != lives
+
+
+def test_an_unknown_column_is_answered_with_the_columns(cycle):
+    with pytest.raises(DifferentialError, match="did you mean speed.*columns are name, .*duration, .*turn_radius, .*input or parameter"):
+        cycle("name,count,duration [h],sped [km/h],torque [N.m]", "road,1,4,100,300")
 
 
 def test_each_side_gear_has_its_own_loads(fmu_file, stress):

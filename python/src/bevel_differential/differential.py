@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 import numpy as np
 
 from .batches import Batches
-from .extras import require
+from .extras import needed, require
 from .fmu import Fmu
 from .inputs import Inputs, Signals, prolonged, times_of_rows
-from .instance import Closing, Instance
+from .instance import LOGGED, Closing, Instance
+from .off_outputs import OffOutputs, largest
 from .plot import plot
+from .quantities import QUANTITIES, outputs_of, series
 from .points import TimeValue, duration, span
+from .start_values import Accepted, checked, in_short, unaccepted
 from .values import DISCARD, DifferentialError, FileName, Number, Value, Variable
 from .warned import warn
 
@@ -27,8 +30,9 @@ DEFAULT_OUTPUTS = ("carrier.speed", "left.speed", "right.speed", "left.shaft_tor
 class Runner(Closing):
     """Runs the FMU with the values that have been set. Each thread has its own instance, which is reset between runs."""
 
-    def __init__(self, fmu: FileName | Fmu | None):
+    def __init__(self, fmu: FileName | Fmu | None, accept_start_values: Accepted = False):
         self.fmu = Fmu.of(fmu)
+        self.accept_start_values = checked(self.fmu, accept_start_values)
         self._values: dict[Variable, Number] = {}
         self._instances = threading.local()
         self._all: list[Instance] = []
@@ -45,13 +49,21 @@ class Runner(Closing):
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of the FMU in the last run of this thread, and of a run that points of tables make much longer."""
-        return [*getattr(self._instances, "notes", ()), *self._instance().messages]
+        """Warnings of the FMU in the last run of this thread, and of a run that points of tables make much longer. One line states the number
+        of start values that nobody set or accepted; `nobody_set` lists them."""
+        return [*getattr(self._instances, "notes", ()), *in_short(self._instance().messages, self.accept_start_values)]
 
     @property
     def unfelt(self) -> dict[str, str]:
         """Variables whose values had no effect in the last run of this thread, by name, with the FMU's reason."""
         return self._instance().unfelt
+
+    def nobody_set(self, values: Mapping[str, Value] | None = None) -> str:
+        """Values that take effect and that nobody set or accepted, by effect, as the FMU lists them; empty if there are none."""
+        with self.fmu.open() as instance:
+            instance.log([*LOGGED, "logEvents"])
+            self._initialise(instance, values)
+            return unaccepted(instance.nobody_set, self.accept_start_values)
 
     def close(self) -> None:
         """Frees all instances."""
@@ -61,6 +73,22 @@ class Runner(Closing):
 
     def _simulate(self, steps, signals, outputs, values=None):
         """Initialises an instance, steps from point to point, and records. A jump of inputs has two rows, before and after it."""
+        if isinstance(outputs, str) or not any(name in QUANTITIES for name in outputs):
+            return self._recorded_outputs(steps, signals, outputs, values)
+        shown = [self.fmu.output(name) for name in outputs]
+        names = dict.fromkeys(other for name in outputs for other in outputs_of(name)) or ["geometry.planet_count"]
+        record = self._recorded_outputs(steps, signals, list(names), values)
+        parameters = {**self.fmu.starts(), **self.values, **{variable.name: value for variable, value in self.fmu.numbers(values)}}
+        columns = [series(name, parameters, record) if name in QUANTITIES else record[name] for name in outputs]
+        found = np.empty(len(record), [("time", np.float64), *(field(*each) for each in zip(shown, outputs, (one.dtype for one in columns)))])
+        for name, column in zip(["time", *(each.name for each in shown)], [record["time"], *columns]):
+            found[name] = column
+        return found
+
+    def _recorded_outputs(self, steps, signals, outputs, values):
+        """`_simulate` of outputs of the FMU."""
+        if not isinstance(outputs, str):
+            outputs = [self.fmu.output(name).name if name not in self.fmu.variables else name for name in outputs]
         variables = self.fmu.named(outputs)
         if len(set(variables)) < len(variables):
             twice = next(variable.name for variable in variables if variables.count(variable) > 1)
@@ -73,6 +101,14 @@ class Runner(Closing):
         record = batches.record(len(times))
         _advance(instance, batches, record, steps, signals)
         return _structured(times, variables, outputs, batches, record)
+
+    def _initialise(self, instance, values):
+        instance.initialise({**self.values, **(values or {})})
+
+    def _off(self, outputs, signals, values=None):
+        """Outputs of a run with these signals that no effect computes."""
+        start = [(variable.name, value) for variable, value in (self._values | dict(self.fmu.numbers(values))).items()]
+        return OffOutputs.of(self.fmu, outputs, {**dict(start), **largest(start, signals.courses())})
 
     def _instance(self):
         if not hasattr(self._instances, "own"):
@@ -87,11 +123,12 @@ class Differential(Runner):
     Parameters are given by their names in the FMU, in a mapping or as keywords with two underscores for the dot:
     `Differential({"geometry.module": "4.5 mm"}, contact__law="line_weber")`. Values are SI numbers, pairs (number, unit), text with
     a unit, or literals by name. Parameters that are not given have their start values. `display_units`, such as ["rpm", "kN"],
-    replace the usual units of pictures; records are always in SI."""
+    replace the usual units of pictures; records are always in SI. `accept_start_values`: True, or names of values that nobody sets and
+    of which no warning is wanted."""
 
     def __init__(self, parameters: Mapping[str, Value] | None = None, *, fmu: FileName | Fmu | None = None,
-                 display_units: Sequence[str] = (), **keywords: Value):
-        super().__init__(Fmu.of(fmu).displaying(display_units))
+                 display_units: Sequence[str] = (), accept_start_values: Accepted = False, **keywords: Value):
+        super().__init__(Fmu.of(fmu).displaying(display_units), accept_start_values)
         self.set(parameters, **keywords)
 
     @overload
@@ -117,8 +154,10 @@ class Differential(Runner):
         end, or from point to point of the tables, and records these points.
         With `frame`, the result is a pandas DataFrame, by time. Raises `DifferentialError` with the FMU's message. Warnings of the FMU
         become Python warnings, `DifferentialWarning`; `warnings` contains their texts."""
+        if frame:
+            needed("pandas", "sweep")
         record = self._record(inputs, outputs, stop, step, values, input_slopes)
-        warn(self.warnings)
+        warn([*self.warnings, *self._off(outputs, Signals.of(self.fmu, inputs, input_slopes), values).texts])
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str], inputs: Inputs | None = None, stop: TimeValue = 0.5,
@@ -139,10 +178,10 @@ class Differential(Runner):
 
     def __getstate__(self) -> dict[str, Any]:
         # only the values go to other processes
-        return {"fmu": self.fmu, "values": self.values}
+        return {"fmu": self.fmu, "values": self.values, "accept_start_values": self.accept_start_values}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
-        Differential.__init__(self, state["values"], fmu=state["fmu"])
+        Differential.__init__(self, state["values"], fmu=state["fmu"], accept_start_values=state["accept_start_values"])
 
 
 def as_frame(record: np.ndarray) -> "pandas.DataFrame":

@@ -2,6 +2,7 @@
 
 import importlib
 import importlib.metadata
+import importlib.util
 import json
 import os
 import shlex
@@ -50,6 +51,16 @@ def matplotlib(extra: str) -> ModuleType:
             return require("matplotlib", extra)
         finally:
             os.environ[BACKEND] = chosen
+
+
+def needed(module: str, extra: str) -> None:
+    """Fails like `require` if the module is missing, without importing it: a check before long work."""
+    try:
+        found = importlib.util.find_spec(module) is not None
+    except (ModuleNotFoundError, ValueError):
+        found = False
+    if not found:
+        raise DifferentialError(install(module, extra), kind="failed")
 
 
 def version() -> str | None:

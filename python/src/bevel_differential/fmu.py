@@ -18,6 +18,8 @@ from .answers import about, ask
 from .curve import expanded
 from .former_names import present
 from .instance import Instance
+from .quantities import QUANTITIES
+from .quantities import variable as quantity
 from .values import DifferentialError, FileName, Number, Value, Variable, variable_suggestion
 from .warned import warn
 
@@ -26,6 +28,7 @@ _shared: dict[tuple[int, Path], "Fmu"] = {}
 _extracted: list[tuple[int, str]] = []
 _lock = threading.Lock()
 
+SETTABLE = ("parameter", "input")
 NO_FMU = "{}: not an FMU ({}); name a file that ends with .fmu"
 
 
@@ -135,15 +138,31 @@ class Fmu:
         """Variable `name`."""
         if not isinstance(name, str):
             raise DifferentialError(f"{name!r}: the name of a variable is text, such as \"left.speed\"")
+        return self._variable(name, [*self.variables, *QUANTITIES])
+
+    def starts(self) -> dict[str, Number]:
+        """Start values of all parameters by name, SI, as the FMU declares them."""
+        return {each.name: each.start for each in self.variables.values() if each.causality == "parameter" and each.start is not None}
+
+    def output(self, name: str) -> Variable:
+        """Variable or quantity `name` for a record. Suggestions for an unknown name are outputs and quantities."""
+        return self._variable(name, [*(each.name for each in self.variables.values() if each.causality not in SETTABLE), *QUANTITIES])
+
+    def _variable(self, name, similar):
+        """Variable `name`, or a quantity. `similar`: names that may be suggested."""
         try:
             return self.variables[name]
         except KeyError:
-            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, self.variables)}") from None
+            if name in QUANTITIES:
+                return quantity(name, self.variables)
+            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, similar)}") from None
 
     def settable(self, name: str) -> Variable:
         """Parameter or input `name`."""
-        variable = self.variable(name)
-        if variable.causality not in ("parameter", "input"):
+        if not isinstance(name, str):
+            return self.variable(name)
+        variable = self._variable(name, [each.name for each in self.variables.values() if each.causality in SETTABLE])
+        if variable.causality not in SETTABLE:
             raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
         return variable
 
@@ -158,6 +177,9 @@ class Fmu:
         """Variables of these names, in their order."""
         if isinstance(names, str):
             raise DifferentialError(f"{names!r}: names are a list, such as [{names!r}]")
+        for name in names:
+            if name in QUANTITIES:
+                raise DifferentialError(f"{name}: it is calculated from outputs of a run; single calls cannot read it")
         return tuple(self.variable(name) for name in names)
 
     def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:

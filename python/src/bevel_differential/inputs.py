@@ -1,6 +1,6 @@
 """Inputs over time."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Self, TypeAlias
 
 import numpy as np
@@ -99,6 +99,13 @@ class Signals:
             else:
                 constants.append((variable, variable.number(given)))
         return cls(constants, tables, slopes=slopes)
+
+    def courses(self) -> Iterator[tuple[str, Number]]:
+        """All values that variables have in a run: pairs (name, value)."""
+        yield from ((variable.name, value) for variable, value in self.constants)
+        for table in self.tables:
+            yield from ((table.variable.name, value) for value in (table.values.min().item(), table.values.max().item()))
+        yield from ((variable.name, value) for _, pairs in self.changes for variable, value in pairs)
 
     def start(self, steps: np.ndarray) -> list[tuple[Variable, Number]]:
         """Values at the start: [(variable, value)]."""

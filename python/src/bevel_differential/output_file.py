@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from .extras import needed
 from .values import DifferentialError
 from .writing import try_whole
 
@@ -13,7 +14,7 @@ ENDINGS = {"table": (".csv", *PARQUET), "CSV file": (".csv",), "Parquet file": P
 
 def checked(file, kind: str | None = None) -> Path | None:
     """Path of a file that can be written, tested by a trial in its folder; None stays None. Its ending must be one of its kind in
-    `ENDINGS`."""
+    `ENDINGS`, and the packages that write it must be installed."""
     if file is None:
         return None
     file = Path(file)
@@ -26,6 +27,10 @@ def checked(file, kind: str | None = None) -> Path | None:
         first, *others = ENDINGS[kind]
         raise DifferentialError(f"{file}: a {kind} ends with {' or '.join([', '.join([first, *others[:-1]]), *others[-1:]])}; name it "
                                 f"{file.with_suffix(first).name}")
+    if is_parquet(file):
+        needed("pyarrow", "sweep")
+    if kind == "picture":
+        needed("matplotlib", "plot")
     try_whole(file)
     return file
 

@@ -7,16 +7,18 @@ from typing import TYPE_CHECKING, Any, Literal, Self, overload
 import numpy as np
 
 from .differential import Runner, as_frame
-from .extras import require
+from .extras import needed, require
 from .fmu import Fmu
 from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
-from .instance import LOGGED
+from .off_outputs import OffOutputs, largest
 from .output_file import checked
 from .plot import plot
 from .points import TimeValue, duration, seconds, span
 from .records import write
+from .quantities import QUANTITIES
 from .scene_file import find, read_scene
+from .start_values import Accepted
 from .text import aligned
 from .values import NOBODY_SET, DifferentialError, FileName, Number, Value
 from .want import mean_over_time
@@ -34,19 +36,20 @@ class Scene(Runner):
     `set`: parameters and inputs at the start by name. `changes`: [(time, {name: value})], later values of inputs and tunable
     parameters. `tables`: [(input, times, values, period or None)], linear from point to point. Without `input_slopes`, values are held
     within steps. All times are in s or with a unit. Values are written as for `Differential`. `display_units`, such as ["rpm", "kN"],
-    replace the usual units of tables, pictures and files."""
+    replace the usual units of tables, pictures and files. `accept_start_values`: True, or names of values that nobody sets and of which
+    no warning is wanted."""
 
     def __init__(self, name: str = "scene", *, description: str = "", stop: TimeValue = 0.5, step: TimeValue = 1e-3,
                  outputs: Sequence[str] = (), set: Mapping[str, Value] | None = None,
                  changes: Sequence[tuple[TimeValue, Mapping[str, Value]]] = (),
                  tables: Sequence[tuple[str, Sequence[TimeValue], Values, TimeValue | None]] = (), input_slopes: bool = True,
-                 display_units: Sequence[str] = (), fmu: FileName | Fmu | None = None):
-        super().__init__(Fmu.of(fmu).displaying(display_units))
+                 display_units: Sequence[str] = (), accept_start_values: Accepted = False, fmu: FileName | Fmu | None = None):
+        super().__init__(Fmu.of(fmu).displaying(display_units), accept_start_values)
         self.name, self.description = name, description
         self.stop, self.step = duration("stop_time", stop), span("step", step)
         if self.step > self.stop > 0.0:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
-        self.outputs = [self.fmu.variable(output).name for output in outputs]
+        self.outputs = [self.fmu.output(output).name for output in outputs]
         self.changes = [(seconds("time", time), by_present_names(values)) for time, values in changes]
         self.tables = [(present(name), times, values, period) for name, times, values, period in tables]
         self.input_slopes = input_slopes
@@ -94,14 +97,16 @@ class Scene(Runner):
 
         Returns a structured array in SI, shape (points,), with a field "time" (s) and a field for each output. A jump of inputs has two
         rows at its time, before and after it. With `frame`, the result is a pandas DataFrame, by time."""
+        if frame:
+            needed("pandas", "sweep")
         record = self._record(outputs, values, stop)
-        warn(self.warnings)
+        warn([*self.warnings, *self.off_outputs(outputs, values).texts])
         return as_frame(record) if frame else record
 
     def final(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> dict[str, Number]:
         """Values at the end, in as few steps as the scene allows: one if no input follows a table."""
         found = self._final(outputs, values)
-        warn(self.warnings)
+        warn([*self.warnings, *self.off_outputs(outputs, values).texts])
         return found
 
     def says(self, values: Mapping[str, Value] | None = None) -> str:
@@ -111,12 +116,13 @@ class Scene(Runner):
             self._initialise(instance, values)
             return " ".join(text for text in instance.events if not text.startswith(NOBODY_SET))
 
-    def nobody_set(self, values: Mapping[str, Value] | None = None) -> str:
-        """Values that take effect in the scene and that nobody set, by effect, as the FMU lists them; empty if there are none."""
-        with self.fmu.open() as instance:
-            instance.log([*LOGGED, "logEvents"])
-            self._initialise(instance, values)
-            return instance.nobody_set
+    def off_outputs(self, outputs: Sequence[str] | None = None, values: Mapping[str, Value] | None = None) -> OffOutputs:
+        """Outputs that no effect computes in the scene, because all effects with these outputs are off."""
+        return self._off(self._named(outputs), self._signals, values)
+
+    def all_values(self) -> dict[str, Number]:
+        """Values of the scene by name, SI; an input that changes has its value of the largest magnitude."""
+        return {**self.values, **largest(self.values.items(), self._signals.courses())}
 
     def unfelt_of(self, values: Mapping[str, Value] | None = None) -> dict[str, str]:
         """Variables whose values at the start have no effect in the scene, by name, with the FMU's reason."""
@@ -182,12 +188,13 @@ class Scene(Runner):
                 "set": plain(self.values if values is None else values),
                 "at": [{"time": time, **plain(changes)} for time, changes in self.changes], "table": tables,
                 **({"display_units": list(units)} if (units := self.fmu.display_units.values()) else {}),
+                **({"accept_start_values": self.accept_start_values} if self.accept_start_values else {}),
                 **({"input_slopes": self.input_slopes} if tables else {})}
 
     def __getstate__(self) -> dict[str, Any]:
         return {"name": self.name, "description": self.description, "stop": self.stop, "step": self.step,
                 "outputs": self.outputs, "set": self.values, "changes": self.changes, "tables": self.tables,
-                "input_slopes": self.input_slopes, "fmu": self.fmu}
+                "input_slopes": self.input_slopes, "accept_start_values": self.accept_start_values, "fmu": self.fmu}
 
     def __setstate__(self, state: Mapping[str, Any]) -> None:
         Scene.__init__(self, **state)
@@ -202,7 +209,9 @@ class Scene(Runner):
         """`final` without Python warnings."""
         self.check_settable(values or ())
         names = self._named(outputs)
-        steps = self._signals.steps(self.stop, self.step if self._signals.tables else None)
+        # the largest load in a run may be before its end
+        is_long = any(name in QUANTITIES and QUANTITIES[name].loads for name in names)
+        steps = self._signals.steps(self.stop, self.step if self._signals.tables or is_long else None)
         last = self._simulate(steps, self._signals, names, values)[-1]
         return {name: last[name].item() for name in names}
 

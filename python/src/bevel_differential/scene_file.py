@@ -37,7 +37,8 @@ def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
             "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]],
-            "input_slopes": found["input_slopes"], "display_units": found["display_units"]}
+            "input_slopes": found["input_slopes"], "display_units": found["display_units"],
+            "accept_start_values": found["accept_start_values"]}
 
 
 def read_toml(file: Path) -> dict[str, Any]:

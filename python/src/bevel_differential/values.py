@@ -192,6 +192,13 @@ class Variable:
         name = self._usual or self.unit or ""
         return ("" if name == "1" else name), values * factor + offset
 
+    def text(self, value: Number) -> str:
+        """Value with its usual unit, or the name of its literal, for messages."""
+        if self.kind not in ("Real", "Integer"):
+            return str(self.written(value)).lower() if self.kind == "Boolean" else str(self.written(value))
+        unit, number = self.shown(value)
+        return f"{number:.6g} {unit}".strip()
+
     def in_files(self, values: _Shown, preferred: Mapping[str, str]) -> tuple[str, _Shown]:
         """Unit in files, and SI `values` in it: SI, unless `preferred` has another unit of its dimension, by SI unit."""
         return self.shown(values) if (self.unit or "") in preferred else (self.unit or "", values)
@@ -270,10 +277,13 @@ class Variable:
 
 
 class Variables(Protocol):
-    """Look-up of variables by name: an `Fmu`, or a catalogue with more than its variables."""
+    """Look-up of variables by name, such as an `Fmu`."""
 
     def variable(self, name: str) -> Variable:
         """Variable `name`. Raises `DifferentialError` for an unknown name."""
+
+    def output(self, name: str) -> Variable:
+        """Variable `name` for a record. Raises `DifferentialError` for an unknown name."""
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:

@@ -4,7 +4,7 @@ from the same library."""
 import operator
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from .answers import ask
 from .csv_table import Time
 from .points import seconds
-from .values import DifferentialError, Variable, Variables
+from .values import DifferentialError, Variable, Variables, split
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 # largest phase between two points of an order, rad
@@ -74,7 +74,7 @@ class Want:
     def parse(cls, fmu: Variables, text: str) -> "Want":
         """Reads "OUTPUT:STATISTIC"; the default statistic is the final value."""
         name, _, word = text.strip().partition(":")
-        variable = fmu.variable(name.strip())
+        variable = fmu.output(name.strip())
         if variable.causality == "input":
             raise DifferentialError(f"{variable.name}: it is an input; wanted are outputs")
         return cls(variable.name, Statistic.parse(word or "final"))
@@ -104,11 +104,13 @@ class Want:
 
 @dataclass(frozen=True)
 class Condition:
-    """Limit of a wanted figure, in SI: "safety.root_min >= 1.2", "left.speed:max < 30 rad/s"."""
+    """Limit of a wanted figure, in SI: "safety.root_min >= 1.2", "left.speed:max < 30 rad/s". `written`: the limit as users wrote it, with
+    its unit."""
 
     want: Want
     relation: str
     limit: float
+    written: str = field(default="", compare=False)
 
     @classmethod
     def parse(cls, fmu: Variables, text: str) -> "Condition":
@@ -121,10 +123,12 @@ class Condition:
         written = parts[2].strip()
         is_time = want.statistic.word == "time_of_peak"
         limit = seconds(f"condition {text!r}: the time", written) if is_time else want.quantity(fmu).number(written)
-        return cls(want, parts[1], float(limit))
+        unit = want.quantity(fmu).unit or "1"
+        shown = written if unit == "1" or split(written)[1] else f"{written} {unit}"
+        return cls(want, parts[1], float(limit), shown)
 
     def __str__(self) -> str:
-        return f"{self.want} {self.relation} {self.limit:g}"
+        return f"{self.want} {self.relation} {self.written or f'{self.limit!r}'}"
 
     def holds(self, figure: float) -> bool:
         """True if a figure, SI, meets the condition."""

@@ -8,7 +8,8 @@ import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
-from .values import NOBODY_SET, DifferentialWarning
+from .start_values import in_short
+from .values import DifferentialWarning
 
 PACKAGE = __name__.partition(".")[0]
 
@@ -18,7 +19,7 @@ def warn(texts: Iterable[str]) -> None:
     level, frame = 2, sys._getframe(1)
     while frame.f_back and frame.f_globals.get("__name__", "").partition(".")[0] == PACKAGE:
         level, frame = level + 1, frame.f_back
-    for text in dict.fromkeys(texts):
+    for text in dict.fromkeys(in_short(texts)):
         warnings.warn(text, DifferentialWarning, stacklevel=level)
 
 
@@ -43,7 +44,7 @@ def printed() -> Iterator[None]:
                 show(message, category, *where)
             elif str(message) not in seen:
                 seen.add(str(message))
-                print(f"warning: {_by_group(str(message))}", file=sys.stderr, flush=True)
+                print(f"warning: {message}", file=sys.stderr, flush=True)
 
         warnings.showwarning = show_once
         warnings.simplefilter("always", DifferentialWarning)
@@ -56,9 +57,3 @@ def silenced() -> Iterator[None]:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DifferentialWarning)
         yield
-
-
-def _by_group(text):
-    """Text with a line for each group of values that nobody set."""
-    head, prefix, groups = text.partition(NOBODY_SET)
-    return "\n".join([f"{head}{prefix}".rstrip(), *(f"  {group}" for group in groups.split("; "))]) if prefix else text

@@ -12,8 +12,8 @@ use super::switches::{Status, Switch, effects};
 use super::want::{self, Want};
 use crate::problem::question_error;
 use crate::progress::Progress;
-use crate::scene::Scene;
 use crate::scene::run::SceneRun;
+use crate::scene::{Scene, off};
 
 /// Maximum cost of all runs, as a multiple of the cost of the reference run.
 const BUDGET: f64 = 30.0;
@@ -116,6 +116,7 @@ pub fn answer(scene: &Scene, question: &Question, progress: &mut Progress) -> Re
     }
     progress.warn(SceneRun::start(&scene, scene.step)?.warnings());
     let richest = reference::richest(&scene)?;
+    progress.warn(off::warnings(&richest.scene));
     let (reference, spent) = reference::run(&richest.scene, &wants, question, progress)?;
     let uncertain = 3.0 * reference.0.error() > question.within;
     let limit = if uncertain { BUDGET_UNCERTAIN } else { BUDGET } * reference.0.cost;

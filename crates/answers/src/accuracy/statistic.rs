@@ -147,24 +147,25 @@ fn time_of_peak(times: &[f64], values: &[f64]) -> f64 {
     if shift.abs() <= 0.5 * down.min(up) * (1.0 + 1e-9) { times[k] + shift } else { times[k] }
 }
 
-/// Amplitude of order `number` of `phase` in `values`, over the last whole periods. Returns the reason if it is
-/// undefined.
+/// Amplitude of order `number` of `phase` in `values`, over the last whole turns, which keep other orders out. In less
+/// than one turn, it is over the last whole periods of the order. Returns the reason if it is undefined.
 fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> {
     let rotation = || "the rotation that it is counted by";
     let (Some(&first), Some(&last)) = (phase.first(), phase.last()) else { return Err("nothing is recorded".into()) };
     let sense = (last - first).signum();
-    let periods = ((last - first).abs() / TAU * (1.0 + 1e-12)).floor();
-    if periods < 1.0 {
+    let k = f64::from(number);
+    let turns = (last - first).abs() / TAU * (1.0 + 1e-12);
+    let whole = if turns < 1.0 { (turns * k).floor() / k } else { turns.floor() };
+    if whole == 0.0 {
         return Err(format!(
-            "{} turns by less than one period in the time that is judged; ask for another statistic, let the scene run longer \
-             (--set stop_time=…), or let it turn",
+            "{} turns by less than one period of the order in the time that is judged; ask for another statistic, let the scene \
+             run longer (--set stop_time=…), or let it turn",
             rotation()
         ));
     }
     if phase.windows(2).any(|pair| (pair[1] - pair[0]) * sense < -1e-9) {
         return Err(format!("{} turns to and fro", rotation()));
     }
-    let k = f64::from(number);
     let coarsest = phase.windows(2).map(|pair| (pair[1] - pair[0]).abs() * k).fold(0.0, f64::max);
     if coarsest > COARSEST {
         return Err(format!(
@@ -173,7 +174,7 @@ fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> 
             (coarsest / COARSEST).ceil()
         ));
     }
-    let begin = last - sense * TAU * periods;
+    let begin = last - sense * TAU * whole;
     let start = phase.iter().position(|&p| (p - begin) * sense >= 0.0).unwrap_or(0);
     let mut points: Vec<[f64; 2]> = Vec::new();
     if start > 0 && phase[start] != begin {
@@ -184,7 +185,7 @@ fn amplitude(phase: &[f64], values: &[f64], number: u32) -> Result<f64, String> 
     let over = |of: &dyn Fn([f64; 2]) -> f64| {
         points.windows(2).map(|p| 0.5 * (p[1][0] - p[0][0]) * (of(p[0]) + of(p[1]))).sum::<f64>()
     };
-    let length = TAU * periods * sense;
+    let length = TAU * whole * sense;
     let mean = over(&|[_, x]| x) / length;
     let [cos, sin] =
         [f64::cos as fn(f64) -> f64, f64::sin].map(|wave| over(&|[p, x]| (x - mean) * wave(k * p)) / length);
@@ -213,9 +214,24 @@ mod tests {
     }
 
     #[test]
+    fn in_less_than_a_turn_an_order_has_whole_periods_of_its_own() {
+        // 0.93 turns of a shaft in either direction, a wave of order 37 with the amplitude 2
+        for sense in [1.0, -1.0] {
+            let times: Vec<f64> = (0..=4000).map(|i| f64::from(i) / 4000.0).collect();
+            let phase: Vec<f64> = times.iter().map(|t| sense * 0.93 * TAU * t).collect();
+            let values = phase.iter().map(|p| 3.0 + 2.0 * (37.0 * p + 0.3).cos()).collect();
+            let record = Record { phases: [times.clone(), phase], times, values: vec![values], ..Record::default() };
+            let order = |number| Statistic::Order { number, of: Rotation::Shaft }.of(&record, 0);
+            let found = order(37).expect("34 whole periods");
+            assert!((found - 2.0).abs() < 2e-3, "{found}");
+            assert!(order(1).expect_err("less than a period").contains("one period of the order"));
+        }
+    }
+
+    #[test]
     fn undefined_orders_state_the_reason() {
         let shaft = Statistic::Order { number: 1, of: Rotation::Shaft };
-        assert!(shaft.of(&waves(4000), 0).expect_err("a sixth of a turn").contains("one period"));
+        assert!(shaft.of(&waves(4000), 0).expect_err("a sixth of a turn").contains("one period of the order"));
         let fine = Statistic::Order { number: 3, of: Rotation::Mesh };
         assert!(fine.of(&waves(60), 0).expect_err("too coarse").contains("communication points"));
         let mut swinging = waves(400);

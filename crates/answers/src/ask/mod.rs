@@ -38,6 +38,8 @@ pub enum Question {
     Scene(scenes::SceneQuestion),
     /// Variables that have an influence in a scene.
     Acting(scenes::SceneQuestion),
+    /// Outputs of a scene that no effect computes, because it is off.
+    Off(scenes::SceneQuestion),
     /// Description of what a scene will simulate.
     Plan(scenes::SceneQuestion),
     /// Run of a scene by this library, recorded in a file.
@@ -74,6 +76,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Curve(question) => question.answer(),
         Question::Scene(question) => question.values(progress),
         Question::Acting(question) => question.acting(progress),
+        Question::Off(question) => question.off(progress),
         Question::Plan(question) => question.plan(progress),
         Question::Run(question) => question.answer(progress),
         Question::Export(question) => question.answer(progress),

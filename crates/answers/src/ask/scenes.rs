@@ -15,7 +15,7 @@ use crate::pattern::{Patterns, findings};
 use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::{Setting, changed_values, value};
-use crate::scene::{self, InputTable, Scene, acting, clutch, curve, former_names, loads, plan, script, ssv};
+use crate::scene::{self, InputTable, Scene, acting, clutch, curve, former_names, loads, off, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// Request for all scenes of a folder.
@@ -140,6 +140,7 @@ impl SceneQuestion {
             "input_slopes": scene.input_slopes,
             "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
             "display_units": scene.display_units.names().collect::<Vec<_>>(),
+            "accept_start_values": scene.accepted.json(),
         }))
     }
 
@@ -147,10 +148,16 @@ impl SceneQuestion {
         Ok(json!({"names": acting::names(&self.of.scene(progress)?)}))
     }
 
+    pub(super) fn off(&self, progress: &mut Progress) -> Result<Value> {
+        let scene = self.of.scene(progress)?;
+        let names = scene.outputs.iter().map(|row| row.name).filter(|name| off::reason(name, &scene).is_some());
+        Ok(json!({"names": names.collect::<Vec<_>>(), "texts": off::warnings(&scene)}))
+    }
+
     pub(super) fn plan(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
         let run = SceneRun::start(&scene, scene.step)?;
-        progress.warn(run.warnings());
+        progress.warn(off::warnings(&scene).into_iter().chain(run.warnings()));
         Ok(json!({"text": plan::text(&scene, &run.simulation)}))
     }
 }

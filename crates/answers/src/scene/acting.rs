@@ -1,10 +1,10 @@
 //! Variables that have an influence in a scene, and the scene reduced to them.
 
-use bevel_differential::model::{EFFECTS, Inputs, Parameters};
+use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::effective::{self, Situation};
 use bevel_differential::variables::{Variable, assign, index_of, table, value_of};
 
-use super::Scene;
+use super::{Scene, off};
 
 /// Returns `scene` without values that change nothing: they have their start values and are not set explicitly.
 pub fn acting(scene: &Scene) -> Scene {
@@ -30,19 +30,8 @@ pub fn names(scene: &Scene) -> Vec<&'static str> {
     let mut parameters = scene.parameters;
     let mut acts = |index: usize| effective::acts(index, &mut parameters, Situation::START);
     let rows =
-        table().rows.iter().enumerate().filter(|(index, row)| acts(*index) && !is_of_absent_effect(row.name, scene));
+        table().rows.iter().enumerate().filter(|(index, row)| acts(*index) && !off::is_switched_off(row.name, scene));
     rows.map(|(_, row)| row.name).collect()
-}
-
-/// True if all effects with this output are off in `scene`, so that the output is 0.
-fn is_of_absent_effect(output: &str, scene: &Scene) -> bool {
-    let owners = EFFECTS.iter().filter(|effect| {
-        effect.heat.is_some_and(|heat| heat.output == output)
-            || effect.readings.iter().any(|reading| reading.name == output)
-    });
-    let may_act = |switch| scene.parameters.effects.active().any(|on| on == switch);
-    let mut switches = owners.map(|effect| effect.switch.filter(|_| !effect.may_act_unswitched)).peekable();
-    switches.peek().is_some() && switches.all(|switch| switch.is_some_and(|switch| !may_act(switch)))
 }
 
 /// True if something in `scene` depends on the value of `row`. A value that outputs only repeat has an influence if the

@@ -92,13 +92,13 @@ fn known(name: &str) -> Result<(Unit, Option<DisplayUnit>), String> {
     })
 }
 
-/// Returns the unit most similar to `name`, ignoring case, if at least half of the letters agree. Two swapped letters
-/// count as one error.
+/// Returns the unit most similar to `name`, ignoring case, if more than half of the letters agree: kW is no misspelt kg.
+/// Two swapped letters count as one error.
 fn near<'a>(name: &str, units: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let wanted = name.to_lowercase();
     let nearest =
         units.map(|unit| (strsim::osa_distance(&wanted, &unit.to_lowercase()), unit)).min_by_key(|found| found.0);
-    nearest.filter(|(edits, _)| 2 * edits <= wanted.chars().count()).map(|(_, unit)| unit)
+    nearest.filter(|(edits, _)| 2 * edits < wanted.chars().count()).map(|(_, unit)| unit)
 }
 
 #[cfg(test)]
@@ -143,6 +143,11 @@ mod tests {
             DisplayUnits::of(&["KNm"]).expect_err("a wrong unit"),
             ["there is no unit \"KNm\"; did you mean kN.m?"]
         );
+        // half of two letters is no similarity
+        for other in ["kZ", "Qg", "xN"] {
+            let problem = &DisplayUnits::of(&[other]).expect_err("a wrong unit")[0];
+            assert!(!problem.contains("did you mean"), "{problem}");
+        }
         assert_eq!(problems[1], "kN and N are units of the same quantity; name one of them");
         assert!(problems[2].contains("known: m, mm, um, rad, deg, rad/s, deg/s, rpm"), "{}", problems[2]);
     }

@@ -7,6 +7,7 @@
 //! outputs = ["left.speed"]
 //! input_slopes = false                   # hold the values of tables within a step; otherwise interpolate linearly
 //! display_units = ["rpm", "kN"]          # units for displayed values, instead of the usual ones
+//! accept_start_values = true             # no warning about values that nobody set; or a list of their names
 //!
 //! clutch = { faces = 8, friction = 0.1 }  # packs from all their dimensions, see `clutch`; [set] overrides their values
 //!
@@ -39,6 +40,7 @@ use schedule::{MOST, Rule, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
 
+use super::accepted::Accepted;
 use super::curve::{self, CURVE};
 use super::display_units::DisplayUnits;
 use super::set::{Setting, output, real, variable, written};
@@ -51,14 +53,18 @@ use crate::text::{not_text, shown};
 /// Problem of a later change of a fixed parameter.
 const FIXED: &str = "is fixed: only inputs and tunable parameters change during a run";
 
+/// Keys that every scene has.
+const REQUIRED: [&str; 4] = ["description", "stop_time", "step", "outputs"];
+
 /// Contents of a scene file.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct File {
-    description: String,
-    stop_time: Value,
-    step: Value,
+    description: Option<String>,
+    stop_time: Option<Value>,
+    step: Option<Value>,
     input_slopes: Option<Value>,
+    accept_start_values: Option<Value>,
     #[serde(default)]
     display_units: Vec<String>,
     #[serde(default)]
@@ -71,7 +77,19 @@ pub struct File {
     table: Vec<InputTableEntry>,
     #[serde(default)]
     inputs: Vec<InputFileEntry>,
-    outputs: Vec<String>,
+    outputs: Option<Vec<String>>,
+}
+
+impl File {
+    /// Names of the required keys that are missing.
+    fn missing(&self) -> Vec<&'static str> {
+        let given = [self.description.is_some(), self.stop_time.is_some(), self.step.is_some(), self.outputs.is_some()];
+        REQUIRED.into_iter().zip(given).filter(|(_, is_given)| !is_given).map(|(key, _)| key).collect()
+    }
+
+    fn outputs(&self) -> &[String] {
+        self.outputs.as_deref().unwrap_or_default()
+    }
 }
 
 #[derive(Clone, Deserialize)]
@@ -111,6 +129,11 @@ pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
 /// Creates the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
 pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     let mut problems = Problems::default();
+    let missing = entry.missing();
+    if !missing.is_empty() {
+        let needed = "a scene has description, stop_time, step and outputs";
+        problems.push(format!("missing: {}; {needed}", missing.join(", ")));
+    }
     let (stop_time, step) = times(entry, &mut problems);
     let set = settings("[set]", &entry.set, Some(folder(file)), &mut problems);
     let settings = with_clutch(entry.clutch.as_ref(), set, &mut problems);
@@ -128,7 +151,9 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     if !input_slopes {
         input_tables.iter_mut().for_each(|driven| driven.table.rule = Rule::Sampled);
     }
-    let outputs = outputs(&entry.outputs, &mut problems);
+    let outputs = outputs(entry.outputs(), &mut problems);
+    let accepted = entry.accept_start_values.as_ref().map_or(Ok(Accepted::None), Accepted::read);
+    let accepted = accepted.map_err(|found| problems.extend(found)).unwrap_or_default();
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
     let tables = input_tables.iter().map(|driven| &driven.table);
@@ -149,7 +174,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
     Ok(Scene {
         name: name.into(),
         file: file.into(),
-        description: entry.description.clone(),
+        description: entry.description.clone().unwrap_or_default(),
         stop_time,
         step,
         parameters,
@@ -161,6 +186,7 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         outputs,
         notes,
         display_units,
+        accepted,
     })
 }
 
@@ -176,16 +202,16 @@ fn notes(entry: &File) -> Vec<String> {
     let mut set = Vec::new();
     std::iter::once(&entry.set).chain(&entry.at).for_each(|table| flatten("", table, &mut set));
     let set = set.iter().map(|(name, _)| name.as_str());
-    let others = entry.table.iter().map(|table| &table.input).chain(&entry.outputs);
+    let others = entry.table.iter().map(|table| &table.input).chain(entry.outputs());
     former_names::notes(set.chain(others.map(String::as_str)))
 }
 
-/// Stop time and communication step [s]; NaN for an invalid one.
+/// Stop time and communication step [s]; NaN for an invalid or missing one.
 fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
-    let mut checked = |length: Result<f64, String>| length.map_err(|problem| problems.push(problem));
-    let stop_time = checked(duration("stop_time", &entry.stop_time));
-    let step = checked(span("step", &entry.step));
-    if let (Ok(stop_time), Ok(step)) = (stop_time, step) {
+    let mut checked = |length: Result<f64, String>| length.map_err(|problem| problems.push(problem)).ok();
+    let stop_time = entry.stop_time.as_ref().and_then(|time| checked(duration("stop_time", time)));
+    let step = entry.step.as_ref().and_then(|step| checked(span("step", step)));
+    if let (Some(stop_time), Some(step)) = (stop_time, step) {
         problems.extend(check_step(step, stop_time).err());
     }
     (stop_time.unwrap_or(f64::NAN), step.unwrap_or(f64::NAN))

@@ -1,5 +1,6 @@
 //! Scenes: settings, inputs over time and recorded outputs. They are TOML files and run with the library itself.
 
+pub mod accepted;
 pub mod acting;
 pub mod assignments;
 pub mod clutch;
@@ -9,6 +10,7 @@ pub mod former_names;
 pub mod input_file;
 pub mod load;
 pub mod loads;
+pub mod off;
 pub mod plan;
 pub mod run;
 pub mod script;
@@ -29,6 +31,7 @@ use schedule::Table;
 use crate::problem::{Problem, Problems};
 use crate::text::near::near;
 use crate::text::shown;
+use accepted::Accepted;
 use display_units::DisplayUnits;
 use set::Setting;
 
@@ -63,6 +66,8 @@ pub struct Scene {
     pub notes: Vec<String>,
     /// Units for displayed values, instead of the usual ones.
     pub display_units: DisplayUnits,
+    /// Start values of the FMU of which no warning is wanted.
+    pub accepted: Accepted,
 }
 
 /// An input that follows a table.

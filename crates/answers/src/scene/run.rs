@@ -11,9 +11,9 @@ use schedule::{Schedule, Step};
 
 use super::display_units::DisplayUnits;
 use super::time_mean::TimeMean;
-use super::units;
 use super::warnings::at_start;
 use super::{InputTable, Scene};
+use super::{off, units};
 use crate::problem::Problems;
 use crate::progress::Progress;
 use crate::text::table::Table;
@@ -240,7 +240,7 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
     if let Some(rows) = &mut csv {
         rows.flush().context("the record cannot be written")?;
     }
-    progress.warn(run.warnings());
+    progress.warn(off::warnings(scene).into_iter().chain(run.warnings()));
     Ok(SceneResult {
         outputs,
         account: run.simulation.account(),

@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::{Context, Result};
 
+use super::accepted::Accepted;
 use super::set::changed_values;
 use super::set::{Setting, SettingValue};
 use super::{InputTable, Scene, units};
@@ -71,6 +72,14 @@ fn arguments(scene: &Scene) -> Result<String> {
     if !scene.display_units.is_empty() {
         let names: Result<Vec<String>> = scene.display_units.names().map(quoted).collect();
         writeln!(out, "    display_units=[{}],", names?.join(", "))?;
+    }
+    match &scene.accepted {
+        Accepted::None => {}
+        Accepted::All => writeln!(out, "    accept_start_values=True,")?,
+        Accepted::Named(names) => {
+            let names: Result<Vec<String>> = names.iter().map(|name| quoted(name)).collect();
+            writeln!(out, "    accept_start_values=[{}],", names?.join(", "))?;
+        }
     }
     let outputs: Result<Vec<String>> = scene.outputs.iter().map(|row| quoted(row.name)).collect();
     writeln!(out, "    outputs=[\n{}    ],", lines("        ", outputs?.into_iter()))?;

@@ -7,15 +7,17 @@ use bevel_differential::variables::effective::{self, Situation};
 use bevel_differential::variables::unset::{self, SetValues};
 use bevel_differential::variables::{index_of, number};
 
+use super::accepted::Accepted;
 use super::{InputTable, Scene};
 
 /// Warnings about `scene`, whose `simulation` has started.
 pub fn at_start(scene: &Scene, simulation: &Simulation) -> Vec<String> {
-    let set = set_values(scene);
+    let mut set = set_values(scene);
     let runaway = unset::runaway(&scene.parameters, &scene.inputs, &set);
     let problems = simulation.warnings().iter().cloned().chain(values_without_effect(scene)).chain(runaway);
     let mut found: Vec<String> = problems.map(|problem| problem.to_string()).collect();
-    if set.describes_another_differential() {
+    if scene.accepted != Accepted::All && set.describes_another_differential() {
+        scene.accepted.add_to(&mut set);
         let line = unset::in_one_line(&unset::unset(&scene.parameters, &scene.inputs, &set));
         found.extend(Some(line).filter(|line| !line.is_empty()));
     }

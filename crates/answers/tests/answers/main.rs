@@ -5,6 +5,7 @@ mod clutch_curve;
 mod geometry;
 mod header;
 mod interference;
+mod off;
 mod pattern;
 mod refusals;
 mod scene_inputs;

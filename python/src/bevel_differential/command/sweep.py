@@ -72,7 +72,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"written: {write(arguments.csv, columns, zip(*columns.values()))}")
         if arguments.plot:
             print(f"written: {draw(result, scene.fmu, arguments.plot, objectives)}")
-    return FINDING if result.failures() or not any(result.table["feasible"].to_pylist()) else DONE
+    return FINDING if result.failures() or result.undefined() or not any(result.table["feasible"].to_pylist()) else DONE
 
 
 def _merged(arguments):

@@ -169,7 +169,7 @@ def compare(*scenes: FileName | Scene, outputs: Sequence[str] | None = None, val
     for (name, scene), file in zip(named.items(), files):
         try:
             records[name] = scene._record(outputs, values, end)
-            warn(f"{name}: {text}" for text in scene.warnings)
+            warn(f"{name}: {text}" for text in (*scene.warnings, *scene.off_outputs(outputs, values).texts))
         except DifferentialError as error:
             raise DifferentialError(f"{name}: {error}", error.status, error.kind, error.problems) from None
         finally:

@@ -78,7 +78,16 @@ class SweepResult:
 
     def failures(self) -> Counter[str]:
         """Number of failed designs by message."""
-        return Counter(message for message in self.table["message"].to_pylist() if message)
+        return self._messages(False)
+
+    def undefined(self) -> Counter[str]:
+        """Number of designs that ran, but not all of whose figures can be formed, by reason."""
+        return self._messages(True)
+
+    def _messages(self, has_figures):
+        known = zip(*(self.table[name].to_pylist() for name in self.metadata["figures"]))
+        return Counter(message for message, figures in zip(self.table["message"].to_pylist(), known)
+                       if message and has_figures == any(figure is not None for figure in figures))
 
     def displayed(self, fmu: Fmu) -> dict[str, list[Any]]:
         """Columns by name, in SI. If `fmu` has display units, quantities of their dimensions have these units, and names of columns contain
@@ -105,6 +114,7 @@ def sweep(scene: Scene | FileName, vary: Space | Mapping[str, Given], plan: Plan
     space = vary if isinstance(vary, Space) else Space.parse(scene.fmu, vary)
     scene.check_settable(space.names)
     task = Task(scene, wants, conditions, seconds("from", start))
+    task.check_computed(space.dimensions)
     plan = plan if isinstance(plan, Plan) else Plan.parse(space, plan, runs, seed)
     columns, metadata = Columns(task, space), describe(task, plan)
     if out is None:
@@ -148,7 +158,7 @@ def describe(task: Task, plan: Plan) -> dict[str, Any]:
         "plan": plan.kind, "runs": plan.runs, "seed": plan.seed,
         "wants": [str(want) for want in task.wants],
         "figures": [str(want) for want in task.figures],
-        "conditions": [f"{one.want} {one.relation} {one.limit!r}" for one in task.conditions],
+        "conditions": [str(one) for one in task.conditions],
         "from": task.start,
     })
 
@@ -170,12 +180,9 @@ def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None, 
     lines = [f"runs      {table.num_rows}"]
     if asked is not None and asked != table.num_rows:
         lines[0] += f" ({asked} requested; a Sobol sequence has a power of two)"
-    failures = result.failures()
-    lines.append(f"failed    {failures.total()}")
-    common = failures.most_common()
-    lines += [f"  {count:>6}  {' '.join(message.split())}" for message, count in common[:MOST_MESSAGES]]
-    if len(common) > MOST_MESSAGES:
-        lines.append(f"  {sum(count for _, count in common[MOST_MESSAGES:]):>6}  {len(common) - MOST_MESSAGES} other messages")
+    lines += _counted("failed    ", result.failures())
+    if undefined := result.undefined():
+        lines += _counted("empty     ", undefined)
     lines.append(f"feasible  {pc.sum(table['feasible']).as_py() or 0}")
     if metadata["conditions"]:
         lines[-1] += f" ({'; '.join(metadata['conditions'])})"
@@ -191,6 +198,15 @@ def text(result: SweepResult, asked: int | None = None, fmu: Fmu | None = None, 
     elif not is_in_table:
         lines.append("rows are not kept: name a file by --out or --csv")
     return "\n".join(lines)
+
+
+def _counted(label, messages):
+    """Total number of messages after a label, and the most frequent ones."""
+    common = messages.most_common()
+    lines = [f"{label}{messages.total()}", *(f"  {count:>6}  {' '.join(text.split())}" for text, count in common[:MOST_MESSAGES])]
+    if len(common) > MOST_MESSAGES:
+        lines.append(f"  {sum(count for _, count in common[MOST_MESSAGES:]):>6}  {len(common) - MOST_MESSAGES} other messages")
+    return lines
 
 
 def _ranges(result, fmu):

@@ -1,21 +1,25 @@
 """Task for each design: a run of the scene, reduced to the wanted figures."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from ..instance import Closing
+from ..off_outputs import OffInDesigns
 from ..points import from_time
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import Condition, Want
+from ..warned import warn
+from .space import Dimension
 
 
 @dataclass
 class Row:
     """A design and its results.
 
-    `figures`: by want, SI; empty if the design failed, and `message` and `kind` of the error then give the reason. `feasible`: true if
-    the run succeeded and all conditions are met. `seconds`: duration of the run, s. `warnings` of the FMU; None if the FMU did not
+    `figures`: by want, SI; empty if the design failed, and `message` and `kind` of the error then give the reason. If only some figures
+    cannot be formed, the others are there, and `message` has the reason. `feasible`: true if all conditions are met. `seconds`: duration of the run, s. `warnings` of the FMU; None if the FMU did not
     run to the end."""
 
     run: int
@@ -28,7 +32,7 @@ class Row:
     kind: str = "failed"
 
 
-class Task:
+class Task(Closing):
     """Scene with the figures and conditions of its designs. It can be sent to other processes.
 
     `wants` and `conditions` are text ("left.speed:mean", "safety.root_min >= 1.2") or parsed. Figures count from
@@ -42,6 +46,10 @@ class Task:
         self.wants = [want if isinstance(want, Want) else Want.parse(fmu, want) for want in wants]
         self.conditions = [one if isinstance(one, Condition) else Condition.parse(fmu, one) for one in conditions]
         self.figures = list(dict.fromkeys([*self.wants, *(condition.want for condition in self.conditions)]))
+        # reasons for figures of the last run that cannot be formed
+        self.undefined: list[str] = []
+        # outputs of conditions that some designs do not compute, see `check_computed`
+        self.unsure: list[str] = []
         if not self.figures:
             raise DifferentialError("nothing is wanted: name an output and a statistic, such as left.speed:mean")
         if not 0.0 <= start <= scene.stop:
@@ -51,13 +59,27 @@ class Task:
             raise DifferentialError(f"from = {start:g} s leaves less than two steps of {scene.step:g} s to the end at "
                                     f"{scene.stop:g} s; start earlier, or use a smaller step in the scene")
 
+    def check_computed(self, dimensions: Iterable[Dimension]) -> None:
+        """Refuses conditions on outputs that no effect computes in any design, and warns of such wants. A design fails if it does not
+        compute the output of a condition."""
+        all_values, dimensions = self.scene.all_values(), list(dimensions)
+        limited = OffInDesigns.of(self.scene.fmu, [one.want.name for one in self.conditions], all_values, dimensions)
+        if limited.always.texts:
+            raise DifferentialError("\n".join(f"condition: {text}" for text in limited.always.texts))
+        self.unsure = list(limited.sometimes.names)
+        warn(OffInDesigns.of(self.scene.fmu, [want.name for want in self.wants], all_values, dimensions).sometimes.texts)
+
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """Evaluates a design. A failed run also returns a row."""
         begun = time.perf_counter()
         row = Row(run, dict(values))
         try:
+            if off := self.unsure and self.scene.off_outputs(self.unsure, values).texts:
+                raise DifferentialError(f"condition: {off[0]}")
             row.figures, row.warnings = self._figures(values), tuple(self.scene.warnings)
-            row.feasible = all(one.holds(row.figures[str(one.want)]) for one in self.conditions)
+            row.message = "; ".join(self.undefined)
+            row.feasible = bool(row.figures) and all(str(one.want) in row.figures and one.holds(row.figures[str(one.want)])
+                                                     for one in self.conditions)
         except DifferentialError as error:
             row.message, row.kind = str(error), error.kind
         row.seconds = time.perf_counter() - begun
@@ -71,6 +93,7 @@ class Task:
         return all(want.statistic.word == "final" for want in self.figures)
 
     def _figures(self, values):
+        self.undefined = []
         if self._only_final():
             last = self.scene._final([want.name for want in self.figures], values)
             return {str(want): float(last[want.name]) for want in self.figures}
@@ -82,7 +105,13 @@ class Task:
         return list(dict.fromkeys([*(want.name for want in self.figures), *sorted(angles), "geometry.planet_teeth"]))
 
     def _statistics(self, record):
-        """Figures of a record, by want."""
+        """Figures of a record, by want. A figure that cannot be formed is left out, and `undefined` gets the reason."""
         teeth = int(record["geometry.planet_teeth"][0])
         record = from_time(record, self.start, self.scene.step)
-        return {str(want): want.of(record, teeth) for want in self.figures}
+        figures, self.undefined = {}, []
+        for want in self.figures:
+            try:
+                figures[str(want)] = want.of(record, teeth)
+            except DifferentialError as reason:
+                self.undefined.append(f"{want.name}:{reason}")
+        return figures

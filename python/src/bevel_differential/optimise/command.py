@@ -32,9 +32,11 @@ def run(arguments: argparse.Namespace) -> int:
     """Runs the optimisation. Interference of a chosen design is a finding. Raises `DifferentialError`, of the kind "finding" if no
     design is feasible, and `KeyboardInterrupt`."""
     from ..designs.farm import Farm
+    from ..extras import needed
     from .problem import Problem
     from .search import Store
 
+    needed("matplotlib", "design")
     given = {key: getattr(arguments, key) for key in ("population", "generations", "starts", "seed")}
     effort = {key: value for key, value in given.items() if value is not None}
     problem = Problem.load(arguments.problem, arguments.fmu, arguments.stop).sized(**{**(QUICK if arguments.quick else {}), **effort})

@@ -12,9 +12,9 @@ from ..designs.farm import Farm
 from ..designs.task import Row, Task
 from ..values import DifferentialError, Number
 from ..want import ANGLES, Condition, Statistic, Want
-from .pair import Pair, violations
+from ..pair import Pair, violations
 from .problem import Problem
-from .quantities import QUANTITIES
+from ..quantities import QUANTITIES
 
 # prefixes of warnings that a design must not cause: gears, pins and washers that do not fit
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")
@@ -100,6 +100,8 @@ class DesignTask(Task):
     def _simulated(self, row, complete):
         """Runs the scene and adds its figures to the row. Returns outputs by name."""
         figures, loads = self._run(complete)
+        if self.undefined:
+            raise DifferentialError("; ".join(self.undefined))
         row.warnings = tuple(self.scene.warnings)
         row.figures.update((str(want), figures[str(want)]) for want in self.wanted if want.name not in QUANTITIES)
         without = [name for name in figures if name.endswith(f"{HISTORY}:final") and figures[name] == 0.0]
@@ -121,6 +123,7 @@ class DesignTask(Task):
         step = max(scene.step, scene.stop / POINTS) if is_short else scene.step
         outputs = dict.fromkeys([ANGLES["mesh"], "geometry.planet_teeth", *self.loads, *([] if is_short else self._recorded())])
         record = scene._record(list(outputs), complete, step=step)
+        self.undefined = []
         figures = self._final_figures() if is_short else self._statistics(record)
         cycles = np.abs(np.diff(record[ANGLES["mesh"]])).max(initial=0.0) * record["geometry.planet_teeth"][0] / (2.0 * np.pi)
         # a shorter step changes the motion only if inputs are held within steps

@@ -10,11 +10,12 @@ from typing import Any
 from ..curve import beside
 from ..designs.space import Space
 from ..fmu import Fmu
+from ..off_outputs import OffInDesigns
+from ..quantities import QUANTITIES
 from ..scene import Scene
 from ..scene_file import find_beside, flat, read_toml
 from ..values import DifferentialError, FileName, Number, Value, Variables, suggestion
 from ..want import Condition, Want
-from .quantities import QUANTITIES, Catalogue
 
 KEYS = {"description", "scene", "objectives", "conditions", "population", "generations", "starts", "seed", "front", "set", "vary",
         "follow", "compare", "confirm"}
@@ -36,12 +37,12 @@ class Objective:
     sign: float
 
     @classmethod
-    def parse(cls, catalogue: Variables, text: str) -> "Objective":
+    def parse(cls, fmu: Variables, text: str) -> "Objective":
         """Reads "maximise safety.root_min" or "minimise gears.mass"."""
         sense, _, what = text.strip().partition(" ")
         if sense not in SENSES:
             raise DifferentialError(f"objective {text!r}: write \"maximise OUTPUT\" or \"minimise OUTPUT\"")
-        return cls(Want.parse(catalogue, what), SENSES[sense])
+        return cls(Want.parse(fmu, what), SENSES[sense])
 
     def __str__(self) -> str:
         return f"{'minimise' if self.sign > 0.0 else 'maximise'} {self.want}"
@@ -116,7 +117,7 @@ class Problem:
 
     def known(self, values: Mapping[str, Number]) -> dict[str, Number]:
         """All parameters by name, SI: these values, or else those of the scene, or else those of the FMU."""
-        return {**Catalogue(self.scene.fmu).starts(), **self.scene.values, **values}
+        return {**self.scene.fmu.starts(), **self.scene.values, **values}
 
     def complete(self, values: Mapping[str, Number]) -> dict[str, Number]:
         """Design with the parameters that follow from it."""
@@ -147,6 +148,15 @@ class Problem:
         """Wants of objectives and conditions, each once."""
         return list(dict.fromkeys(each.want for each in (*self.objectives, *self.conditions)))
 
+    def not_computed(self) -> list[str]:
+        """Reasons for which wanted outputs are not computed in some designs, or in those of a richer model."""
+        names = [want.name for want in self.wants]
+        values, dimensions = {**self.scene.all_values(), **self.complete({})}, self.space.dimensions
+        models = [{name: self.scene.fmu.variable(name).number(value) for name, value in model.settings.items()}
+                  for model in self.confirm.values()]
+        found = [OffInDesigns.of(self.scene.fmu, names, {**values, **settings}, dimensions).sometimes.texts for settings in [{}, *models]]
+        return list(dict.fromkeys(text for texts in found for text in texts))
+
     def start_warning(self) -> str:
         """Warning about wanted figures that belong to a start out of equilibrium, with the remedy; empty if there are none."""
         rated = list(dict.fromkeys(want.name for want in self.wants if want.name.startswith(RATED)
@@ -173,7 +183,7 @@ class _Reader:
     """Reads a file and collects its errors."""
 
     def __init__(self, file: Path, fmu: Fmu, stop: str | None):
-        self.file, self.fmu, self.stop, self.catalogue = file, fmu, stop, Catalogue(fmu)
+        self.file, self.fmu, self.stop = file, fmu, stop
         self.found = read_toml(file)
         self.problems = [f"{key}: there is no such key{suggestion(key, KEYS)}" for key in sorted(self.found.keys() - KEYS)]
         self.problems += [f"{key} is missing" for key in NEEDED if not self.found.get(key)]
@@ -185,10 +195,10 @@ class _Reader:
         dimensions = [self.attempt(self.dimension, name, given) for name, given in vary.items()]
         followers = [self.attempt(Follower.parse, self.fmu, name, given)
                      for name, given in flat(self.found.get("follow", {}), ends=FOLLOW).items()]
-        objectives = [self.attempt(Objective.parse, self.catalogue, text) for text in self.found.get("objectives", [])]
+        objectives = [self.attempt(Objective.parse, self.fmu, text) for text in self.found.get("objectives", [])]
         if len(objectives) == 1:
             self.problems.append("objectives: name two or more; a single objective has no front")
-        conditions = [self.attempt(Condition.parse, self.catalogue, text) for text in self.found.get("conditions", [])]
+        conditions = [self.attempt(Condition.parse, self.fmu, text) for text in self.found.get("conditions", [])]
         self.problems += [f"{want}: {want.name} is one number of a design, without a statistic"
                           for want in (each.want for each in [*objectives, *conditions] if each)
                           if want.name in QUANTITIES and want.statistic.word != "final"]
@@ -201,6 +211,8 @@ class _Reader:
             raise DifferentialError("\n".join(f"{self.file}: {problem}" for problem in self.problems))
         problem = Problem(self.found["description"], scene, Space(tuple(dimensions)), objectives, conditions, followers, compare,
                           confirm)
+        if not_computed := problem.not_computed():
+            raise DifferentialError("\n".join(f"{self.file}: {text} under [set]" for text in not_computed))
         return problem.sized(**effort)
 
     def attempt(self, function, *arguments):
@@ -241,7 +253,7 @@ class _Reader:
         known = {(each.want, each.relation) for each in conditions if each}
         for entry in self.found.get("confirm", []):
             name = entry.get("name")
-            instead = [self.attempt(Condition.parse, self.catalogue, text) for text in entry.get("conditions", [])]
+            instead = [self.attempt(Condition.parse, self.fmu, text) for text in entry.get("conditions", [])]
             self.problems += [f"[[confirm]] {name}: {each} replaces no condition of the problem" for each in instead
                               if each and (each.want, each.relation) not in known]
             found[name] = Model(all_settings[name], instead, bool(entry.get("only_chosen")))

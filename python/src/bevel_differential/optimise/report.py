@@ -13,9 +13,8 @@ from ..values import FileName
 from ..writing import whole
 from .design_task import Confirmed, DesignRow
 from .front import costs, dominates
-from .pair import heights
+from ..pair import heights
 from .problem import Objective, Problem
-from .quantities import Catalogue
 
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 NO_CHANGE = {"+0.0 %", "-0.0 %"}
@@ -31,7 +30,7 @@ def choice_table(chosen: Sequence[tuple[str, Confirmed]], compared: dict[str, De
     """Markdown table with a column for each chosen and each compared design, in display units."""
     columns = [each.row for _, each in chosen] + list(compared.values())
     lines = [["", *(LETTERS[k] for k in range(len(chosen))), *compared]]
-    catalogue = Catalogue(problem.scene.fmu)
+    catalogue = problem.scene.fmu
     known = [_with_heights(problem.known(problem.complete(row.values))) for row in columns]
     for name in problem.space.names:
         lines.append(_line(name, catalogue.variable(name), [each[name] for each in known]))
@@ -93,7 +92,7 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
             file: FileName) -> None:
     """Draws the front in panels, with the chosen designs by letter and the compared ones as stars; PNG."""
     from .. import style
-    objectives, catalogue = problem.objectives, Catalogue(problem.scene.fmu)
+    objectives, catalogue = problem.objectives, problem.scene.fmu
     across = next((each for each in objectives if each.sign > 0.0), objectives[0])
     others = [each for each in objectives if each is not across]
     compared = {name: row for name, row in compared.items() if all(str(each.want) in row.figures for each in objectives)}

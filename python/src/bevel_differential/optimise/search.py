@@ -113,7 +113,7 @@ def search(problem: Problem, farm: Farm, store: Store,
     if problem.starts > 1 and run.best:
         run.start(run.shares(thinned(run.best, problem.objectives, problem.population)), problem.seed + problem.starts)
     if not run.best:
-        raise DifferentialError(no_design(list(store.rows.values())), kind="finding")
+        raise DifferentialError(no_design(list(store.rows.values()), problem), kind="finding")
     return run.best
 
 
@@ -175,11 +175,25 @@ def _evaluated(designs, task, farm, store):
     return [store.rows[key] for key in keys]
 
 
-def no_design(rows: list[DesignRow]) -> str:
-    """Message if no design is feasible: the number of designs that each check refuses."""
+def _reason(row):
+    return [f"It does not run: {row.message}"] if row.message else []
+
+
+def described(row: DesignRow, problem: Problem) -> list[str]:
+    """Lines with the values and figures of a design, in display units."""
+    catalogue = problem.scene.fmu
+    values = {name: catalogue.variable(name).text(value) for name, value in row.values.items()}
+    figures = {str(want).removesuffix(":final"): want.quantity(catalogue).text(row.figures[str(want)]) for want in problem.wants
+               if str(want) in row.figures}
+    return [f"  {name} = {text}" for name, text in (*values.items(), *figures.items())]
+
+
+def no_design(rows: list[DesignRow], problem: Problem) -> str:
+    """Message if no design is feasible: the number of designs that each check refuses, and the nearest design with its values."""
     counts = Counter(check for row in rows for check in row.refused)
     lines = [f"  {count:6d}  {check}" for check, count in counts.most_common()]
-    nearest = min(rows, key=lambda row: row.violation)
+    with DesignTask(problem, thorough=True) as task:
+        nearest = task.evaluate(-1, min(rows, key=lambda row: row.violation).values)
     return "\n".join([f"no feasible design among {len(rows)}. Designs refused by each check:", *lines,
-                      f"The nearest one fails in: {'; '.join(nearest.refused)}.",
+                      f"The nearest one fails in: {'; '.join(nearest.refused)}.", *described(nearest, problem), *_reason(nearest),
                       "Widen the ranges of [vary], loosen these conditions, or let more generations search."])

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..optimise.pair import Gear, Pair
+from ..pair import Gear, Pair
 from . import svg_style, words
 from .simulated import Simulated
 

@@ -3,7 +3,7 @@
 import math
 from dataclasses import replace
 
-from ..optimise.pair import Pair
+from ..pair import Pair
 from . import words
 from .blocks import Picture, Section, Table
 from .drawings import draw_section, draw_teeth

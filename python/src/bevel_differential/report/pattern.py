@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..optimise.pair import Pair
+from ..pair import Pair
 from . import svg_style, words
 from .blocks import Picture, Section
 from .gears import pair_of

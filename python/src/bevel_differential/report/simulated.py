@@ -10,6 +10,7 @@ from ..points import at_times
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import mean_over_time
+from ..warned import warn
 
 # effects that only add outputs, without influence on motion; a test checks that the command `accuracy` has the same list
 ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history", "effects.coupling_advice")
@@ -65,7 +66,8 @@ class Simulated:
                     refused[effect] = reason_of(reason)
         names = [name for name, variable in scene.fmu.variables.items()
                  if variable.causality in ("input", "output", "calculatedParameter")]
-        record = scene.run(names, added)
+        record = scene._record(names, added)
+        warn(scene.warnings)
         return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused,
                    _difference(as_written, record), _drawn(scene))
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..csv_table import CsvTable, Quantity, Text, Time
 from ..fmu import Fmu
-from ..values import DifferentialError, FileName, Variable, variable_suggestion
+from ..values import DifferentialError, FileName, Variable, suggestion
 from .damage import Event
 from .driven import LOADS, drives_of, missing, wanted
 
@@ -56,7 +56,7 @@ def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tu
     `drives`: values of `driven.DRIVES` for events that do not set them; `given`: names of variables that the scene or the parameters
     set. Raises `DifferentialError` with file, line, column and value."""
     def known(name: str) -> Variable | Text:
-        return OWN.get(name) or _variable(name, fmu, causalities=("input", "parameter"))
+        return OWN.get(name) or _variable(name, fmu, ("input", "parameter"), OWN)
 
     table = CsvTable(file, known, ["name", "count"], [name for name, column in OWN.items() if isinstance(column, Text)])
     return [_event(table, line, row, fmu, vehicle, (teeth, drives_of(row, drives, fmu)), given) for line, row in table.rows]
@@ -143,7 +143,7 @@ def _history(table, line, row, fmu):
     file = table.file.parent / row["history"]
 
     def known(name):
-        return Time(name) if name == "time" else _variable(name, fmu, causalities=("input",))
+        return Time(name) if name == "time" else _variable(name, fmu, ("input",), ["time"])
 
     found = CsvTable(file, known, needed=["time"])
     for at, values in found.rows:
@@ -160,11 +160,13 @@ def _history(table, line, row, fmu):
     return {**columns, "time": times - times[0]}
 
 
-def _variable(name, fmu, causalities):
+def _variable(name, fmu, causalities, own):
     if name in QUANTITIES:
         return QUANTITIES[name]
     if name not in fmu.variables:
-        raise DifferentialError(f"{name}: there is no such column{variable_suggestion(name, [*OWN, *QUANTITIES, *fmu.variables])}")
+        settable = [each.name for each in fmu.variables.values() if each.causality in causalities]
+        raise DifferentialError(f"{name}: there is no such column{suggestion(name, [*OWN, *QUANTITIES, *settable])}; columns are "
+                                f"{', '.join(dict.fromkeys([*own, *QUANTITIES]))}, and each {' or '.join(causalities)} of the FMU")
     variable = fmu.variables[name]
     if variable.causality not in causalities:
         raise DifferentialError(f"{name}: it is not an {' or '.join(causalities)} of the FMU")

@@ -76,6 +76,8 @@ def _draw_spectrum(axes, result, colours):
 def _caption(result):
     if not np.isfinite(result.cycles_to_failure):
         return "No event does any damage."
+    if not result.rolls:
+        return "No event rolls the planets, so only changes of torque damage the roots, and no life follows from durations."
     worst = result.table()[0]
     km = f" or {plain(result.life_km)} km" if np.isfinite(result.life_km) else ""
     return (f"By Miner's rule, the {result.critical_name} fails after {plain(result.cycles_to_failure)} duty cycles: "

@@ -3,13 +3,14 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from math import inf, isfinite
+from math import inf, isfinite, nan
 from pathlib import Path
 
 import numpy as np
 
 from ..curve import expanded
 from ..differential import Differential
+from ..extras import needed
 from ..fmu import Fmu
 from ..former_names import by_present_names
 from ..records import write
@@ -31,6 +32,9 @@ TEETH = ("geometry.planet_teeth", "geometry.side_teeth")
 PLANETS = "geometry.planet_count"
 # ranges of stress up to this fraction of the strength do not count as cycles, as in the FMU
 GATE = 0.01
+# warning of a duty cycle in which each tooth keeps its place in the mesh
+STANDS = ("no event rolls the planets: flanks are not damaged, duration has no influence, and only changes of torque damage the roots; "
+          "add turn_radius or speed_difference")
 # relative difference of equal sums by rounding
 EQUAL = 1e-9
 
@@ -72,6 +76,11 @@ class SpectrumResult:
         return dict(zip(MODES, self.by_event.sum(axis=0).tolist()))
 
     @property
+    def rolls(self) -> bool:
+        """True if planets roll in an event that occurs. Otherwise, each tooth keeps its place in the mesh."""
+        return any(one.rolls and one.event.count > 0.0 for one in self.events)
+
+    @property
     def critical(self) -> int:
         """Index in `MODES` of the largest damage."""
         return _largest(self.by_event.sum(axis=0))
@@ -104,13 +113,13 @@ class SpectrumResult:
 
     @property
     def life_hours(self) -> float:
-        """Life, h."""
-        return self.cycles_to_failure * self.hours
+        """Life, h; NaN if no event rolls, because durations then have no influence."""
+        return self.cycles_to_failure * self.hours if self.rolls or self.cycles_to_failure == inf else nan
 
     @property
     def life_km(self) -> float:
-        """Life, km; NaN if an event that occurs has no distance."""
-        return self.cycles_to_failure * self.km
+        """Life, km; NaN if an event that occurs has no distance, or if no event rolls."""
+        return self.cycles_to_failure * self.km if self.rolls or self.cycles_to_failure == inf else nan
 
     @property
     def how_summed(self) -> str:
@@ -128,8 +137,9 @@ class SpectrumResult:
 
     @property
     def warnings(self) -> list[str]:
-        """Warnings of the FMU, each once, with the name of its event or with the number of its events."""
-        return by_owner(((one.event.name, one.warnings) for one in self.events), "events")
+        """Warnings of the FMU, each once, with the name of its event or with the number of its events, and one if no event rolls."""
+        found = by_owner(((one.event.name, one.warnings) for one in self.events), "events")
+        return found if self.rolls else [*found, STANDS]
 
     def table(self) -> np.ndarray:
         """A row for each event, the worst first: a structured array that pandas can read.
@@ -171,7 +181,9 @@ class SpectrumResult:
                  self.how_summed,
                  *self.loads,
                  "damage per cycle: " + ", ".join(f"{name} {value:.3g}" for name, value in zip(NAMES, self.damage.values()))]
-        if isfinite(self.cycles_to_failure):
+        if isfinite(self.cycles_to_failure) and not self.rolls:
+            lines.append("life: none, because no event rolls the planets")
+        elif isfinite(self.cycles_to_failure):
             km = f", {self.life_km:.4g} km" if isfinite(self.life_km) else ""
             lines.append(f"life by the {self.critical_name}: {self.cycles_to_failure:.4g} cycles, {self.life_hours:.4g} h{km}")
             worst = self.worst
@@ -207,6 +219,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     that evaluates events; that of a pool evaluates them in parallel. Raises `DifferentialError`."""
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
+    needed("rainflow", "design")
     parameters = expanded(by_present_names(parameters or {}))
     # events start in their steady state, unlike the scene
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}

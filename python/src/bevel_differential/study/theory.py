@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from math import acos, cos, degrees, pi, sin, sqrt, tan
 from typing import Any
 
-from ..optimise.pair import STANDARD, Pair
+from ..pair import STANDARD, Pair
 from . import stated
 from .stated import Case
 

@@ -34,6 +34,7 @@ class Plan:
         self.name, self.description, self.scene, self.task, self.study = name, description, scene, task, study
         self._check_ranges()
         self._check_effect()
+        self._check_computed()
         self.notes = self._remarks()
 
     @classmethod
@@ -79,6 +80,13 @@ class Plan:
                 raise DifferentialError(f"{name} has a tolerance, but {without_effect[0][name]}; set that in the scene or in [set], "
                                         "or leave the factor out")
 
+    def _check_computed(self):
+        """Refuses wanted outputs that no effect computes in one of the first draws."""
+        names = [want.name for want in self.study.wants]
+        for _, values in self.study.designs()[:TRIED]:
+            if off := self.scene.off_outputs(names, values).texts:
+                raise DifferentialError("\n".join(f"{text} in the scene or in [set]" for text in off))
+
     def _remarks(self):
         factors = self.study.factors
         individual = [name for name in (PITCH, *RUNOUT) if name in factors]
@@ -98,7 +106,7 @@ class Plan:
             bounds = [default if bound is None else float(bound) for bound, default in zip(ends, (-np.inf, np.inf))]
             outside = (drawn < bounds[0]) | (drawn > bounds[1])
             if np.any(outside):
-                least, greatest, worst = (_shown(variable, number) for number in (*bounds, drawn[outside][0]))
+                least, greatest, worst = (variable.text(number) for number in (*bounds, drawn[outside][0]))
                 raise DifferentialError(f"{name}: {np.sum(outside)} of {len(drawn)} draws are outside {least} to {greatest}, "
                                         f"such as {worst}: make the tolerance narrower, or give a law that ends there, such as "
                                         "uniform(A, B)")
@@ -148,8 +156,3 @@ def _study(reading, found, runs, seed, indices):
     limits = [Condition.parse(fmu, text) for text in found.get("limits", [])]
     return Study(list(reading.factors.values()), wants, limits, reading.alternatives,
                  found.get("runs", 512) if runs is None else runs, found.get("seed", 1) if seed is None else seed, indices)
-
-
-def _shown(variable, value):
-    unit, shown = variable.shown(value)
-    return f"{shown:.6g} {unit}".strip()

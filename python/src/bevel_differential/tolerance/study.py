@@ -124,7 +124,7 @@ class Study:
 
     def _draws(self, rows):
         figures = {str(want): _figures(rows, str(want)) for want in self.wants}
-        good = [not row.message and all(limit.holds(row.figures[str(limit.want)]) for limit in self.limits) for row in rows]
+        good = [bool(row.figures) and all(limit.holds(row.figures.get(str(limit.want), np.nan)) for limit in self.limits) for row in rows]
         return Draws(figures, np.array(good), [row.message for row in rows if row.message])
 
     def _analysed(self, rows, want):
@@ -140,7 +140,7 @@ class Study:
 
 
 def _figures(rows, want):
-    return np.array([row.figures.get(want, np.nan) if not row.message else np.nan for row in rows], float)
+    return np.array([row.figures.get(want, np.nan) for row in rows], float)
 
 
 def check_runs(runs: int) -> int:

@@ -10,8 +10,10 @@ import numpy as np
 from ..fmu import Fmu
 from ..inputs import prolonged, times_of_rows
 from ..instance import Instance
+from ..off_outputs import OffOutputs
 from ..plot import plot
 from ..points import SAME, TimeValue, duration, span
+from ..start_values import Accepted, checked, in_short
 from ..values import DifferentialError, FileName, Number, Value, variable_suggestion
 from ..warned import warn
 from .equations import motor_torque
@@ -49,7 +51,8 @@ class Car:
 
     `differential`: parameters as for `Differential`. The car sets the drives: torques at all three shafts, the motor's inertia at the
     carrier in addition to `inertia.carrier`, and the wheels' inertia at the half-shafts. Parts have the start values of a passenger
-    car. `unset` lists parameters that nobody gave; if any part was given, the first run warns of them.
+    car. `unset` lists parameters that nobody gave; if any part was given, the first run warns of them. `accept_start_values` as for
+    `Differential`; True also accepts those of the parts.
 
     >>> from bevel_differential.vehicle import Car, Tyre
     >>> car = Car({"contact.law": "line"}, left=Tyre(friction=0.15))
@@ -59,12 +62,14 @@ class Car:
     """
 
     def __init__(self, differential: Mapping[str, Value] | None = None, *, motor: Motor | None = None, left: Tyre | None = None,
-                 right: Tyre | None = None, body: Body | None = None, fmu: FileName | Fmu | None = None):
+                 right: Tyre | None = None, body: Body | None = None, accept_start_values: Accepted = False,
+                 fmu: FileName | Fmu | None = None):
         self.fmu = Fmu.of(fmu)
+        self.accept_start_values = checked(self.fmu, accept_start_values)
         self.motor, self.body = motor or Motor(), body or Body()
         self.tyres = (left or Tyre(), right or Tyre())
         self._given = self._checked(differential or {})
-        self._is_warned = motor is left is right is body is None
+        self._is_warned = accept_start_values is True or motor is left is right is body is None
 
     def run(self, outputs: Sequence[str] = DEFAULT_OUTPUTS, stop: TimeValue = 1.0, step: TimeValue = 5e-4, *, request: Course = 0.0,
             steer: Course = 0.0, speed: float | str = 0.0, controller: Controller | None = None) -> np.ndarray:
@@ -93,6 +98,7 @@ class Car:
             values = run.values(turn(0.0))
             rows.append([values[name] for name in names])
             wanted: Mapping[str, Value] = {}
+            commanded: dict[str, Value] = {}
             for before, row in pairwise(steps):
                 time = float(before["end"])
                 ask, turn = requests.within(row, time).values()
@@ -102,13 +108,16 @@ class Car:
                 if before["recorded"]:
                     wanted = (controller(time, {name: values[name] for name in names}) if controller else None) or {}
                     instance.set({name: value for name, value in wanted.items() if name not in REQUESTS})
+                    commanded |= {name: value for name, value in wanted.items() if name not in REQUESTS and value}
                 asked = dict(zip(REQUESTS, (ask, turn)))
                 asked.update((name, course(name, value)) for name, value in wanted.items() if name in REQUESTS)
                 run.step(time, float(row["end"]) - time, [asked[name] for name in REQUESTS])
                 if row["recorded"]:
                     values = run.values(turn(float(row["end"])))
                     rows.append([values[name] for name in names])
-            warn([*prolonged(steps), *instance.messages])
+            values_of_run = self.fmu.numbers({**self._start(motion, begin, 0.0), **commanded})
+            off = OffOutputs.of(self.fmu, names, {variable.name: value for variable, value in values_of_run})
+            warn([*prolonged(steps), *in_short(instance.messages, self.accept_start_values), *off.texts])
         columns = zip(times_of_rows(steps).tolist(), rows)
         return np.array([(time, *values) for time, values in columns], [("time", np.float64), *((name, np.float64) for name in names)])
 

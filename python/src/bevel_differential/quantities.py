@@ -1,4 +1,4 @@
-"""Quantities for objectives and conditions that the FMU does not give: calculated from its parameters and outputs.
+"""Quantities that the FMU does not give: calculated from its parameters and outputs.
 
 They are dimensions and loads of the parts around the gears: envelope, pin, washers."""
 
@@ -8,9 +8,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import cos, pi, sin
 
-from ..fmu import Fmu
-from ..values import DifferentialError, Number, Variable, variable_suggestion
+import numpy as np
+
 from .pair import Pair, tool_room
+from .values import DifferentialError, Number, Variable
 
 
 @dataclass(frozen=True)
@@ -101,22 +102,25 @@ QUANTITIES = {
 }
 
 
-class Catalogue:
-    """Variables of the FMU and the quantities, by name, for look-ups by `Want.parse` and `Condition.parse`."""
+def outputs_of(name: str) -> tuple[str, ...]:
+    """Outputs of the FMU from which the value of a variable or quantity follows."""
+    return (*QUANTITIES[name].outputs, *QUANTITIES[name].loads) if name in QUANTITIES else (name,)
 
-    def __init__(self, fmu: Fmu):
-        self.fmu = fmu
 
-    def starts(self) -> dict[str, Number]:
-        """Start values of all parameters by name, SI, as the FMU declares them."""
-        return {each.name: each.start for each in self.fmu.variables.values() if each.causality == "parameter" and each.start is not None}
+def variable(name: str, variables: Mapping[str, Variable]) -> Variable:
+    """Quantity `name` as an output with its unit; `variables` of the FMU by name."""
+    found = copy.copy(variables[QUANTITIES[name].like])
+    found.name, found.causality, found.description = name, "output", None
+    return found
 
-    def variable(self, name: str) -> Variable:
-        """Variable, or the quantity as an output with its unit."""
-        if name in QUANTITIES:
-            found = copy.copy(self.fmu.variable(QUANTITIES[name].like))
-            found.name, found.causality = name, "output"
-            return found
-        if name not in self.fmu.variables:
-            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, [*self.fmu.variables, *QUANTITIES])}")
-        return self.fmu.variables[name]
+
+def series(name: str, parameters: Mapping[str, Number], record: np.ndarray) -> np.ndarray:
+    """Values of the quantity `name` in the rows of a record that has its outputs. `parameters`: all of them by name, SI. Loads count from
+    `strength.rate_from` on, each with its largest value so far."""
+    quantity, pair = QUANTITIES[name], Pair.of(parameters)
+    known = {**parameters, **{each: record[each][0].item() for each in quantity.outputs}}
+    if not quantity.loads:
+        return np.full(len(record), float(quantity.of(known, pair)))
+    rated = record["time"] >= min(parameters["strength.rate_from"], record["time"][-1])
+    loads = [np.maximum.accumulate(np.where(rated, record[each], 0.0)).tolist() for each in quantity.loads]
+    return np.array([quantity.of({**known, **dict(zip(quantity.loads, row))}, pair) for row in zip(*loads)], float)
