@@ -154,8 +154,8 @@ impl ExportQuestion {
 impl LoadsQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let (scene, every) = (self.of.scene(progress)?, seconds("every", self.every.as_deref())?);
-        let lines = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
-        Ok(json!({"lines": lines, "file": self.out}))
+        let (lines, text) = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
+        Ok(json!({"lines": lines, "file": self.out, "text": text}))
     }
 }
 
