@@ -13,7 +13,8 @@ use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
 use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
-use crate::scene::set::{Setting, changed_values, value};
+use crate::scene::set::{Setting, changed_values};
+use crate::scene::value::of_text;
 use crate::scene::{self, InputTable, Scene, acting, curve, former_names, loads, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
@@ -101,7 +102,7 @@ impl ScenesQuestion {
 
 impl CurveQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
-        let settings = curve::settings(curve::CURVE, &value(&self.value), Path::new(""))?;
+        let settings = curve::settings(curve::CURVE, &of_text(&self.value), Path::new(""))?;
         Ok(json!({"set": values(&settings)}))
     }
 }

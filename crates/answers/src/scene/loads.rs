@@ -129,7 +129,11 @@ fn explanation(scene: &Scene, every: f64, run: &SceneRun) -> String {
             .map(|i| (i + 1).to_string())
             .collect();
         if planets.len() > 1 {
-            out += &format!("planet {} stands for planets {}, whose loads are equal\n", group.planet + 1, planets.join(", "));
+            out += &format!(
+                "planet {} stands for planets {}, whose loads are equal\n",
+                group.planet + 1,
+                planets.join(", ")
+            );
         }
     }
     let degrees = |i: usize| pair.gears[i].tooth_pitch() * 180.0 / PI;

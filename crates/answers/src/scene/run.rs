@@ -160,10 +160,13 @@ impl<'a> SceneRun<'a> {
         None
     }
 
-    /// Value of an output.
+    /// Value of an output, or of an input.
     pub fn read(&mut self, row: &Variable) -> f64 {
         match row.access {
             Access::Output(source) => source.read(&mut self.simulation),
+            // after a jump, the simulation may approach the value on a ramp
+            Access::Input(slot) if self.begun.is_some() => *slot(&mut self.inputs),
+            Access::Input(slot) => *slot(&mut { *self.simulation.inputs() }),
             _ => f64::NAN,
         }
     }
