@@ -22,11 +22,10 @@ def csv_text(file: FileName) -> str:
     if not Path(file).is_file():
         raise DifferentialError(f"{file}: there is no such file")
     rows = [["" if cell is None else cell for cell in row] for row in _rows(file)]
-    filled = [place for row in rows for place, cell in enumerate(row) if cell != ""]
+    width = 1 + max((place for row in rows for place, cell in enumerate(row) if cell != ""), default=-1)
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
     # an empty row keeps its line, so that messages name the lines of the sheet
-    writer.writerows([*row, *[""] * max(filled, default=-1)][:1 + max(filled, default=-1)] if any(cell != "" for cell in row) else [] for row in rows)
+    csv.writer(out, lineterminator="\n").writerows([*row, *[""] * width][:width] if any(cell != "" for cell in row) else [] for row in rows)
     return out.getvalue()
 
 
@@ -34,7 +33,8 @@ def _rows(file: FileName) -> Iterable[Iterable[Any]]:
     """Cells of the first sheet. Formulas have their last results."""
     try:
         if openpyxl := _module("openpyxl"):
-            return [list(row) for row in openpyxl.load_workbook(file, read_only=True, data_only=True).worksheets[0].iter_rows(values_only=True)]
+            sheet = openpyxl.load_workbook(file, read_only=True, data_only=True).worksheets[0]
+            return [list(row) for row in sheet.iter_rows(values_only=True)]
         if calamine := _module("python_calamine"):
             return calamine.CalamineWorkbook.from_path(str(file)).get_sheet_by_index(0).to_python(skip_empty_area=False)
     except Exception as error:

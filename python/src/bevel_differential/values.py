@@ -127,8 +127,10 @@ class Variable:
                     "literals": list(self.literals.items()), "value": self._plain(value)}
         found = _reply(question)
         if "answer" not in found:
-            raise DifferentialError(f"{self.name} = {_shown(value)}: {found['problems'][0]['message']}")
-        return found["answer"]["value"]
+            raise DifferentialError(f"{self.name} = {value!r}: {found['problems'][0]['message']}")
+        number = found["answer"]["value"]
+        # JSON has neither NaN nor infinity
+        return self._finite(math.nan, value) if number is None else number
 
     def checked(self, value: Value) -> Number:
         """`value` in the form of the FMU. A value with a unit must be within the range, because the message of the FMU would guess the
@@ -158,6 +160,8 @@ class Variable:
         distribution and of a band is a difference. If only some of the numbers have a unit, this is an error: in "4..5 mm" the first number
         would be 4 m."""
         read = [split(part) for part in parts]
+        if any(found and found[1] for found in read) and re.search(r"\d,\d", written):
+            raise DifferentialError(f"{self.name} = {written}: write decimal points, and a unit at each number; the comma separates numbers")
         bare = [part for part, found in zip(parts, read) if found and not found[1] and found[0] != 0.0]
         if bare and any(found and found[1] for found in read):
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit, but others have one; write it at each "
@@ -218,7 +222,9 @@ class Variable:
             return bool(value)
         if isinstance(value, tuple) and len(value) == 2:
             number, unit = value
-            return f"{number if isinstance(number, str) else repr(self._finite(number, value))} {unit or ''}".strip()
+            # the reader explains a decimal comma
+            has_comma = isinstance(number, str) and "," in number
+            return f"{number if has_comma else repr(self._finite(number, value))} {unit or ''}".strip()
         return value if isinstance(value, str) else self._finite(value, value)
 
     def _finite(self, value, written):
@@ -254,11 +260,6 @@ class Variables(Protocol):
 
     def variable(self, name: str) -> Variable:
         """Variable `name`. Raises `DifferentialError` for an unknown name."""
-
-
-def _shown(value):
-    """Value in a message, as the user wrote it."""
-    return f"\"{value}\"" if isinstance(value, str) else repr(value)
 
 
 def suggestion(word: str, known: Iterable[str]) -> str:
