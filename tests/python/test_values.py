@@ -15,7 +15,7 @@ GOOD = [
     ("geometry.planet_teeth", "12.0", "12.0", 12),
     ("geometry.planet_teeth", "12", "\"12\"", 12),
     ("effects.half_shaft", "True", "\"True\"", True),
-    ("effects.half_shaft", "false", "0", False),
+    ("effects.half_shaft", "false", "\"FALSE\"", False),
     ("scene.start", "rolling", "\"rolling\"", 2),
     ("solver.fixed_step", "0.1 ms", "\"0.1 ms\"", 1e-4),
     ("solver.fixed_step", "100 us", "\"100 µs\"", 1e-4),

@@ -218,7 +218,8 @@ class Variable:
 
     def _plain(self, value):
         """Value for the reader: text, true or false, or a finite number."""
-        if isinstance(value, (bool, np.bool_)):
+        is_digit = self.kind == "Boolean" and isinstance(value, (int, np.integer)) and value in (0, 1)
+        if is_digit or isinstance(value, (bool, np.bool_)):
             return bool(value)
         if isinstance(value, tuple) and len(value) == 2:
             number, unit = value

@@ -97,9 +97,10 @@ pub fn split(text: &str) -> Result<(f64, String), String> {
     // the number is the longest prefix that parses as one: "5e3" in "5e3 m", "5" in "5 m"
     let ends = (1..=text.len()).rev().filter(|&end| text.is_char_boundary(end));
     let found = ends.filter_map(|end| Some((text[..end].trim_end().parse::<f64>().ok()?, end))).next();
-    let Some((number, end)) = found.filter(|(number, _)| number.is_finite()) else {
-        return Err(format!("\"{text}\" does not begin with a number"));
-    };
+    let Some((number, end)) = found else { return Err(format!("\"{text}\" does not begin with a number")) };
+    if !number.is_finite() {
+        return Err(format!("\"{text}\" is not a finite number"));
+    }
     let rest = &text[end..];
     if rest.strip_prefix(',').is_some_and(|part| part.starts_with(|letter: char| letter.is_ascii_digit())) {
         return Err(format!("\"{text}\" has a decimal comma: write {}", text.replacen(',', ".", 1)));

@@ -58,18 +58,14 @@ pub fn whole(value: &Value) -> Result<i32, String> {
     if (min..=max).contains(&number) { Ok(number as i32) } else { Err(format!("{} from {min} to {max}", wrong())) }
 }
 
-/// Returns true or false, which may also be written as 1 or 0.
+/// Returns true or false, in upper or lower case.
 pub fn truth(value: &Value) -> Result<bool, String> {
     match value {
-        Value::Boolean(truth) => return Ok(*truth),
-        Value::Integer(0) => return Ok(false),
-        Value::Integer(1) => return Ok(true),
-        Value::Float(number) if *number == 0.0 || *number == 1.0 => return Ok(*number == 1.0),
-        Value::String(text) if text.eq_ignore_ascii_case("true") => return Ok(true),
-        Value::String(text) if text.eq_ignore_ascii_case("false") => return Ok(false),
-        _ => {}
+        Value::Boolean(truth) => Ok(*truth),
+        Value::String(text) if text.eq_ignore_ascii_case("true") => Ok(true),
+        Value::String(text) if text.eq_ignore_ascii_case("false") => Ok(false),
+        _ => Err("must be true or false".into()),
     }
-    Err("must be true or false".into())
 }
 
 /// Returns the number of a literal of an enumeration, which is given by its name or its number. `choices`: names and
@@ -113,11 +109,11 @@ mod tests {
     }
 
     #[test]
-    fn truth_is_a_word_or_a_digit() {
-        for (value, wanted) in [(text("True"), true), (of_text("true"), true), (Value::Integer(0), false)] {
+    fn truth_is_a_word() {
+        for (value, wanted) in [(text("True"), true), (of_text("true"), true), (text("FALSE"), false)] {
             assert_eq!(truth(&value), Ok(wanted), "{value}");
         }
-        for wrong in [text("yes"), Value::Integer(2), Value::Float(0.5)] {
+        for wrong in [text("yes"), Value::Integer(1), Value::Float(0.5)] {
             assert!(truth(&wrong).is_err(), "{wrong}");
         }
     }
