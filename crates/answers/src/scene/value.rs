@@ -100,10 +100,10 @@ mod tests {
     #[test]
     fn whole_numbers_may_have_decimals_that_are_zero() {
         for twelve in [Value::Integer(12), Value::Float(12.0), text("12"), text("12.0")] {
-            assert_eq!(whole(&twelve), Ok(12), "{twelve}");
+            assert_eq!(whole(&twelve), Ok(12), "{twelve:?}");
         }
         for wrong in [Value::Float(12.5), text("12.5"), text("ten"), Value::Boolean(true), Value::Float(f64::NAN)] {
-            assert!(whole(&wrong).is_err_and(|problem| problem.starts_with("must be a whole number")), "{wrong}");
+            assert!(whole(&wrong).is_err_and(|problem| problem.starts_with("must be a whole number")), "{wrong:?}");
         }
         assert!(whole(&Value::Float(3e9)).is_err_and(|problem| problem.ends_with("to 2147483647")));
     }
@@ -111,10 +111,10 @@ mod tests {
     #[test]
     fn truth_is_a_word() {
         for (value, wanted) in [(text("True"), true), (of_text("true"), true), (text("FALSE"), false)] {
-            assert_eq!(truth(&value), Ok(wanted), "{value}");
+            assert_eq!(truth(&value), Ok(wanted), "{value:?}");
         }
         for wrong in [text("yes"), Value::Integer(1), Value::Float(0.5)] {
-            assert!(truth(&wrong).is_err(), "{wrong}");
+            assert!(truth(&wrong).is_err(), "{wrong:?}");
         }
     }
 
@@ -122,10 +122,10 @@ mod tests {
     fn literals_have_names_and_numbers() {
         let choices = [("rest", 1), ("rolling", 3)];
         for value in [text("rolling"), Value::Integer(3), Value::Float(3.0)] {
-            assert_eq!(literal(&value, &choices), Ok(3), "{value}");
+            assert_eq!(literal(&value, &choices), Ok(3), "{value:?}");
         }
         for wrong in [text("roling"), Value::Integer(2), Value::Boolean(true)] {
-            assert!(literal(&wrong, &choices).is_err_and(|problem| problem.contains("rest, rolling")), "{wrong}");
+            assert!(literal(&wrong, &choices).is_err_and(|problem| problem.contains("rest, rolling")), "{wrong:?}");
         }
     }
 }
