@@ -15,13 +15,14 @@ import pytest
 import theory
 from bevel_differential import DifferentialError, Scene, losses as package
 from bevel_differential.command import main
-from bevel_differential.csv_table import CsvTable, Quantity, Text
+from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
 from bevel_differential.losses import VARIABLES, command, inputs, losses
 from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting,
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
+from bevel_differential.values import Quantity
 from interrupts import changed_command, with_interrupts
 from warned_lines import without_warnings
 
@@ -165,10 +166,9 @@ def test_a_map_keeps_its_bound_against_the_closed_form(mapped):
     assert np.all(np.abs(mapped.at(points) - expected) <= mapped.bound.of_figures(expected, points))
 
 
-def test_tables_have_units_and_the_same_numbers(mapped, tmp_path):
+def test_tables_have_the_same_numbers(mapped, tmp_path):
     from bevel_differential.losses.tables import save, save_for_simulink
-    units = {"N.m": 1.0, "rad/s": 1.0, "K": 1.0, "W": 1.0, "1": 1.0, "%": 1.0}
-    table = CsvTable(save(mapped, tmp_path / "map.csv"), lambda name: Text(name) if name == "kind" else Quantity(name, units))
+    table = CsvTable(save(mapped, tmp_path / "map.csv"), lambda name: Text(name) if name == "kind" else Quantity(name, "%"))
     rows = [values for _, values in table.rows]
     assert [column.head for column in table.columns.values()] == HEAD
     counts = {kind: sum(row["kind"] == kind for row in rows) for kind in ("map", "stuck", "unseen")}
@@ -177,7 +177,7 @@ def test_tables_have_units_and_the_same_numbers(mapped, tmp_path):
     ratio, effect = bias(row["left.shaft_torque"], row["right.shaft_torque"])
     assert row["torque_bias_ratio"] == ratio > 1.0 and row["locking_effect"] == effect
     parquet = pq.read_table(save(mapped, tmp_path / "map.parquet"))
-    assert parquet.column_names == HEAD and parquet["power.loss [W]"].to_pylist() == [row["power.loss"] for row in rows]
+    assert parquet.column_names == HEAD and parquet["power.loss"].to_pylist() == [row["power.loss"] for row in rows]
     script = save_for_simulink(mapped, tmp_path / "map.m").read_text(encoding="utf-8")
 
     def array(name):
@@ -208,7 +208,7 @@ def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file
     assert any(effect is not None for effect in effects) and all(effect is None or 0.0 <= effect <= 100.0 for effect in effects)
     for row in table:
         if row["kind"] == "map":
-            moved, total = 2.0 * PRELOAD, abs(row["carrier.torque [N.m]"])
+            moved, total = 2.0 * PRELOAD, abs(row["carrier.torque"])
             expected = pytest.approx(100.0 * moved / total, rel=1e-3) if total > moved else None
             assert row["locking_effect [%]"] == expected, row
 

@@ -8,12 +8,13 @@ from types import SimpleNamespace
 import pytest
 from bevel_differential import DifferentialError, Scene, extras
 from bevel_differential.command import main
-from bevel_differential.csv_table import CsvTable, Quantity, Text
+from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.losses import VARIABLES, MeasuredMap, losses
 from bevel_differential.losses.grid import Bound
 from bevel_differential.losses.picture import draw
 from bevel_differential.losses.report import write
 from bevel_differential.losses.tables import HEAD, save
+from bevel_differential.values import Quantity
 from matplotlib.figure import Figure
 from report_page import ReportPage
 
@@ -87,9 +88,8 @@ def text(mapped, tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def rows(mapped, tmp_path_factory):
-    units = {"N.m": 1.0, "rad/s": 1.0, "K": 1.0, "W": 1.0, "1": 1.0, "%": 1.0}
     file = save(mapped, tmp_path_factory.mktemp("table") / "map.csv")
-    return [values for _, values in CsvTable(file, lambda name: Text(name) if name == "kind" else Quantity(name, units)).rows]
+    return [values for _, values in CsvTable(file, lambda name: Text(name) if name == "kind" else Quantity(name, "%")).rows]
 
 
 def number(cell):

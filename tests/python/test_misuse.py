@@ -66,7 +66,7 @@ def test_figures_need_two_points(driven):
 
 def test_the_limit_of_a_time_is_a_time(fmu):
     assert Condition.parse(fmu, "left.speed:time_of_peak > 20 ms").limit == 0.02
-    with pytest.raises(DifferentialError, match="write seconds"):
+    with pytest.raises(DifferentialError, match="units that do: s, ms, us, min, h"):
         Condition.parse(fmu, "left.speed:time_of_peak > 20 deg/s")
 
 
@@ -84,7 +84,7 @@ def test_a_grid_never_repeats_a_whole_number_and_stays_small(fmu):
 
 @pytest.mark.parametrize("value", [3_000_000_000, -2**31 - 1, 1e300])
 def test_whole_numbers_beyond_those_of_fmi_are_an_error(fmu, value):
-    with pytest.raises(DifferentialError, match="whole number from -2147483648 to 2147483647"):
+    with pytest.raises(DifferentialError, match="must be a whole number from -2147483648 to 2147483647"):
         fmu.variable("tooth_errors.seed").number(value)
 
 
@@ -165,7 +165,7 @@ def test_outputs_are_a_list_without_repetition(fmu_file):
 
 @pytest.mark.parametrize("name", ["geometry.module", "geometry.planet_teeth"])
 def test_true_is_not_a_number(fmu, name):
-    with pytest.raises(DifferentialError, match="it is a number"):
+    with pytest.raises(DifferentialError, match="must be a (whole )?number"):
         fmu.variable(name).number(True)
 
 

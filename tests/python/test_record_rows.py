@@ -42,7 +42,7 @@ def test_a_jump_has_two_rows_and_the_mean_across_it_is_exact(kind, step, sign, f
         means = [line.split()[3] for line in scene.summary(record).splitlines()[1:]]
         assert [float(mean) for mean in means] == pytest.approx(list(exact.values()), rel=1e-5)
         with open(scene.to_csv(record, tmp_path / "a.csv"), encoding="utf-8") as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+            rows = list(csv.DictReader(file))
         assert [float(row["time"]) for row in rows] == record["time"].tolist()
         assert [float(row[TORQUE]) for row in rows] == record[TORQUE].tolist()
 

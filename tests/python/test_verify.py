@@ -51,7 +51,7 @@ def test_the_shipped_unit_passes_in_all_scenes(fmu_file, tmp_path, capsys, versi
     lines = capsys.readouterr().out.splitlines()
     assert f"{len(SCENES)} scenes, {len(SCENES)} passed" in lines
     assert all(any(re.match(rf"{name} .* passed$", line) for line in lines) for name in SCENES)
-    rows = list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
+    rows = list(csv.DictReader(file.read_text().splitlines()))
     for name, scene in SCENES.items():
         outputs = Scene.load(scene, fmu=fmu_file).outputs
         assert sorted(row["variable"] for row in rows if row["scene"] == name) == sorted(outputs)
@@ -112,14 +112,14 @@ def test_one_wrong_value_of_a_result_is_noticed_at_its_place(unit, capsys):
     ({"parameters/hil.ssv": lambda text: text.replace('value="ideal"', 'value="idel"')}, ["parameters/hil.ssv", "scene.gear_contact", "'idel'", "ideal"]),
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="ten"', 1)}, ["parameters/hil.ssv", "'ten'", "is a number"]),
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="NaN"', 1)}, ["parameters/hil.ssv", "'NaN'", "finite"]),
-    ({"parameters/hil.ssv": lambda text: text.replace('unit="N.m"', 'unit="lbf.ft"', 1)}, ["parameters/hil.ssv", "lbf.ft", "N.m"]),
+    ({"parameters/hil.ssv": lambda text: text.replace('unit="N.m"', 'unit="stone.ft"', 1)}, ["parameters/hil.ssv", "stone.ft", "N.m"]),
     ({"parameters/hil.ssv": lambda text: re.sub('<ssv:Real value="10.0".*?/>', "", text, count=1)}, ["parameters/hil.ssv", "half_shaft", "''"]),
     ({"parameters/hil.ssv": "<"}, ["parameters/hil.ssv", "not valid XML"]),
     ({"parameters/hil.ssv": lambda text: text.replace('value="10.0"', 'value="-10.0"', 1)}, ["the unit fails", "half_shaft"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "clunk,left.twist")}, ["tolerances.csv", "left.twist", "hil"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist", "hil,left.twits")}, ["tolerances.csv, line", "left.twits", "did you mean"]),
     ({"tolerances.csv": lambda text: re.sub(r"(hil,left.twist,rad),\S+", r"\1,0", text)}, ["tolerances.csv, line", "= 0", "above 0"]),
-    ({"tolerances.csv": lambda text: re.sub(r"(hil,left.twist,rad),\S+", r"\1,nan", text)}, ["tolerances.csv, line", "'nan'", "write a number"]),
+    ({"tolerances.csv": lambda text: re.sub(r"(hil,left.twist,rad),\S+", r"\1,nan", text)}, ["tolerances.csv, line", "'nan'", "finite number"]),
     ({"tolerances.csv": lambda text: text.replace("hil,left.twist,rad,", "hil,left.twist,deg,")}, ["tolerances.csv, line", "left.twist", "rad, not 'deg'"]),
 ])
 def test_broken_evidence_is_reported_by_name(unit, capsys, changes, parts):

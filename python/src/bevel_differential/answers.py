@@ -4,6 +4,7 @@ Each question is a dict with the key "ask"; the repository has all questions in 
 
 import json
 import os
+import tomllib
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -12,6 +13,7 @@ import numpy as np
 
 from .interrupts import held_back
 from .library import reply
+from .spreadsheet import csv_text, is_spreadsheet
 from .values import DifferentialError
 from .warned import warn
 
@@ -49,10 +51,21 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
 def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: Sequence[str] = ()) -> dict[str, Any]:
     """Scene of a question: a file, the name of a shipped scene, or a `Scene`, with `changes` (values by name) and
     `display_units`."""
-    given = {"given": scene.contents()} if hasattr(scene, "contents") else {}
-    name = scene.name if given else os.fspath(scene)
+    given = {"given": scene.contents()} if hasattr(scene, "contents") else {"contents": _spreadsheets(Path(scene))}
+    name = scene.name if "given" in given else os.fspath(scene)
     return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes),
             "display_units": list(display_units)}
+
+
+def _spreadsheets(scene):
+    """Input files of a scene that the library cannot read, as CSV, by their paths in the scene."""
+    try:
+        inputs = tomllib.loads(scene.read_text(encoding="utf-8")).get("inputs", []) if scene.is_file() else []
+        files = [entry["file"] for entry in inputs]
+    except (OSError, ValueError, TypeError, KeyError, AttributeError):
+        # the library describes the problem of the file
+        return {}
+    return {file: csv_text(scene.parent / file) for file in files if isinstance(file, str) and is_spreadsheet(file)}
 
 
 def assignments(values: Mapping[str, Any] | None) -> list[str]:

@@ -2,33 +2,15 @@
 
 import os
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
 from .answers import ask
-from .points import PER_SECOND
+from .spreadsheet import csv_text, is_spreadsheet
 from .values import DifferentialError, FileName, Number, Variable
 
 _HEAD = re.compile(r"\s*(?P<name>[^\[\]]+?)\s*(?:\[(?P<unit>[^\[\]]*)\])?\s*$")
-
-
-class Quantity(Variable):
-    """Quantity other than the variables of the FMU. `units`: {unit: its size in SI}; the first unit is SI."""
-
-    def __init__(self, name: str, units: Mapping[str, float]):
-        self.name, self.kind, self.causality, self.literals = name, "Real", "input", {}
-        self.minimum = self.maximum = None
-        self.unit = next(iter(units))
-        self.units = {unit: (1.0 / size, 0.0) for unit, size in units.items()}
-
-
-class Time(Quantity):
-    """Quantity with the units of time."""
-
-    def __init__(self, name: str):
-        super().__init__(name, {"s": 1.0})
-        self.units = {unit: (number, 0.0) for unit, number in PER_SECOND.items() if unit}
 
 
 class Text:
@@ -124,11 +106,12 @@ class CsvTable:
 
 
 def lines_of(file: FileName, shown: str | None = None, texts: Iterable[str] = ()) -> list[tuple[int, list[str]]]:
-    """Pairs (line, cells) of a CSV file, the header first. All lines have the same number of cells; numbers have decimal points.
+    """Pairs (line, cells) of a CSV file or a spreadsheet, the header first. All lines have the same number of cells; numbers have decimal points.
 
     Columns are separated by commas, semicolons or tabs. `shown`: name of the file in errors; `texts`: names of columns with words.
     Raises `DifferentialError` with file and line if the file is ambiguous."""
-    found = ask({"ask": "table", "file": os.fspath(file), "shown": shown or os.fspath(file), "texts": list(texts)})
+    content = {"content": csv_text(file)} if is_spreadsheet(file) else {}
+    found = ask({"ask": "table", "file": os.fspath(file), "shown": shown or os.fspath(file), "texts": list(texts), **content})
     return [tuple(row) for row in (found["header"], *found["rows"])]
 
 

@@ -4,12 +4,10 @@ from typing import TypeAlias
 
 import numpy as np
 
-from .values import DifferentialError, split
+from .values import DifferentialError, Quantity
 
 # a time in the form that users write: s, or text such as "5 ms"
 TimeValue: TypeAlias = float | str
-# size of a second in each unit
-PER_SECOND = {"": 1.0, "s": 1.0, "ms": 1e3, "us": 1e6, "min": 1.0 / 60.0, "h": 1.0 / 3600.0}
 
 # communication points are rounded: times that differ by less than this fraction of a step are equal
 SAME = 1e-6
@@ -17,19 +15,7 @@ SAME = 1e-6
 
 def seconds(what: str, time: TimeValue) -> float:
     """Time in seconds from a number in s, or from text such as "5 ms". `what` names the time in errors."""
-    if isinstance(time, str):
-        number, unit = split(time)
-        try:
-            time = float(number) / PER_SECOND[unit]
-        except (KeyError, ValueError):
-            raise DifferentialError(f"{what} = {time!r}: write seconds, or a number and one of s, ms, us, min, h") from None
-    try:
-        finite = bool(np.isfinite(time)) and not isinstance(time, bool)
-    except TypeError:
-        finite = False
-    if not finite:
-        raise DifferentialError(f"{what} = {time!r}: it is a finite time, s")
-    return float(time)
+    return float(Quantity(what, "s").number(time))
 
 
 def span(what: str, time: TimeValue) -> float:

@@ -1,18 +1,41 @@
-"""Tables in files: CSV with comment lines that start with #, then a header and rows; or Parquet."""
+"""Tables in files: CSV with a plain header, which every program reads, or Parquet."""
 
 import csv
-from collections.abc import Iterable, Sequence
+import io
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
 from .extras import require
 from .output_file import checked, is_parquet
-from .values import FileName
+from .values import DifferentialError, FileName
 from .writing import whole
 
 
+# decimal sign of the numbers in a CSV file, and separator of its columns
+DECIMALS = {"point": (".", ","), "comma": (",", ";")}
+_decimal = ContextVar("decimal", default="point")
+_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?", re.IGNORECASE)
+
+
+@contextmanager
+def decimal(sign: str) -> Iterator[None]:
+    """Context in which CSV files have this decimal sign: "point", or "comma" for spreadsheets of countries that write 0,5. With decimal
+    commas, semicolons separate the columns."""
+    if sign not in DECIMALS:
+        raise DifferentialError(f"decimal sign {sign!r}: it is {' or '.join(DECIMALS)}")
+    token = _decimal.set(sign)
+    try:
+        yield
+    finally:
+        _decimal.reset(token)
+
+
 def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *comments: str) -> Path:
-    """Writes a file, as Parquet if its ending says so; numbers are read back to the same bits."""
+    """Writes a file, as Parquet if its ending says so; numbers are read back to the same bits. `comments` become metadata of Parquet."""
     checked(file, "table")
     if is_parquet(file):
         pa = require("pyarrow", "sweep")
@@ -22,11 +45,28 @@ def write(file: FileName, head: Sequence[str], rows: Iterable[Iterable[Any]], *c
             require("pyarrow.parquet", "sweep").write_table(table.replace_schema_metadata({"comment": "\n".join(comments)}), part)
         return Path(file)
     with whole(file) as part, open(part, "w", newline="", encoding="utf-8") as out:
-        out.writelines(f"# {comment}\n" for comment in comments)
-        writer = csv.writer(out, lineterminator="\n")
+        sign, separator = DECIMALS[_decimal.get()]
+        writer = csv.writer(out, delimiter=separator, lineterminator="\n")
         writer.writerow(head)
-        writer.writerows(rows)
+        writer.writerows(rows if sign == "." else ([_with(sign, cell) for cell in row] for row in rows))
     return Path(file)
+
+
+def localised(text: str) -> str:
+    """Text of a CSV file with decimal points in the decimal sign of the context."""
+    sign, separator = DECIMALS[_decimal.get()]
+    if sign == ".":
+        return text
+    out = io.StringIO()
+    cells = csv.reader(io.StringIO(text, newline=""))
+    csv.writer(out, delimiter=separator, lineterminator="\n").writerows([_with(sign, cell) for cell in row] for row in cells)
+    return out.getvalue()
+
+
+def _with(sign, cell):
+    """Cell with this decimal sign, if it is a number."""
+    is_number = isinstance(cell, float) or isinstance(cell, str) and _NUMBER.fullmatch(cell)
+    return str(cell).replace(".", sign) if is_number else cell
 
 
 def read(path):

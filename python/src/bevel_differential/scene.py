@@ -141,11 +141,11 @@ class Scene(Runner):
         return "\n".join(aligned(lines))
 
     def to_csv(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
-        """Writes a record in SI, with the units in a comment; numbers are read back to the same bits. With `display_units`, of this call or
-        of the scene, quantities of their dimensions have these units, and names of columns contain units: "left.speed [rpm]"."""
-        head, units, columns = self.columns(record, display_units)
-        return write(file, head, zip(*(column.tolist() for column in columns)), f"scene {self.name}: {self.description}",
-                     f"units: {','.join(units)}")
+        """Writes a record in SI under the names of the FMU; numbers are read back to the same bits. The file can be an input of scenes and of
+        fmpy. With `display_units`, of this call or of the scene, quantities of their dimensions have these units, and names of columns
+        contain units, "left.speed [rpm]", which fmpy does not accept."""
+        head, _, columns = self.columns(record, display_units)
+        return write(file, head, zip(*(column.tolist() for column in columns)))
 
     def columns(self, record: np.ndarray, display_units: Sequence[str] = ()) -> tuple[list[str], list[str], list[np.ndarray]]:
         """Names, units and values of the columns of a record in a file; see `to_csv`."""
@@ -161,13 +161,14 @@ class Scene(Runner):
         return head, units, columns
 
     def to_parquet(self, record: np.ndarray, file: FileName, display_units: Sequence[str] = ()) -> Path:
-        """Writes a record as Parquet, in the units of `to_csv`; the fields contain their units."""
+        """Writes a record as Parquet, in the units of `to_csv`; the fields contain their units, the table name and description of the scene."""
         checked(file, "Parquet file")
         pa = require("pyarrow", "sweep")
         head, units, columns = self.columns(record, display_units)
         fields = [pa.field(name, pa.from_numpy_dtype(column.dtype), metadata={"unit": unit})
                   for name, unit, column in zip(head, units, columns)]
-        table = pa.table([np.ascontiguousarray(column) for column in columns], pa.schema(fields))
+        about = {"scene": self.name, "description": self.description}
+        table = pa.table([np.ascontiguousarray(column) for column in columns], pa.schema(fields, metadata=about))
         with whole(file) as part:
             require("pyarrow.parquet", "sweep").write_table(table, part)
         return Path(file)

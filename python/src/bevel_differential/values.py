@@ -5,6 +5,7 @@ import math
 import os
 import re
 from collections.abc import Iterable, Mapping, Sequence, Set
+from functools import cache
 from typing import TYPE_CHECKING, Any, Protocol, Self, TypeAlias, TypeVar
 
 import numpy as np
@@ -28,29 +29,32 @@ NOBODY_SET = "these start values of the study influence this scene, and nobody s
 # statuses from this one on are errors: fmi2Discard, fmi2Error, fmi2Fatal
 DISCARD = 2
 
-_Shown = TypeVar("_Shown", float, np.ndarray)
+_Number = TypeVar("_Number", float, np.ndarray)
 
 # kinds of FMI 3.0 by the names of FMI 2.0
 _KINDS = {"Float64": "Real", "Int32": "Integer", "UInt64": "Integer"}
-_NUMBER_AND_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*?)?\s*$")
-
 # separator between the middle of a band and its half width
 BAND = re.compile(r"\+-|\+/-|±")
-# alternative spellings of units
-_SPELLINGS = {"·": ".", "*": ".", "°": "deg", "µ": "u", "μ": "u", "²": "2", "Nm": "N.m", "1/min": "rpm"}
 
 
-def spelled(unit: str) -> str:
-    """Name of a unit as the FMU spells it: "N.m" for "N·m"."""
-    for spelling, name in _SPELLINGS.items():
-        unit = unit.replace(spelling, name)
-    return unit
+def split(text: str) -> tuple[float, str] | None:
+    """Number and unit of a text, with or without a blank between, or None if the text does not begin with a number."""
+    found = _reply({"ask": "split", "text": text})
+    return (found["answer"]["number"], found["answer"]["unit"]) if "answer" in found else None
 
 
-def split(text: str) -> tuple[str, str]:
-    """Number and unit of a text, with or without a blank between. If the text does not begin with a number, all of it is the number."""
-    match = _NUMBER_AND_UNIT.match(text)
-    return (match[1], match[2] or "") if match else (text.strip(), "")
+@cache
+def units_of(unit: str) -> dict[str, tuple[float, float]]:
+    """Units in which values of an SI unit may be written: their number in one SI unit, and their value for 0 in SI, by name."""
+    return {name: (factor, offset) for name, (factor, offset) in _reply({"ask": "units", "unit": unit})["answer"]["units"].items()}
+
+
+def _reply(question):
+    """Reply of the library, which reads all values."""
+    try:
+        return reply(question)
+    except OSError as missing:
+        raise DifferentialError(str(missing), kind="failed") from None
 
 
 class DifferentialError(ValueError):
@@ -116,16 +120,17 @@ class Variable:
     def number(self, value: Value) -> Number:
         """`value` in the form of the FMU: SI, number of a literal, bool.
 
-        `value` may be a number, a pair (number, unit), text such as "4.5 mm", or a literal's name."""
-        if self.kind == "Boolean":
-            return self._boolean(value)
-        if self.kind == "Enumeration":
-            return self._literal(value)
-        if isinstance(value, tuple) and len(value) == 2:
-            return self._whole(self._si(value[0], value[1], value))
-        if isinstance(value, str):
-            return self._whole(self._parsed(value))
-        return self._whole(self._float(value, value))
+        `value` may be a number, a pair (number, unit), text such as "4.5 mm", true or false, or a literal's name or number."""
+        if self.kind == "Real" and isinstance(value, float) and math.isfinite(value):
+            return float(value)
+        question = {"ask": "value", "kind": self.kind, "unit": self.unit or "1", "is_relative": self.is_relative,
+                    "literals": list(self.literals.items()), "value": self._plain(value)}
+        found = _reply(question)
+        if "answer" not in found:
+            raise DifferentialError(f"{self.name} = {value!r}: {found['problems'][0]['message']}")
+        number = found["answer"]["value"]
+        # JSON has neither NaN nor infinity
+        return self._finite(math.nan, value) if number is None else number
 
     def checked(self, value: Value) -> Number:
         """`value` in the form of the FMU. A value with a unit must be within the range, because the message of the FMU would guess the
@@ -154,9 +159,11 @@ class Variable:
         """Values of the texts in a list, range, distribution or band, which is `written` as a whole. The second number of a normal
         distribution and of a band is a difference. If only some of the numbers have a unit, this is an error: in "4..5 mm" the first number
         would be 4 m."""
-        matches = [_NUMBER_AND_UNIT.match(part) for part in parts]
-        bare = [part for part, match in zip(parts, matches) if match and not match[2] and float(match[1]) != 0.0]
-        if bare and any(match and match[2] for match in matches):
+        read = [split(part) for part in parts]
+        if any(found and found[1] for found in read) and re.search(r"\d,\d", written):
+            raise DifferentialError(f"{self.name} = {written}: write decimal points, and a unit at each number; the comma separates numbers")
+        bare = [part for part, found in zip(parts, read) if found and not found[1] and found[0] != 0.0]
+        if bare and any(found and found[1] for found in read):
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit, but others have one; write it at each "
                                     "number")
         second = self.differences() if written.startswith("normal(") or BAND.search(written) else self
@@ -166,8 +173,8 @@ class Variable:
         """True if `value` is written with its unit."""
         if self.kind != "Real":
             return False
-        match = _NUMBER_AND_UNIT.match(value) if isinstance(value, str) else None
-        return bool(match and match[2]) or (isinstance(value, tuple) and value[1] is not None)
+        found = split(value) if isinstance(value, str) else None
+        return bool(found and found[1]) or (isinstance(value, tuple) and value[1] is not None)
 
     def check_range(self, number: Number, written: Value) -> None:
         """Refuses an SI number outside the range of the model description; the message shows values in the usual unit."""
@@ -182,11 +189,15 @@ class Variable:
         """Copy of this variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset: 5 K,
         not 5 degC."""
         found = copy.copy(self)
-        if unit is not None and not (self.is_relative and unit in self._with_offset):
+        if unit is not None and unit not in self.units:
+            more = units_of(self.unit or "1")
+            found._with_offset = {*self._with_offset, *(name for name, (_, offset) in more.items() if offset)}
+            found.units = {name: (factor, 0.0 if self.is_relative else offset) for name, (factor, offset) in more.items()} | self.units
+        if unit is not None and not (self.is_relative and unit in found._with_offset):
             found._usual = unit
         return found
 
-    def shown(self, values: _Shown) -> tuple[str, _Shown]:
+    def shown(self, values: _Number) -> tuple[str, _Number]:
         """Usual unit of the variable, and SI `values` in it."""
         factor, offset = self.units.get(self._usual, (1.0, 0.0))
         name = self._usual or self.unit or ""
@@ -199,7 +210,7 @@ class Variable:
         unit, number = self.shown(value)
         return f"{number:.6g} {unit}".strip()
 
-    def in_files(self, values: _Shown, preferred: Mapping[str, str]) -> tuple[str, _Shown]:
+    def in_files(self, values: _Number, preferred: Mapping[str, str]) -> tuple[str, _Number]:
         """Unit in files, and SI `values` in it: SI, unless `preferred` has another unit of its dimension, by SI unit."""
         return self.shown(values) if (self.unit or "") in preferred else (self.unit or "", values)
 
@@ -212,59 +223,26 @@ class Variable:
         cells = [value if value in (None, "") else self.in_files(value, preferred)[1] for value in values]
         return (name if unit in ("", "1") else f"{name} [{unit}]"), cells
 
-    def _boolean(self, value):
-        words = {"true": True, "false": False}
-        if isinstance(value, str) and value.lower() in words:
-            return words[value.lower()]
-        if isinstance(value, (bool, int, np.bool_)):
-            if value in (0, 1):
-                return bool(value)
-        raise DifferentialError(f"{self.name} = {value!r}: it is true or false")
+    def _plain(self, value):
+        """Value for the reader: text, true or false, or a finite number."""
+        is_digit = self.kind == "Boolean" and isinstance(value, (int, np.integer)) and value in (0, 1)
+        if is_digit or isinstance(value, (bool, np.bool_)):
+            return bool(value)
+        if isinstance(value, tuple) and len(value) == 2:
+            number, unit = value
+            # the reader explains a decimal comma
+            has_comma = isinstance(number, str) and "," in number
+            return f"{number if has_comma else repr(self._finite(number, value))} {unit or ''}".strip()
+        return value if isinstance(value, str) else self._finite(value, value)
 
-    def _literal(self, value):
-        if isinstance(value, str) and value in self.literals:
-            return self.literals[value]
-        if not isinstance(value, (str, bool)) and value in self.literals.values():
-            return int(value)
-        words = ", ".join(f"{name} ({number})" for name, number in self.literals.items())
-        raise DifferentialError(f"{self.name} = {value!r}: it is one of {words}{suggestion(str(value), self.literals)}")
-
-    def _parsed(self, text):
-        match = _NUMBER_AND_UNIT.match(text)
-        if not match:
-            raise DifferentialError(f"{self.name} = {text!r}: write a number, or a number and a unit, such as \"4.5 mm\"")
-        return self._si(match[1], match[2], text)
-
-    def _si(self, number, unit, written):
-        number = self._float(number, written)
-        unit = unit and spelled(unit)
-        if unit is None or unit == self.unit:
-            return number
-        if unit not in self.units:
-            known = ", ".join(self.units) or "no unit"
-            raise DifferentialError(f"{self.name} = {written!r}: unit {unit!r} is not one of {known}")
-        factor, offset = self.units[unit]
-        return (number - offset) / factor
-
-    def _float(self, value, written):
+    def _finite(self, value, written):
         try:
-            if isinstance(value, (bool, np.bool_)):
-                raise TypeError
-            number = float(value)
+            number = math.nan if isinstance(value, (bool, np.bool_)) else float(value)
         except (TypeError, ValueError):
             raise DifferentialError(f"{self.name} = {written!r}: it is a number{self._in_unit()}") from None
         if not math.isfinite(number):
             raise DifferentialError(f"{self.name} = {written!r}: it is a finite number{self._in_unit()}")
         return number
-
-    def _whole(self, number):
-        if self.kind != "Integer":
-            return number
-        if number != int(number):
-            raise DifferentialError(f"{self.name} = {number!r}: it is a whole number")
-        if not -2**31 <= number < 2**31:
-            raise DifferentialError(f"{self.name} = {number:.15g}: it is a whole number from {-2**31} to {2**31 - 1}")
-        return int(number)
 
     def _declared(self, text):
         """Value from the model description, in the form of the FMU."""
@@ -274,6 +252,15 @@ class Variable:
 
     def _in_unit(self):
         return f" in {self.unit}" if self.unit not in (None, "", "1") else ""
+
+
+class Quantity(Variable):
+    """Quantity other than the variables of the FMU, in the SI unit `unit`. Its values are read like those of variables."""
+
+    def __init__(self, name: str, unit: str):
+        self.name, self.kind, self.causality, self.literals, self.unit = name, "Real", "input", {}, unit
+        self.minimum = self.maximum = None
+        self.units = {unit: (1.0, 0.0)}
 
 
 class Variables(Protocol):

@@ -17,11 +17,11 @@ from fmpy.fmi1 import FMICallException
 from lxml import etree
 
 from .answers import Progress
-from .csv_table import Quantity, Time, lines_of
+from .csv_table import lines_of
 from .fmu import Fmu
 from .instance import without_calls
 from .progress import silent
-from .values import DifferentialError, FileName, Number
+from .values import DifferentialError, FileName, Number, Quantity
 from .warned import by_owner, warn
 
 MODEL = "BevelDifferential"
@@ -123,7 +123,7 @@ class Evidence:
                 place = f"{shown}, line {line}"
                 if unit != (wanted := _at(place, self.fmu.variable, variable).unit or "1"):
                     raise DifferentialError(f"{place}: {variable} has the unit {wanted}, not {unit!r}")
-                allowed[variable] = _at(place, Quantity("tolerance", {"1": 1.0}).number, tolerance)
+                allowed[variable] = _at(place, Quantity("tolerance", "1").number, tolerance)
                 if not allowed[variable] > 0.0:
                     raise DifferentialError(f"{place}: tolerance = {tolerance}: it must be above 0")
         return allowed
@@ -172,7 +172,7 @@ def table(fmu: Fmu, file: Path, shown: str) -> np.ndarray:
         raise DifferentialError(f"{place}: the first column is {head[0]!r}; it must be time")
     if twice := [name for name in head if head.count(name) > 1]:
         raise DifferentialError(f"{place}: the column {twice[0]} appears twice")
-    variables = [Time("time"), *(_at(place, fmu.variable, name) for name in head[1:])]
+    variables = [Quantity("time", "s"), *(_at(place, fmu.variable, name) for name in head[1:])]
     values = [tuple(_at(f"{shown}, line {line}", variable.number, cell) for variable, cell in zip(variables, cells)) for line, cells in rows]
     found = np.array(values, [(name, float) for name in head])
     for (line, _), step in zip(rows[1:], np.diff(found["time"])):

@@ -10,9 +10,8 @@ from functools import cache
 import numpy as np
 
 from .answers import ask
-from .csv_table import Time
 from .points import seconds
-from .values import DifferentialError, Variable, Variables, split
+from .values import DifferentialError, Quantity, Variable, Variables, split
 
 RELATIONS = {"<=": operator.le, ">=": operator.ge, "<": operator.lt, ">": operator.gt}
 # largest phase between two points of an order, rad
@@ -75,8 +74,6 @@ class Want:
         """Reads "OUTPUT:STATISTIC"; the default statistic is the final value."""
         name, _, word = text.strip().partition(":")
         variable = fmu.output(name.strip())
-        if variable.causality == "input":
-            raise DifferentialError(f"{variable.name}: it is an input; wanted are outputs")
         return cls(variable.name, Statistic.parse(word or "final"))
 
     def __str__(self) -> str:
@@ -89,7 +86,7 @@ class Want:
     def quantity(self, fmu: Variables) -> Variable:
         """Variable that represents the figure: it reads numbers with a unit, and shows the figure."""
         if self.statistic.word == "time_of_peak":
-            return Time("time")
+            return Quantity("time", "s")
         variable = fmu.variable(self.name)
         return variable.differences() if self.statistic.is_difference else variable
 

@@ -10,7 +10,8 @@ use crate::geometry::shape::shape;
 use crate::geometry::{json, text, xyz};
 use crate::problem::{Problem, Problems};
 use crate::progress::Progress;
-use crate::scene::set::{real, value, variable};
+use crate::scene::set::{real, variable};
+use crate::scene::value::of_text;
 
 /// Minimum and maximum number of pieces of a flank's curve. One piece shows no involute; CAD programs need no more than
 /// the maximum.
@@ -80,7 +81,7 @@ impl GeometryQuestion {
         }
         let thicken = self.thicken.as_deref().map(|text| {
             let row = variable("geometry.backlash");
-            let number = row.and_then(|row| real(row, &value(text)).map_err(|why| format!("thicken {text}: {why}")));
+            let number = row.and_then(|row| real(row, &of_text(text)).map_err(|why| format!("thicken {text}: {why}")));
             number.map_err(|message| problems.push(Problem::of("thicken", text, message)))
         });
         match (design, thicken.unwrap_or(Ok(0.0))) {

@@ -62,6 +62,12 @@ pub enum Question {
     Table(text::TableQuestion),
     /// Correct names similar to a wrong one.
     Near(text::NearQuestion),
+    /// A value that a user wrote, in SI.
+    Value(text::ValueQuestion),
+    /// The number and the unit in a text.
+    Split(text::SplitQuestion),
+    /// Units in which values of an SI unit may be written.
+    Units(text::UnitsQuestion),
     /// Units that a user prefers, listed by the SI unit of each dimension.
     DisplayUnits(text::DisplayUnitsQuestion),
 }
@@ -88,6 +94,9 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Statistics(question) => question.answer(numbers),
         Question::Table(question) => question.answer(),
         Question::Near(question) => Ok(question.answer()),
+        Question::Value(question) => question.answer(),
+        Question::Split(question) => question.answer(),
+        Question::Units(question) => Ok(question.answer()),
         Question::DisplayUnits(question) => question.answer(),
     };
     // after a stop, other errors have no meaning

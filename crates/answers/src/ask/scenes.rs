@@ -14,7 +14,8 @@ use crate::pattern::cases::{self, PatternCase};
 use crate::pattern::{Patterns, findings};
 use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
-use crate::scene::set::{Setting, changed_values, value};
+use crate::scene::set::{Setting, changed_values};
+use crate::scene::value::of_text;
 use crate::scene::{self, InputTable, Scene, acting, clutch, curve, former_names, loads, off, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
@@ -116,7 +117,7 @@ impl ClutchQuestion {
 
 impl CurveQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
-        let settings = curve::settings(curve::CURVE, &value(&self.value), Path::new(""))?;
+        let settings = curve::settings(curve::CURVE, &of_text(&self.value), Path::new(""))?;
         Ok(json!({"set": values(&settings)}))
     }
 }
@@ -176,8 +177,8 @@ impl ExportQuestion {
 impl LoadsQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let (scene, every) = (self.of.scene(progress)?, seconds("every", self.every.as_deref())?);
-        let lines = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
-        Ok(json!({"lines": lines, "file": self.out}))
+        let (lines, text) = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
+        Ok(json!({"lines": lines, "file": self.out, "text": text}))
     }
 }
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
 use crate::scene::display_units::DisplayUnits;
-use crate::scene::{Scene, assignments, find, load};
+use crate::scene::{Scene, assignments, find_file, load};
 
 /// Maximum number of communication points. More would be a mistake, and would not fit into memory.
 const MOST_POINTS: f64 = 1e8;
@@ -31,14 +31,17 @@ pub struct Source {
     /// Folder of the named scenes.
     #[serde(default)]
     scenes: PathBuf,
+    /// Contents of the scene's input files that are not CSV, as CSV.
+    #[serde(default)]
+    contents: load::Contents,
 }
 
 impl Source {
     /// Returns the scene. Warns about former names of variables.
     pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
         let mut scene = match &self.given {
-            Some(file) => load::given(&self.name, Path::new(&self.name), file)?,
-            None => find(&self.name, &self.scenes)?,
+            Some(file) => load::given(&self.name, Path::new(&self.name), file, &self.contents)?,
+            None => load::load_with(&find_file(&self.name, &self.scenes)?, &self.contents)?,
         };
         assignments::apply(&mut scene, &self.set)?;
         progress.warn(&scene.notes);

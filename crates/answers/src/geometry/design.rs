@@ -6,7 +6,8 @@ use bevel_differential::problem::Problem;
 use bevel_differential::variables::{Causality, Variable, table};
 
 use crate::problem::{self, Problems};
-use crate::scene::set::{Setting, value};
+use crate::scene::set::Setting;
+use crate::scene::value::of_text;
 
 /// Parameter that may be set in addition to `geometry.*`: the value false removes the backlash.
 const BACKLASH_SWITCH: &str = "effects.backlash";
@@ -92,7 +93,7 @@ fn setting(assignment: &str) -> Result<Setting, problem::Problem> {
     let Some((name, text)) = assignment.split_once('=') else {
         return Err(format!("\"{assignment}\" is not of the form name=value, such as geometry.module=4mm").into());
     };
-    let setting = Setting::new(name.trim(), &value(text.trim()))?;
+    let setting = Setting::new(name.trim(), &of_text(text.trim()))?;
     if is_of_geometry(setting.row.name) {
         Ok(setting)
     } else {

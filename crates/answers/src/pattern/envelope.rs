@@ -54,23 +54,18 @@ impl Envelope {
         Self { cones, polars, pressure, pitch: gear.pitch }
     }
 
-    /// Creates the file of patterns, without rows.
+    /// Creates the file of patterns in SI, without rows. `height` is along the profile from the pitch circle at the cone
+    /// distance.
     pub fn file() -> Result<CsvFile> {
-        let comments = [
-            "largest Hertz pressure that each spot of the planet's flank sees while one pair goes through mesh",
-            "cone: distance from the apex; height: along the profile from the pitch circle there",
-            "units: -,mm,mm,MPa",
-        ];
-        CsvFile::new("case,cone,height,pressure", &comments)
+        CsvFile::new("case,cone,height,pressure")
     }
 
     /// Adds the spots to the file.
     pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
         for (cone, column) in self.cones.iter().zip(&self.pressure) {
             for (polar, pressure) in self.polars.iter().zip(column) {
-                let lengths = [1e3 * cone, 1e3 * cone * (polar - self.pitch)].map(|length| format!("{length:.4}"));
-                let pressure = format!("{:.1}", 1e-6 * pressure);
-                out.push([case.to_owned()].into_iter().chain(lengths).chain([pressure]))?;
+                let numbers = [*cone, cone * (polar - self.pitch), *pressure].map(|number| format!("{number:.6e}"));
+                out.push([case.to_owned()].into_iter().chain(numbers))?;
             }
         }
         Ok(())
@@ -99,13 +94,9 @@ fn between(line: &[&LoadedSection], cone: f64, face: [f64; 2]) -> Option<[f64; 3
     (values[1] > 0.0 && values[2] > 0.0).then_some(values)
 }
 
-/// Creates the file of outlines, without rows.
+/// Creates the file of outlines in SI, without rows. The mark `start` is where contact of aligned rigid teeth begins.
 pub fn outline_file() -> Result<CsvFile> {
-    let comments = [
-        "heights on the planet's flank from the pitch circle; start: where contact of aligned rigid teeth begins",
-        "units: -,-,mm,mm,mm,mm",
-    ];
-    CsvFile::new("case,mark,toe_cone,toe_height,heel_cone,heel_height", &comments)
+    CsvFile::new("case,mark,toe_cone,toe_height,heel_cone,heel_height")
 }
 
 /// Adds the flank's outline to the file: heights of its marks at toe and heel.
@@ -115,7 +106,7 @@ pub fn outline(pair: &Pair, case: &str, out: &mut CsvFile) -> Result<()> {
     for (mark, polar) in
         [("root", gear.root), ("base", gear.base), ("start", start), ("pitch", gear.pitch), ("tip", gear.tip)]
     {
-        let at = |cone: f64| [1e3 * cone, 1e3 * cone * (polar - gear.pitch)].map(|length| format!("{length:.4}"));
+        let at = |cone: f64| [cone, cone * (polar - gear.pitch)].map(|length| format!("{length:.6e}"));
         let texts = [case, mark].map(str::to_owned).into_iter();
         out.push(texts.chain(at(pair.inner_cone)).chain(at(pair.outer_cone)))?;
     }

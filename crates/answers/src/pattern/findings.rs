@@ -141,31 +141,31 @@ pub fn markdown(found: &[PatternFindings]) -> String {
     )
 }
 
-/// Columns of the file.
+/// Columns of the file, in SI.
 const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
                        lowest,highest,teeth";
 
 /// CSV file of the results.
 pub fn csv(found: &[PatternFindings]) -> Result<String> {
-    let mut file = CsvFile::new(COLUMNS, &["units: -,-,-,kN,mm,N/mm,N/mm,1,MPa,MPa,mm,N/mm,mm,mm,-"])?;
+    let mut file = CsvFile::new(COLUMNS)?;
     for f in found {
         let [name, title] = &f.case;
         let flank = if f.is_drive { "drive" } else { "coast" };
         let numbers = [
-            1e-3 * f.force,
-            1e3 * f.centroid,
-            1e-3 * f.ends[0],
-            1e-3 * f.ends[1],
+            f.force,
+            f.centroid,
+            f.ends[0],
+            f.ends[1],
             f.bearing,
-            1e-6 * f.pitch_pressure,
-            1e-6 * f.peak[0],
-            1e3 * f.peak[1],
-            1e-3 * f.most,
-            1e3 * f.heights[0],
-            1e3 * f.heights[1],
+            f.pitch_pressure,
+            f.peak[0],
+            f.peak[1],
+            f.most,
+            f.heights[0],
+            f.heights[1],
         ];
         let texts = [name, title, flank].map(str::to_owned);
-        let numbers = numbers.map(|x| format!("{x:.4}"));
+        let numbers = numbers.map(|x| format!("{x:.6e}"));
         file.push(texts.into_iter().chain(numbers).chain([f.teeth.to_owned()]))?;
     }
     file.text()

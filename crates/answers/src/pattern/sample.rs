@@ -145,32 +145,26 @@ impl Engagement {
         nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
     }
 
-    /// Creates a CSV file for loaded sections, without rows.
+    /// Creates a CSV file for loaded sections of planet 1's left mesh in SI, without rows. `followed` marks the pair whose
+    /// engagement is whole, `corner` a loaded tip corner; heights are along the profile from the pitch circle at the cone
+    /// distance.
     pub fn file() -> Result<CsvFile> {
-        let comments = [
-            "loaded sections of planet 1's left mesh; height: along the profile from the pitch circle at that cone distance",
-            "followed: the pair whose engagement is whole; corner: 1 if a tip corner is loaded; its pressure is calculated",
-            "with the radii at the end of the path, and the real one is higher",
-            "units: -,s,-,-,-,-,-,rad,mm,mm,mm,mm,N/mm,mm,MPa,mm",
-        ];
         let columns = "case,time,flank,planet_tooth,side_tooth,followed,corner,s,cone,width,planet_height,side_height,\
                        line_load,radius,pressure,half_width";
-        CsvFile::new(columns, &comments)
+        CsvFile::new(columns)
     }
 
     /// Adds all sections to the file `out`, with `case` in the first column.
     pub fn rows(&self, case: &str, out: &mut CsvFile) -> Result<()> {
         for c in &self.contacts {
-            let [planet, side] = [0, 1].map(|i| 1e3 * c.cone * (c.polar[i] - self.pair.gears[i].pitch));
+            let [planet, side] = [0, 1].map(|i| c.cone * (c.polar[i] - self.pair.gears[i].pitch));
             let flank = if c.name.0 { "drive" } else { "coast" };
             let marks = [u8::from(c.name == self.followed), u8::from(c.is_corner)].map(|mark| mark.to_string());
-            let lengths = [1e3 * c.cone, 1e3 * c.width, planet, side, 1e-3 * c.line_load, 1e3 * c.radius];
-            let mut cells = vec![case.to_owned(), format!("{:.6}", c.time), flank.to_owned()];
+            let numbers = [c.s, c.cone, c.width, planet, side, c.line_load, c.radius, c.pressure, c.half_width];
+            let mut cells = vec![case.to_owned(), format!("{:.9e}", c.time), flank.to_owned()];
             cells.extend(c.name.1.map(|tooth| tooth.to_string()));
             cells.extend(marks);
-            cells.push(format!("{:.6}", c.s));
-            cells.extend(lengths.map(|length| format!("{length:.4}")));
-            cells.extend([format!("{:.2}", 1e-6 * c.pressure), format!("{:.4}", 1e3 * c.half_width)]);
+            cells.extend(numbers.map(|number| format!("{number:.6e}")));
             out.push(cells)?;
         }
         Ok(())

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use super::set::{value, variable};
+use super::set::variable;
 use super::times::{check_step, duration, span};
+use super::value::of_text;
 use super::{Scene, curve, former_names};
 use crate::problem::{Problem, Problems};
 use crate::text::near;
@@ -42,7 +43,7 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
 }
 
 fn assign(scene: &mut Scene, name: &str, text: &str) -> Result<(), Problems> {
-    let value = value(text);
+    let value = of_text(text);
     match name {
         "stop_time" => scene.stop_time = duration(name, &value).map_err(Problem::from)?,
         "step" => scene.step = span(name, &value).map_err(Problem::from)?,

@@ -17,9 +17,10 @@ use bevel_differential::variables::{Variable, named};
 use csv::StringRecord;
 use toml::Value;
 
-use super::input_file::{cell_value, split_header_cell};
-use super::set::{Setting, SettingValue, real, written};
+use super::input_columns::{cell_value, split_header_cell};
+use super::set::{Setting, SettingValue, real};
 use super::units;
+use super::value::written;
 use crate::problem::{Problem, Problems};
 use crate::text;
 use crate::text::csv_input::{self, CsvInput};
@@ -117,7 +118,7 @@ fn listed(points: &[Value]) -> Result<Vec<Point>, Problems> {
 /// Points of a CSV file.
 fn in_file(file: &Path) -> Result<Vec<Point>, Problems> {
     let of_file = |problem: String| format!("{CURVE}: {}{problem}", text::shown(file));
-    let read = csv_input::read(file, &[]).map_err(|problem| {
+    let read = csv_input::read(file, &|_| false).map_err(|problem| {
         let relative = "a path in a scene is relative to the scene's file, any other path to the working folder";
         vec![if file.is_file() { problem } else { format!("{problem}; {relative}") }]
     });

@@ -3,7 +3,7 @@
 use bevel_differential::variables::Variable;
 use bevel_differential::variables::units::{ALL, DisplayUnit, Unit};
 
-use super::units::spelled;
+use super::units::{others, spelled};
 
 /// Preferred display units, at most one for each SI unit.
 #[derive(Clone, Debug, Default)]
@@ -81,7 +81,7 @@ fn known(name: &str) -> Result<(Unit, Option<DisplayUnit>), String> {
     let all = || {
         let units = ALL.iter().filter(|unit| unit.name != "1");
         units.flat_map(|&unit| {
-            std::iter::once((unit, None)).chain(unit.display.iter().map(move |&shown| (unit, Some(shown))))
+            std::iter::once((unit, None)).chain(others(unit.name).map(move |&shown| (unit, Some(shown))))
         })
     };
     let spelled = spelled(name);
@@ -149,6 +149,6 @@ mod tests {
             assert!(!problem.contains("did you mean"), "{problem}");
         }
         assert_eq!(problems[1], "kN and N are units of the same quantity; name one of them");
-        assert!(problems[2].contains("known: m, mm, um, rad, deg, rad/s, deg/s, rpm"), "{}", problems[2]);
+        assert!(problems[2].contains("known: m, mm, um, in, km, rad, deg, rad/s, deg/s, rpm"), "{}", problems[2]);
     }
 }

@@ -28,8 +28,11 @@
 //!
 //! [[inputs]]                             # tables of all inputs in a CSV file
 //! file = "cycle.csv"                     # relative to this file
+//! columns = { "left.load_torque" = "M_l [Nm]" }    # only these columns; otherwise all
+//! wheel_radius = "334 mm"                # converts columns in km/h, m/s or mph to speeds of shafts
 //! ```
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -43,9 +46,11 @@ use toml::{Table, Value};
 use super::accepted::Accepted;
 use super::curve::{self, CURVE};
 use super::display_units::DisplayUnits;
-use super::set::{Setting, output, real, variable, written};
+use super::input_columns::Wanted;
+use super::set::{Setting, output, real, variable};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
+use super::value::{self, written};
 use super::{Event, InputTable, Scene, clutch, former_names, input_file};
 use crate::problem::{Problem, Problems, question_error};
 use crate::text::{not_text, shown};
@@ -106,10 +111,21 @@ struct InputTableEntry {
 struct InputFileEntry {
     file: PathBuf,
     period: Option<Value>,
+    #[serde(default)]
+    columns: Table,
+    wheel_radius: Option<Value>,
 }
+
+/// Contents of input files as CSV, by the path in the scene, for files in other formats, which the caller has read.
+pub type Contents = BTreeMap<PathBuf, String>;
 
 /// Loads the scene in `file`.
 pub fn load(file: &Path) -> Result<Scene> {
+    load_with(file, &Contents::new())
+}
+
+/// Loads the scene in `file`, with the contents of some of its input files.
+pub fn load_with(file: &Path, contents: &Contents) -> Result<Scene> {
     let shown = shown(file);
     let text = std::fs::read_to_string(file).map_err(|why| {
         question_error(match why.kind() {
@@ -118,16 +134,18 @@ pub fn load(file: &Path) -> Result<Scene> {
         })
     })?;
     let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    parse(name, file, &text).with_context(|| shown)
+    let entry = toml::from_str(&text).map_err(|why| question_error(why.to_string()));
+    entry.and_then(|entry| given(name, file, &entry, contents)).with_context(|| shown)
 }
 
 /// Reads the scene `name` from the TOML `text` of `file`.
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
-    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?)
+    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?, &Contents::new())
 }
 
 /// Creates the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
-pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
+/// `contents` of input files replace the files.
+pub fn given(name: &str, file: &Path, entry: &File, contents: &Contents) -> Result<Scene> {
     let mut problems = Problems::default();
     let missing = entry.missing();
     if !missing.is_empty() {
@@ -145,7 +163,8 @@ pub fn given(name: &str, file: &Path, entry: &File) -> Result<Scene> {
         entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
     let mut notes = notes(entry);
     for input_file in &entry.inputs {
-        notes.extend(add_input_file(input_file, file, &mut input_tables, &mut problems));
+        let content = contents.get(&input_file.file).map(String::as_str);
+        notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
     }
     let input_slopes = input_slopes(entry, &mut problems);
     if !input_slopes {
@@ -346,24 +365,43 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     (complete && rising).then_some(InputTable { row, table: schedule::Table::straight(times, values, period) })
 }
 
-/// Adds the tables of a CSV file, whose path is relative to the folder of the scene file `scene`. Returns messages
-/// about former names in the file.
+/// Columns of a file that a scene uses.
+fn wanted(entry: &InputFileEntry) -> Result<Wanted, String> {
+    let mut flat = Vec::new();
+    flatten("", &entry.columns, &mut flat);
+    let header = |(name, value): (String, &Value)| match value {
+        Value::String(header) => Ok((name, header.clone())),
+        other => Err(format!("columns: {name} = {}: must be the header of a column, as text", written(other))),
+    };
+    let columns = flat.into_iter().map(header).collect::<Result<_, _>>()?;
+    let radius = |value: &Value| {
+        let read = value::real(value, Some("m"), false).and_then(|radius| {
+            if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err("must be above 0 m".into()) }
+        });
+        read.map_err(|problem| format!("wheel_radius = {}: {problem}", written(value)))
+    };
+    Ok(Wanted { columns, wheel_radius: entry.wheel_radius.as_ref().map(radius).transpose()? })
+}
+
+/// Adds the tables of a CSV file, whose path is relative to the folder of the scene file `scene`; `content`: its text,
+/// if the caller has read it. Returns messages about former names and unused columns in the file.
 fn add_input_file(
     entry: &InputFileEntry,
-    scene: &Path,
+    (scene, content): (&Path, Option<&str>),
     tables: &mut Vec<InputTable>,
     problems: &mut Problems,
 ) -> Vec<String> {
     let place = format!("[[inputs]] file = \"{}\":", entry.file.display());
-    let period = match entry.period.as_ref().map(|period| span("period", period)).transpose() {
-        Ok(period) => period,
+    let period = entry.period.as_ref().map(|period| span("period", period)).transpose();
+    let (period, wanted) = match period.and_then(|period| Ok((period, wanted(entry)?))) {
+        Ok(read) => read,
         Err(problem) => {
             problems.push(format!("{place} {problem}"));
             return Vec::new();
         }
     };
     let file = folder(scene).join(&entry.file);
-    match input_file::read(&file, period) {
+    match input_file::read(&file, content, period, &wanted) {
         Ok((read, notes)) => {
             for table in read {
                 let name = table.row.name;

@@ -19,12 +19,8 @@ const SAME: f64 = 1e-6;
 
 /// Columns of the load. Columns of its position and direction on each gear follow.
 const LOAD: &str = "time,planet,side,flank,spot,planet_tooth,side_tooth,share,s,cone,normal,friction";
-/// Units of the columns of the load.
-const LOAD_UNITS: &str = "s,-,-,-,-,-,-,1,rad,m,N,N";
 /// Columns of a gear: point, normal, force.
 const VECTORS: [&str; 9] = ["x", "y", "z", "nx", "ny", "nz", "Fx", "Fy", "Fz"];
-/// Units of the columns of a gear.
-const VECTOR_UNITS: &str = "m,m,m,1,1,1,N,N,N";
 
 /// Force of a tooth pair on one gear, in the gear's own frame.
 #[derive(Clone, Copy, Debug)]
@@ -51,8 +47,8 @@ pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear
 }
 
 /// Writes the history of `scene` to `out`, with a record every `every` seconds (by default the communication step).
-/// Returns the number of lines.
-pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<u64> {
+/// Returns the number of lines, and an explanation of the file.
+pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<(u64, String)> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
         return Err(question_error(format!(
             "scene {} has no teeth (scene.gear_contact = ideal): there are no tooth pairs under load",
@@ -70,7 +66,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
     let mut run = SceneRun::start(scene, scene.step.min(every))?;
     let pair = *run.simulation.pair();
     let action = LineOfAction::new(&pair);
-    header(scene, every, &run, out)?;
+    let explanation = explanation(scene, every, &run);
     let mut rows = csv::Writer::from_writer(out);
     let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
     let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
@@ -97,7 +93,7 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
     }
     rows.flush()?;
     progress.warn(run.warnings());
-    Ok(lines)
+    Ok((lines, explanation))
 }
 
 fn line(rows: &mut csv::Writer<&mut dyn Write>, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -> csv::Result<()> {
@@ -117,43 +113,43 @@ fn line(rows: &mut csv::Writer<&mut dyn Write>, time: f64, load: &ToothLoad, gea
     rows.write_record(cells)
 }
 
-fn header(scene: &Scene, every: f64, run: &SceneRun, out: &mut dyn Write) -> std::io::Result<()> {
+/// Scene, columns and frames of the file, for the terminal.
+fn explanation(scene: &Scene, every: f64, run: &SceneRun) -> String {
     let (plan, pair) = (run.simulation.plan(), run.simulation.pair());
-    writeln!(out, "# mesh forces of scene {}: {}", scene.name, scene.description)?;
-    writeln!(out, "# {}", run.simulation.describe())?;
-    writeln!(out, "# one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s")?;
+    let mut out = format!(
+        "mesh forces of scene {}: {}\n{}\n\
+         one line per loaded tooth pair (per slice of it if loads differ over the face) every {every} s, in SI\n",
+        scene.name,
+        scene.description,
+        run.simulation.describe()
+    );
     for group in plan.groups() {
         let planets: Vec<String> = (0..plan.planets)
             .filter(|&i| plan.groups()[plan.group_of[i]] == *group)
             .map(|i| (i + 1).to_string())
             .collect();
         if planets.len() > 1 {
-            writeln!(
-                out,
-                "# planet {} stands for planets {}, whose loads are equal",
+            out += &format!(
+                "planet {} stands for planets {}, whose loads are equal\n",
                 group.planet + 1,
                 planets.join(", ")
-            )?;
+            );
         }
     }
     let degrees = |i: usize| pair.gears[i].tooth_pitch() * 180.0 / PI;
-    let text = format!(
+    out + &format!(
         "\
-# share: fraction of the face that the line covers; s: position on the path of contact, an arc from the pitch point toward
-#   the planet's tip; cone: distance of the point from the apex; spot: on the path, or a tip corner on the mate's flank
-# normal: normal force; friction: along the flank, positive toward the planet's root on the planet
-# frames: right-handed, apex at the origin, z along the gear's own axis from apex to heel, x along the middle of its tooth 0;
-#   they turn with the gears
-# planet tooth k is at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
-#   (planet teeth count with positive spin, side gear teeth with forward rotation)
-# x, y, z: point on the undeformed flank (or a tip corner); nx, ny, nz: unit normal into the gear's material;
-#   Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
-# sums of r x F about z are the tooth torques; with contact.law line and line_weber, stiffness that varies along the path adds
-#   a torque on the planet without a force on the flank, and friction of tip corners has the lever arms of the extended path
+share: fraction of the face that the line covers; s: position on the path of contact, an arc from the pitch point toward
+  the planet's tip; cone: distance of the point from the apex; spot: on the path, or a tip corner on the mate's flank
+normal: normal force; friction: along the flank, positive toward the planet's root on the planet
+frames: right-handed, apex at the origin, z along the gear's own axis from apex to heel, x along the middle of its tooth 0;
+  they turn with the gears
+planet tooth k is at azimuth -k * {} deg, tooth k of the left side gear at +k * {} deg, of the right at -k * {1} deg
+  (planet teeth count with positive spin, side gear teeth with forward rotation)
+x, y, z: point on the undeformed flank (or a tip corner); nx, ny, nz: unit normal into the gear's material;
+  Fx, Fy, Fz: force on the gear, friction included; in space those on planet and side gear are opposite
 ",
         degrees(0),
         degrees(1)
-    );
-    out.write_all(text.as_bytes())?;
-    writeln!(out, "# units: {LOAD_UNITS},{VECTOR_UNITS},{VECTOR_UNITS}")
+    )
 }

@@ -7,6 +7,7 @@ pub mod clutch;
 pub mod curve;
 pub mod display_units;
 pub mod former_names;
+pub mod input_columns;
 pub mod input_file;
 pub mod load;
 pub mod loads;
@@ -19,6 +20,7 @@ pub mod ssv;
 pub mod time_mean;
 pub mod times;
 pub mod units;
+pub mod value;
 pub mod warnings;
 
 use std::path::{Path, PathBuf};
@@ -90,13 +92,14 @@ pub struct Event {
 
 /// Finds the scene in the file `what`, or the one with that name in `folder`.
 pub fn find(what: &str, folder: &Path) -> Result<Scene> {
-    let file = Path::new(what);
-    if file.is_file() {
-        return load::load(file);
-    }
-    let named = folder.join(format!("{what}.toml"));
-    if named.is_file() {
-        return load::load(&named);
+    load::load(&find_file(what, folder)?)
+}
+
+/// Finds the file `what`, or that of the scene with this name in `folder`.
+pub fn find_file(what: &str, folder: &Path) -> Result<PathBuf> {
+    let (file, named) = (PathBuf::from(what), folder.join(format!("{what}.toml")));
+    if let Some(found) = [file, named].into_iter().find(|file| file.is_file()) {
+        return Ok(found);
     }
     let files = files(folder)?;
     let names: Vec<&str> = files.iter().filter_map(|file| file.file_stem()?.to_str()).collect();

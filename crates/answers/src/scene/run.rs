@@ -160,10 +160,13 @@ impl<'a> SceneRun<'a> {
         None
     }
 
-    /// Value of an output.
+    /// Value of an output, or of an input.
     pub fn read(&mut self, row: &Variable) -> f64 {
         match row.access {
             Access::Output(source) => source.read(&mut self.simulation),
+            // after a jump, the simulation may approach the value on a ramp
+            Access::Input(slot) if self.begun.is_some() => *slot(&mut self.inputs),
+            Access::Input(slot) => *slot(&mut { *self.simulation.inputs() }),
             _ => f64::NAN,
         }
     }
@@ -256,12 +259,8 @@ fn exchange(run: &mut SceneRun) -> f64 {
     forces.power_in.abs() + forces.power_out.abs()
 }
 
-/// Starts the record of a scene: comments and header, before a row for each communication point.
+/// Starts the record of a scene with its header, before a row for each communication point.
 fn record<'a>(scene: &Scene, outputs: &[Variable], out: &'a mut dyn Write) -> Result<csv::Writer<&'a mut dyn Write>> {
-    writeln!(out, "# scene {}: {}", scene.name, scene.description)?;
-    let units: Vec<&str> =
-        outputs.iter().map(|row| Some(units::name(row)).filter(|name| !name.is_empty()).unwrap_or("1")).collect();
-    writeln!(out, "# units: s,{}", units.join(","))?;
     let mut rows = csv::Writer::from_writer(out);
     // SI columns keep their plain names
     let headers = |row: &Variable| if scene.display_units.is_empty() { row.name.into() } else { units::header(row) };

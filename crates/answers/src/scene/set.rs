@@ -1,10 +1,11 @@
 //! Value of a variable from a file: it is checked and assigned with the table's accessor.
 
-use bevel_differential::model::{Inputs, Parameters, removed_method};
+use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{Access, Variability, Variable, accepted, assign, check_value, table, value_of};
 use toml::Value;
 
 use super::display_units::DisplayUnits;
+use super::value::{self, written};
 use super::{Scene, former_names, units};
 use crate::problem::Problem;
 use crate::text::near;
@@ -107,14 +108,15 @@ pub fn variable(name: &str) -> Result<&'static Variable, String> {
     found.ok_or_else(|| format!("there is no variable \"{name}\"{}", hint(name, rows.iter())))
 }
 
-/// Returns the row of output `name`, which may be a former name. The error suggests similar names.
+/// Returns the row of the output or input `name`, which can be recorded. It may be a former name. The error suggests
+/// similar names.
 pub fn output(name: &str) -> Result<&'static Variable, String> {
     let name = former_names::present(name);
-    let is_output = |row: &&Variable| matches!(row.access, Access::Output(_));
+    let is_output = |row: &&Variable| matches!(row.access, Access::Output(_) | Access::Input(_));
     let rows = &table().rows;
     match rows.iter().find(|row| row.name == name) {
         Some(row) if is_output(&row) => Ok(row),
-        Some(_) => Err(format!("{name} is not an output")),
+        Some(_) => Err(format!("{name} is a parameter; outputs and inputs can be recorded")),
         None => Err(format!("there is no output \"{name}\"{}", hint(name, rows.iter().filter(is_output)))),
     }
 }
@@ -149,44 +151,25 @@ pub fn literal(row: &Variable, value: i32) -> Option<(&'static str, &'static str
 }
 
 fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> {
-    match (row.access, value) {
-        (Access::Output(_), _) => Err("is an output, which cannot be set; name it under outputs".into()),
-        (Access::Real(_) | Access::Input(_), value) => real(row, value).map(SettingValue::Real),
-        (Access::Integer(_), Value::Integer(number)) => {
-            let small = i32::try_from(*number).map_err(|_| "is not a whole number of 32 bits".to_owned())?;
-            check_value(row, f64::from(small)).map_err(|problem| problem.message)?;
-            Ok(SettingValue::Integer(small))
+    match row.access {
+        Access::Output(_) => Err("is an output, which cannot be set; name it under outputs".into()),
+        Access::Real(_) | Access::Input(_) => real(row, value).map(SettingValue::Real),
+        Access::Integer(_) => {
+            let number = value::whole(value)?;
+            check_value(row, f64::from(number)).map_err(|problem| problem.message)?;
+            Ok(SettingValue::Integer(number))
         }
-        (Access::Integer(_), _) => Err("must be a whole number".into()),
-        (Access::Boolean(_), Value::Boolean(value)) => Ok(SettingValue::Boolean(*value)),
-        (Access::Boolean(_), _) => Err("must be true or false".into()),
-        (Access::Enumeration(kind, ..), value) => {
-            let names = || kind.choices.iter().map(|choice| choice.name);
-            let allowed = names().collect::<Vec<_>>().join(", ");
-            let given = match value {
-                Value::String(name) => name.clone(),
-                Value::Integer(number) => number.to_string(),
-                _ => String::new(),
-            };
-            let removed = removed_method(&given, names());
-            let Value::String(name) = value else { return Err(format!("must be one of {allowed}{removed}")) };
-            match kind.choices.iter().find(|choice| choice.name == name) {
-                Some(choice) => Ok(SettingValue::Literal(choice.value)),
-                None if removed.is_empty() => Err(format!("is not one of {allowed}{}", near::hint(name, names()))),
-                None => Err(format!("is not one of {allowed}{removed}")),
-            }
+        Access::Boolean(_) => value::truth(value).map(SettingValue::Boolean),
+        Access::Enumeration(kind, ..) => {
+            let choices: Vec<_> = kind.choices.iter().map(|choice| (choice.name, choice.value)).collect();
+            value::literal(value, &choices).map(SettingValue::Literal)
         }
     }
 }
 
 /// Returns a real value in the unit of the interface. Fails if the value is unreadable or out of its range.
 pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
-    let number = match value {
-        Value::Float(number) => *number,
-        Value::Integer(number) => *number as f64,
-        Value::String(text) => units::parse(row, text)?,
-        _ => return Err("must be a number, or a text like \"4.5 mm\"".into()),
-    };
+    let number = value::real(value, row.unit.map(|unit| unit.name), row.unit.is_some_and(|unit| unit.is_relative))?;
     accepted(row, number, 0.0).map_err(|problem| {
         // a text with a unit needs no suggestion of another unit
         let message = match value {
@@ -200,29 +183,6 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
             _ => message,
         }
     })
-}
-
-/// Parses `text` from a command line into the value that a file would contain.
-pub fn value(text: &str) -> Value {
-    match (text.parse(), text.parse(), text.parse()) {
-        (Ok(whole), _, _) => Value::Integer(whole),
-        (_, Ok(number), _) => Value::Float(number),
-        (_, _, Ok(truth)) => Value::Boolean(truth),
-        _ => Value::String(text.to_owned()),
-    }
-}
-
-/// Formats a value as in a file.
-pub fn written(value: &Value) -> String {
-    match value {
-        Value::String(text) => format!("\"{text}\""),
-        Value::Integer(number) => number.to_string(),
-        Value::Float(number) => number.to_string(),
-        Value::Boolean(value) => value.to_string(),
-        Value::Datetime(time) => time.to_string(),
-        Value::Array(_) => "[...]".into(),
-        Value::Table(_) => "{...}".into(),
-    }
 }
 
 /// Start values of `scene`, in the order of the FMU's variables: all inputs, and the parameters that the scene sets

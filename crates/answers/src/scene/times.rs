@@ -2,8 +2,8 @@
 
 use toml::Value;
 
-use super::set::written;
 use super::units;
+use super::value::written;
 
 /// Parses a time in seconds.
 pub fn seconds(value: &Value) -> Result<f64, String> {

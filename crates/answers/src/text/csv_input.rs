@@ -33,19 +33,19 @@ pub struct CsvInput {
     pub rows: Vec<(u64, StringRecord)>,
 }
 
-/// Reads `file`. Columns named in `texts` contain words, so a comma there is not a decimal comma. A problem begins with
-/// its position in the file.
-pub fn read(file: &Path, texts: &[&str]) -> Result<CsvInput, String> {
+/// Reads `file`. Columns for whose header `is_text` is true may contain words, so a comma there is not a decimal comma. A
+/// problem begins with its position in the file.
+pub fn read(file: &Path, is_text: &dyn Fn(&str) -> bool) -> Result<CsvInput, String> {
     let text = fs::read_to_string(file).map_err(|error| match error.kind() {
         io::ErrorKind::InvalidData => format!(": it {}", super::not_text(file, "CSV")),
         io::ErrorKind::NotFound => ": there is no such file".to_owned(),
         _ => format!(": it cannot be read ({error})"),
     })?;
-    parse(&text, texts)
+    parse(&text, is_text)
 }
 
-/// Reads the text of a file.
-pub fn parse(text: &str, texts: &[&str]) -> Result<CsvInput, String> {
+/// Reads the text of a file, as [`read`] does.
+pub fn parse(text: &str, is_text: &dyn Fn(&str) -> bool) -> Result<CsvInput, String> {
     let text = text.trim_start_matches(MARK);
     let separator = separator(text)?;
     let mut reader = ReaderBuilder::new()
@@ -73,7 +73,7 @@ pub fn parse(text: &str, texts: &[&str]) -> Result<CsvInput, String> {
             return Err(wrong_length(*line, record, &header, separator));
         }
     }
-    let is_text: Vec<bool> = header.iter().map(|head| texts.contains(&name(head))).collect();
+    let is_text: Vec<bool> = header.iter().map(is_text).collect();
     if has_decimal_commas(&header, &rows, &is_text, separator)? {
         for (_, record) in &mut rows {
             let cells = record.iter().zip(&is_text);
@@ -84,7 +84,7 @@ pub fn parse(text: &str, texts: &[&str]) -> Result<CsvInput, String> {
 }
 
 /// Name in a header cell `name [unit]`.
-fn name(head: &str) -> &str {
+pub fn name(head: &str) -> &str {
     head.split('[').next().unwrap_or_default().trim()
 }
 
@@ -284,7 +284,7 @@ mod tests {
 
     /// Cells of a file, header first.
     fn cells(text: &str) -> Vec<Vec<String>> {
-        let found = parse(text, &["name"]).unwrap_or_else(|problem| panic!("{text:?}{problem}"));
+        let found = parse(text, &|head| name(head) == "name").unwrap_or_else(|problem| panic!("{text:?}{problem}"));
         let records = std::iter::once(&found.header).chain(found.rows.iter().map(|(_, record)| record));
         records.map(|record| record.iter().map(str::to_owned).collect()).collect()
     }
@@ -312,7 +312,7 @@ mod tests {
 
     #[test]
     fn rows_keep_their_line_numbers() {
-        let found = parse("# c\n\ntime;x\n0;1\n\n   \n# c\n1;2\n", &[]).expect("a table");
+        let found = parse("# c\n\ntime;x\n0;1\n\n   \n# c\n1;2\n", &|_| false).expect("a table");
         assert_eq!((found.header_line, found.rows[0].0, found.rows[1].0), (3, 4, 8));
     }
 
@@ -348,7 +348,7 @@ mod tests {
             ("time x\n0 1\n", &["line 1", "separated by blanks", "commas, semicolons or tabs"]),
             ("\n# c\n", &["is empty"]),
         ] {
-            let problem = parse(text, &[]).expect_err(text);
+            let problem = parse(text, &|_| false).expect_err(text);
             for part in parts {
                 assert!(problem.contains(part), "\"{part}\" is not in: {text:?}{problem}");
             }

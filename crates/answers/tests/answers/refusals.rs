@@ -20,7 +20,7 @@ fn a_question_of_accuracy_that_makes_no_sense_is_a_problem_in_one_line() {
     for (want, within, from, parts) in [
         ("left.sped:mean", "1%", None, &["left.sped", "did you mean left.speed?"][..]),
         ("left.speed:meen", "1%", None, &["meen", "did you mean mean?"]),
-        ("left.load_torque:mean", "1%", None, &["not an output"]),
+        ("geometry.module:mean", "1%", None, &["is a parameter"]),
         // no teeth mesh while driving straight
         ("left.speed:mesh_order_1", "1%", None, &["mesh_order_1", "period"]),
         ("left.speed:mean", "0", None, &["above 0"]),

@@ -99,7 +99,7 @@ fn a_scene_of_zero_duration_shows_its_start() -> Result<()> {
         assert_eq!([speed.min, speed.mean, speed.max, speed.end], [30.0; 4]);
         assert_eq!(String::from_utf8(csv)?.lines().last(), Some("0,30"));
         // meshes are preloaded by default
-        let lines = loads::write(&parsed(&frame)?, None, &mut Vec::new(), &mut Progress::silent())?;
+        let (lines, _) = loads::write(&parsed(&frame)?, None, &mut Vec::new(), &mut Progress::silent())?;
         assert!(lines > 0, "the loads at the start");
     }
     Ok(())
@@ -140,6 +140,82 @@ fn inputs_from_a_file_equal_inputs_from_tables() -> Result<()> {
     ] {
         let scene = folder.scene(&format!("{INPUTS}period = \"50 ms\"\n"), other)?;
         assert_eq!(tables(&scene), tables(&same), "{other}");
+    }
+    Ok(())
+}
+
+/// A file of a test bench, with names in its own words, a column of dates and one of words.
+const BENCH: &str = "Datum;t [ms];M_links (Nm);Bemerkung;v;left.speed\n\
+                     01.02.2026;0;800,5;kalt, nass;36;0\n01.02.2026;10;810,25;;72;1\n";
+
+#[test]
+fn a_scene_names_the_columns_that_it_uses_and_the_others_are_ignored() -> Result<()> {
+    let folder = Folder::new("columns")?;
+    let same = folder.scene(INPUTS, "time,left.load_torque,carrier.speed_command\n0,800.5,30\n0.01,810.25,60\n")?;
+    let columns = |left: &str, speed: &str, rest: &str| {
+        format!("{INPUTS}columns = {{ time = \"t [ms]\", left.load_torque = \"{left}\", {speed} }}\n{rest}")
+    };
+    for rest in [
+        // with its header as written, without its unit, and with a unit that the file lacks
+        columns("M_links (Nm)", "carrier.speed_command = \"v [km/h]\"", "wheel_radius = \"1000 mm\"\n"),
+        columns("M_links", "\"speed\" = \"v [km/h]\"", "wheel_radius = 1.0\n"),
+    ] {
+        let scene = folder.scene(&rest, BENCH)?;
+        let tables = |scene: &Scene, factor: f64| -> Vec<(&str, Vec<f64>)> {
+            let of = |name: &str| if name.starts_with("carrier") { factor } else { 1.0 };
+            let values = |table: &schedule::Table, of: f64| table.values.iter().map(|value| value / of).collect();
+            let mut found: Vec<_> =
+                scene.input_tables.iter().map(|each| (each.row.name, values(&each.table, of(each.row.name)))).collect();
+            found.sort_by_key(|(name, _)| *name);
+            found
+        };
+        // 36 km/h are 10 m/s, and 10 rad/s on wheels of 1 m
+        assert_eq!(tables(&scene, 10.0), tables(&same, 30.0), "{rest}");
+        assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    }
+    for (rest, wanted) in [
+        (columns("M_rechts", "\"speed\" = \"v [km/h]\"", "wheel_radius = 1\n"), "no column \"M_rechts\""),
+        (columns("M_links [kNm]", "\"speed\" = \"v\"", "wheel_radius = 1\n"), "no column \"M_links [kNm]\""),
+        (columns("M_links", "\"speed\" = \"v [km/h]\"", ""), "wheel_radius = \"334 mm\""),
+        (columns("M_links", "spin.command = \"v [rpm]\"", "wheel_radius = 1\n"), "wheel_radius has no effect"),
+        (columns("M_links", "\"speed\" = \"v [Nm]\"", "wheel_radius = 1\n"), "unit Nm does not fit"),
+        (columns("M_links", "\"speed\" = \"v\"", "wheel_radius = \"-1 mm\"\n"), "must be above 0 m"),
+        (columns("M_links", "\"speed\" = 5", "wheel_radius = 1\n"), "must be the header of a column"),
+        (INPUTS.to_owned(), "has no column time"),
+    ] {
+        let problem = folder.wrong(&rest, BENCH);
+        assert!(problem.contains(wanted), "\"{wanted}\" is not in: {problem}");
+    }
+    Ok(())
+}
+
+#[test]
+fn columns_of_outputs_are_left_out_with_a_message() -> Result<()> {
+    let folder = Folder::new("outputs")?;
+    let scene = folder.scene(INPUTS, "time,left.load_torque,left.speed\n0,800,1\n1,810,2\n")?;
+    assert_eq!(scene.input_tables.len(), 1);
+    assert!(scene.notes.len() == 1 && scene.notes[0].contains("left.speed: it is an output"), "{:?}", scene.notes);
+    Ok(())
+}
+
+#[test]
+fn inputs_are_recorded_with_the_values_that_act() -> Result<()> {
+    for (slopes, ends) in [(true, [10.0, 20.0, 5.0, 5.0]), (false, [0.0, 10.0, 5.0, 5.0])] {
+        let text = format!(
+            "{}input_slopes = {slopes}\n[set]\nscene.gear_contact = \"ideal\"\n[[table]]\ninput = \"left.load_torque\"\n\
+             time = [0, 0.002, 0.002, 1]\nvalue = [0.0, 20.0, 5.0, 5.0]\n",
+            FRAME.replace("100 ms", "3 ms").replace("left.speed", "left.load_torque")
+        );
+        let mut csv = Vec::new();
+        run(&parsed(&text)?, Some(&mut csv), &mut Progress::silent())?;
+        let rows = String::from_utf8(csv)?;
+        let numbers = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>();
+        let rows: Vec<Vec<f64>> = rows.lines().skip(1).map(numbers).collect();
+        assert_eq!(rows.iter().map(|row| row[0]).collect::<Vec<_>>(), [0.0, 0.001, 0.002, 0.002, 0.003]);
+        for (row, end) in rows[1..].iter().zip(ends) {
+            // a table is read 1e-6 of a step after a point
+            assert!((row[1] - end).abs() < 1e-4, "{rows:?}");
+        }
     }
     Ok(())
 }

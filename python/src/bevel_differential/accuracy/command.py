@@ -28,6 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..extras import matplotlib
     from ..progress import shown
     from ..values import DifferentialError
+    from ..records import localised
     from ..writing import write_whole
     from . import accuracy
 
@@ -46,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     for file, key in [(arguments.csv, "csv"), (arguments.write, "file"), (arguments.ssv, "ssv"), (arguments.python, "python")]:
         # if no setting is accurate enough, there is nothing to write
         if file and found.answer[key]:
-            write_whole(file, found.answer[key])
+            write_whole(file, localised(found.answer[key]) if key == "csv" else found.answer[key])
             print(f"written: {file}")
     if arguments.plot:
         found.plot(arguments.plot)

@@ -7,7 +7,7 @@ import importlib.util
 import os
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout, suppress
+from contextlib import contextmanager, nullcontext, redirect_stdout, suppress
 from io import UnsupportedOperation
 from typing import Any, NoReturn, TextIO, cast
 
@@ -157,12 +157,21 @@ def _run(name, arguments):
             parsed = parser.parse_args(arguments)
         except SystemExit as end:
             return end.code
-        with printed(), _to_the_end():
+        with printed(), _to_the_end(), _decimal(parsed):
             return module.run(parsed)
     except ModuleNotFoundError as missing:
         if missing.name.partition(".")[0] == PACKAGE:
             raise
         return _said(install(missing.name, extra or "design"), FAILED)
+
+
+def _decimal(parsed):
+    """Context with the decimal sign of CSV files that the user chose."""
+    if getattr(parsed, "csv_decimal", "point") == "point":
+        return nullcontext()
+    from ..records import decimal
+
+    return decimal(parsed.csv_decimal)
 
 
 def _overview():

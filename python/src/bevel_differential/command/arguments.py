@@ -9,6 +9,9 @@ from ..former_names import present
 from ..output_file import ENDINGS, checked
 from ..values import DifferentialError
 
+# name of the decimal sign of CSV files in parsed arguments
+DECIMAL = "csv_decimal"
+
 
 def assignment(text: str) -> tuple[str, str]:
     """Splits NAME=VALUE."""
@@ -48,6 +51,14 @@ def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str,
     """Adds an option with a file to write, of a kind in `output_file.ENDINGS`."""
     help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
     parser.add_argument(option, metavar="FILE", action=_File, kind=kind, help=help, **more)
+    if ".csv" in ENDINGS[kind] and parser.get_default(DECIMAL) is None:
+        add_decimal(parser)
+
+
+def add_decimal(parser: argparse.ArgumentParser) -> None:
+    """Adds the option for the decimal sign of CSV files."""
+    parser.add_argument("--csv-decimal", dest=DECIMAL, choices=("point", "comma"), default="point",
+                        help="decimal sign in CSV files (default: point); with commas, semicolons separate the columns")
 
 
 def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:

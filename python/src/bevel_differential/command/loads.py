@@ -19,9 +19,13 @@ def run(arguments: argparse.Namespace) -> int:
     """Writes the loads and prints their number."""
     from ..answers import about, ask
     from ..progress import shown
+    from ..records import localised
+    from ..writing import write_whole
 
     of = about(arguments.scene, changes(arguments))
     with shown(arguments.progress) as progress:
         found = ask({"ask": "loads", "of": of, "every": arguments.every, "out": arguments.out}, progress=progress)
-    print(f"{arguments.out}: {found['lines']} loads of tooth pairs")
+    if arguments.csv_decimal != "point":
+        write_whole(arguments.out, localised(arguments.out.read_text(encoding="utf-8")))
+    print(f"{arguments.out}: {found['lines']} loads of tooth pairs\n{found['text']}", end="")
     return DONE

@@ -43,7 +43,16 @@ def run(arguments: argparse.Namespace) -> int:
             if file:
                 write(record, file)
                 print(f"written: {file}")
+        if arguments.csv and not is_parquet(arguments.csv):
+            print(_about(scene))
     return DONE
+
+
+def _about(scene):
+    """Description of a CSV file with a record, which the file itself does not contain."""
+    units = ", ".join(scene.fmu.display_units.values())
+    in_units = f"names contain the units {units}, so fmpy cannot read it as an input" if units else "in SI"
+    return f"scene {scene.name}: {scene.description}; {in_units}"
 
 
 def _compare(arguments):

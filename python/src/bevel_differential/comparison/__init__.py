@@ -137,9 +137,9 @@ class Comparison:
         `Scene.to_csv`, in the units of this comparison."""
         rows: list[tuple[Any, ...]] = []
         for name, scene in self.scenes.items():
-            head, units, columns = scene.columns(self.records[name], list(self.fmu.display_units.values()))
+            head, _, columns = scene.columns(self.records[name], list(self.fmu.display_units.values()))
             rows += zip([name] * len(columns[0]), *(column.tolist() for column in columns))
-        return write(file, ("scene", *head), rows, f"scenes {', '.join(self.names)}", f"units: 1,{','.join(units)}")
+        return write(file, ("scene", *head), rows, f"scenes {', '.join(self.names)}")
 
 
 def _percent(difference: float, part: float) -> str:

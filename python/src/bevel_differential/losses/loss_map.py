@@ -1,6 +1,6 @@
 """Map of losses for users: torques, loss and efficiency at any point within its axes, also from a file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,9 +17,11 @@ MAPPED = 3
 SIGNS = (1.0, -1.0)
 # columns of the file: kind of a row, axes and figures, followed by derived columns
 KIND = "kind"
-AXES = ("carrier.torque [N.m]", "carrier.speed [rad/s]", "speed_difference [rad/s]", "oil.temperature [K]")
-FIGURES = ("left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "power.loss [W]", "left.shaft_torque_min [N.m]",
-           "left.shaft_torque_max [N.m]")
+AXES = ("carrier.torque", "carrier.speed", "speed_difference", "oil.temperature")
+AXIS_UNITS = ("N.m", "rad/s", "rad/s", "K")
+FIGURES = ("left.shaft_torque", "right.shaft_torque", "power.loss", "left.shaft_torque_min", "left.shaft_torque_max")
+# kind of the rows that measured the error
+UNSEEN = "unseen"
 # names of the axes in errors; index of the axis whose two signs share lines
 NAMES, DIFFERENCE = ("torque", "speed", "difference", "temperature"), 2
 # a point may be outside the end of an axis by this fraction of the value at the end
@@ -47,7 +49,7 @@ class LossMap:
     def load(cls, file: FileName) -> "LossMap":
         """Reads a map from a file of the command `losses --csv`, CSV or Parquet. Raises `DifferentialError` for other files."""
         file = Path(file)
-        error, columns = _from_parquet(file) if is_parquet(file) else _from_csv(file)
+        columns = _from_parquet(file) if is_parquet(file) else _from_csv(file)
         kinds, points, figures = columns[KIND], *(np.stack([columns[name] for name in names], axis=-1) for names in (AXES, FIGURES))
         slips = kinds == "map"
         lines = tuple(map(np.unique, _unsigned(points[slips]).T))
@@ -55,7 +57,9 @@ class LossMap:
                     for sign in SIGNS for at in [slips & (sign * points[:, DIFFERENCE] > 0.0)]]
         still = kinds == "stuck"
         stuck = _filled(file, _still(lines), points[still], figures[still])
-        return LossMap(lines=lines, slipping=np.stack(slipping), stuck=stuck, error=error)
+        found = LossMap(lines=lines, slipping=np.stack(slipping), stuck=stuck, error="")
+        measured = kinds == UNSEEN
+        return replace(found, error=_measured(np.abs(found.at(points[measured]) - figures[measured, :MAPPED])))
 
     def torques(self, torque: Any, speed: Any, difference: Any, temperature: Any) -> tuple[Any, Any]:
         """Torques of the left and the right half-shaft [N·m].
@@ -97,14 +101,13 @@ class LossMap:
     def _within(self, points):
         """Points within the map. Points that are outside only by rounding are moved to the end. Raises `DifferentialError` for others."""
         unsigned = _unsigned(points)
-        for axis, (name, head, line) in enumerate(zip(NAMES, AXES, self.lines)):
+        for axis, (name, unit, line) in enumerate(zip(NAMES, AXIS_UNITS, self.lines)):
             near = np.clip(unsigned[:, axis], line[0], line[-1])
             beyond = ~(np.abs(unsigned[:, axis] - near) <= ROUNDING * np.abs(near))
             if axis == DIFFERENCE:
                 stands = points[:, axis] == 0.0
                 near, beyond = np.where(stands, 0.0, near * np.sign(points[:, axis])), beyond & ~stands
             if np.any(beyond):
-                unit = head.rpartition("[")[2].rstrip("]")
                 span = f"{line[0]:g} to {line[-1]:g} {unit}" if len(line) > 1 else f"only {line[0]:g} {unit}"
                 span = f"0, and {span} in both directions" if axis == DIFFERENCE else span
                 others = f" (and {np.sum(beyond) - 1} more)" if np.sum(beyond) > 1 else ""
@@ -112,6 +115,14 @@ class LossMap:
                                         f"measure a map with more by `losses --{name}`")
             points[:, axis] = near
         return points
+
+
+def _measured(errors):
+    """Sentence about the errors at the unseen points of a file, shape (points, 3)."""
+    if not len(errors):
+        return "no unseen points: the error of the map is not measured"
+    left, right, loss = (f"{worst:.2g}" for worst in errors.max(axis=0))
+    return f"{len(errors)} unseen points: the largest errors are {left} N.m at the left, {right} N.m at the right, and {loss} W"
 
 
 def _unsigned(points):
@@ -146,20 +157,16 @@ def _from_parquet(file):
         table = parquet.read_table(file)
     except (OSError, ValueError) as error:
         raise DifferentialError(f"{file}: it cannot be read ({error})") from None
-    comment = (table.schema.metadata or {}).get(b"comment", b"").decode()
     _need(file, table.column_names)
     rows = table.select([KIND, *AXES, *FIGURES]).to_pydict()
-    return comment.partition("\n")[0], _columns(file, rows, range(1, table.num_rows + 1), "row")
+    return _columns(file, rows, range(1, table.num_rows + 1), "row")
 
 
 def _from_csv(file):
     (_, head), *rows = lines_of(file, texts=[KIND])
     _need(file, head)
-    with open(file, encoding="utf-8-sig") as text:
-        # spreadsheets may add separators when they save the file
-        comment = text.readline().strip().strip("\",;").removeprefix("#").strip()
     cells = {name: [cells[head.index(name)] for _, cells in rows] for name in (KIND, *AXES, *FIGURES)}
-    return comment, _columns(file, cells, [line for line, _ in rows], "line")
+    return _columns(file, cells, [line for line, _ in rows], "line")
 
 
 def _need(file, names):
@@ -169,18 +176,23 @@ def _need(file, names):
 
 
 def _columns(file, cells, lines, what):
-    """Columns of the rows that belong to the map, with numbers converted."""
-    kept = [place for place, kind in enumerate(cells[KIND]) if kind in ("map", "stuck")]
+    """Columns of the rows, with numbers converted. Rows that measured the error lack some figures, which become NaN."""
+    kept = [place for place, kind in enumerate(cells[KIND]) if kind in ("map", "stuck", UNSEEN)]
+    blank = {place for place in kept if cells[KIND][place] == UNSEEN}
     found = {KIND: np.array([cells[KIND][place] for place in kept])}
     for name in (*AXES, *FIGURES):
         try:
-            found[name] = np.array([cells[name][place] for place in kept], float)
+            found[name] = np.array([_number(cells[name][place], place in blank) for place in kept], float)
         except (TypeError, ValueError):
             place = next(place for place in kept if not _is_number(cells[name][place]))
             raise DifferentialError(f"{file}, {what} {lines[place]}, column {name}, value \"{cells[name][place]}\": it is a number") from None
-    if not kept:
+    if len(kept) == len(blank):
         raise DifferentialError(f"{file}: it has no rows of the kinds map and stuck; `losses --csv` writes them")
     return found
+
+
+def _number(cell, may_be_blank):
+    return np.nan if may_be_blank and cell in (None, "") else float(cell)
 
 
 def _is_number(cell):

@@ -3,7 +3,7 @@
 import argparse
 
 from ..command import DONE
-from ..command.arguments import add_progress, add_quick, add_set, add_stop, changes
+from ..command.arguments import add_decimal, add_progress, add_quick, add_set, add_stop, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -14,6 +14,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_stop(parser)
     add_quick(parser, "longer steps; without a scene, aligned and with one offset, angle and crowning")
     parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
+    add_decimal(parser)
     add_progress(parser)
 
 
@@ -21,6 +22,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulates, writes files and pictures, and prints the results."""
     from ..answers import about, ask
     from ..progress import part, shown
+    from ..records import localised
     from ..values import DifferentialError
     from ..writing import in_folder, write_whole
     from .picture import draw, style
@@ -36,5 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
         progress(0.9, "drawing")
         with style.styled():
             pictures = draw(folder, not arguments.scenes)
+        for name, content in found["files"].items():
+            write_whole(folder / name, localised(content))
     print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")
     return DONE

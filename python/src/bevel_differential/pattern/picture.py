@@ -44,6 +44,9 @@ HIGHEST, BESIDE, AROUND = 5.0, 0.55, 0.95
 LOAD_HEIGHT = 0.19
 # smallest half-width of a line of contact in the picture, mm
 THINNEST = 0.12
+# sizes of the units of pictures, by column: lengths in mm, line loads in N/mm, pressures in MPa, force in kN
+UNITS = {**dict.fromkeys(("cone", "width", "height", "planet_height", "side_height", "radius", "half_width", "centroid", "toe_cone",
+                          "toe_height", "heel_cone", "heel_height"), 1e3), "line_load": 1e-3, "pressure": 1e-6, "force": 1e-3}
 # height for the legend above the panels, inches
 LEGEND = 0.4
 
@@ -51,7 +54,7 @@ LEGEND = 0.4
 def draw(folder: Path, of_documentation: bool) -> list[str]:
     """Draws the patterns whose files are in `folder`. Returns the names of the pictures. `of_documentation`: true for the cases of the
     documentation, which have remarks; scenes of users may have the same names."""
-    data = {name: read(folder / f"{name}.csv")[1] for name in ["pattern", "contacts", "summary", "outline"]}
+    data = {name: [_drawn(row) for row in read(folder / f"{name}.csv")[1]] for name in ["pattern", "contacts", "summary", "outline"]}
     outlines = {}
     for row in data["outline"]:
         outlines.setdefault(row["case"], {})[row["mark"]] = row
@@ -59,6 +62,11 @@ def draw(folder: Path, of_documentation: bool) -> list[str]:
     patterns(folder, data, outlines, cases, REMARKS if of_documentation else {})
     lines(folder, data, outlines, cases, of_documentation)
     return ["contact_pattern.png", "contact_lines.png"]
+
+
+def _drawn(row):
+    """Row of a file, in SI, in the units of the pictures: mm, N/mm, MPa and kN."""
+    return {name: value * UNITS[name] if name in UNITS else value for name, value in row.items()}
 
 
 def tooth(axes, outline, names=False):

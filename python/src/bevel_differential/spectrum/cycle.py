@@ -20,27 +20,21 @@ from math import nan, pi
 
 import numpy as np
 
-from ..csv_table import CsvTable, Quantity, Text, Time
+from ..csv_table import CsvTable, Text
 from ..fmu import Fmu
-from ..values import DifferentialError, FileName, Variable, suggestion
+from ..values import DifferentialError, FileName, Quantity, Variable, suggestion
 from .damage import Event
 from .driven import LOADS, drives_of, missing, wanted
 
-LENGTH = {"m": 1.0, "mm": 1e-3, "km": 1e3}
-QUANTITIES = {quantity.name: quantity for quantity in [
-    Quantity("speed", {"m/s": 1.0, "km/h": 1.0 / 3.6}),
-    Quantity("torque", {"N.m": 1.0, "kN.m": 1e3}),
-    Quantity("turn_radius", LENGTH),
-    Quantity("speed_difference", {"rad/s": 1.0, "deg/s": pi / 180.0, "rpm": pi / 30.0}),
-    Quantity("wheel_radius", LENGTH),
-    Quantity("tyre_circumference", LENGTH),
-    Quantity("track", LENGTH),
-]}
+# quantities of the vehicle, with their SI units
+QUANTITIES = {name: Quantity(name, unit) for name, unit in {
+    "speed": "m/s", "torque": "N.m", "turn_radius": "m", "speed_difference": "rad/s", "wheel_radius": "m", "tyre_circumference": "m",
+    "track": "m"}.items()}
 SPIN = "scene.planet_spin"
 # sign of half the speed difference on each side
 SIDES = {"left": 1.0, "right": -1.0}
 _COLUMNS: list[Quantity | Text] = [
-    Text("name"), Text("history"), Quantity("count", {"1": 1.0}), Time("duration"), Quantity("distance", LENGTH)]
+    Text("name"), Text("history"), Quantity("count", "1"), Quantity("duration", "s"), Quantity("distance", "m")]
 OWN = {column.name: column for column in _COLUMNS}
 # prefixes of parameters that cannot be columns, because the gears are the same in all events
 WHOLE = ("geometry.", "strength.", "material.", "effects.strength")
@@ -143,7 +137,7 @@ def _history(table, line, row, fmu):
     file = table.file.parent / row["history"]
 
     def known(name):
-        return Time(name) if name == "time" else _variable(name, fmu, ("input",), ["time"])
+        return Quantity(name, "s") if name == "time" else _variable(name, fmu, ("input",), ["time"])
 
     found = CsvTable(file, known, needed=["time"])
     for at, values in found.rows:

@@ -1,10 +1,9 @@
 """Base class of tyre, motor and body: parameters with units and ranges."""
 
-import math
 from dataclasses import dataclass, field, fields
 from typing import Any, Self
 
-from ..values import DifferentialError
+from ..values import DifferentialError, Quantity, Value
 
 
 def parameter(value: float, unit: str, text: str, least: float | None = None) -> Any:
@@ -14,9 +13,9 @@ def parameter(value: float, unit: str, text: str, least: float | None = None) ->
 
 @dataclass
 class Part:
-    """Part with parameters, SI units. `described` lists them, `unset` lists those that nobody gave."""
+    """Part with parameters in SI, which may be given with units, such as "372 mm". `described` lists them, `unset` lists those that nobody gave."""
 
-    def __new__(cls, *values: float, **named: float) -> Self:
+    def __new__(cls, *values: Value, **named: Value) -> Self:
         part = super().__new__(cls)
         part.__dict__["_given"] = {*list(cls.described())[:len(values)], *named}
         return part
@@ -31,13 +30,9 @@ class Part:
         for parameter in fields(self):
             name, value = f"{type(self).__name__}.{parameter.name}", getattr(self, parameter.name)
             unit, least = parameter.metadata["unit"], parameter.metadata["least"]
-            try:
-                number = float(value)
-            except (TypeError, ValueError):
-                raise DifferentialError(f"{name} = {value!r}: it is a number, {unit}") from None
-            if not math.isfinite(number) or (least is not None and not number > least):
-                allowed = "a finite number" if least is None else f"a finite number above {least:g}"
-                raise DifferentialError(f"{name} = {value!r}: it is {allowed}, {unit}")
+            number = float(Quantity(name, unit).number(value))
+            if least is not None and not number > least:
+                raise DifferentialError(f"{name} = {value!r}: it is a finite number above {least:g}, {unit}")
             setattr(self, parameter.name, number)
 
     @classmethod

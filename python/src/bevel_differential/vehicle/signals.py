@@ -6,9 +6,8 @@ from typing import TypeAlias
 
 import numpy as np
 
-from ..csv_table import Quantity
 from ..inputs import Signals, Table
-from ..values import DifferentialError, split
+from ..values import DifferentialError, Quantity
 
 # a number, a pair (times, values) with linear interpolation, or a function of time
 Course: TypeAlias = float | tuple[Sequence[float], Sequence[float]] | Callable[[float], float]
@@ -40,7 +39,7 @@ class Requests:
     def __init__(self, given: Mapping[str, Course]):
         self._courses = {name: course(name, each) for name, each in given.items()}
         self._tables = [name for name, each in given.items() if isinstance(each, tuple)]
-        self._signals = Signals((), [Table(Quantity(name, {"": 1.0}), *given[name]) for name in self._tables])
+        self._signals = Signals((), [Table(Quantity(name, "1"), *given[name]) for name in self._tables])
 
     def steps(self, stop: float, step: float) -> np.ndarray:
         """Steps to `stop`; see `Signals.steps`."""
@@ -55,17 +54,6 @@ class Requests:
         return self._courses | {name: line(value, slope) for name, value, slope in lines}
 
 
-# m/s by unit
-SPEED_UNITS = {"": 1.0, "m/s": 1.0, "km/h": 1.0 / 3.6}
-
-
 def speed_value(given: float | str) -> float:
     """Speed in m/s from a number, m/s, or from text such as "54 km/h"."""
-    number, unit = split(str(given))
-    try:
-        value = float(number) * SPEED_UNITS[unit]
-    except (KeyError, ValueError):
-        value = math.nan
-    if not math.isfinite(value):
-        raise DifferentialError(f"speed = {given!r}: it is m/s, or a number and one of m/s, km/h, such as \"54 km/h\"")
-    return value
+    return float(Quantity("speed", "m/s").number(given))
