@@ -18,6 +18,7 @@ extern crate self as bevel_differential;
 pub mod problem;
 #[macro_use]
 mod spec;
+mod static_memory;
 
 pub mod contact;
 pub mod declaration;

@@ -18,7 +18,7 @@ fn every_variable_is_at_its_value_reference() -> Result<()> {
     let page = page()?;
     let variables = page["variables"].as_array().expect("a list");
     assert_eq!(variables.len(), table().rows.len());
-    for (reference, (variable, row)) in variables.iter().zip(&table().rows).enumerate() {
+    for (reference, (variable, row)) in variables.iter().zip(table().rows).enumerate() {
         assert_eq!(variable["name"], row.name);
         assert_eq!(variable["reference"], reference);
         assert_eq!(variable["min"].as_f64(), row.range.map(|range| range.min), "{}", row.name);

@@ -5,6 +5,7 @@
 //! forces. A kink can therefore be predicted from the present rates, and a step can be made to end on it.
 
 use super::{Engagement, Flank, Spot};
+use crate::numeric::quotient;
 
 /// Fractions of a step between which the step is cut at a kink. A kink near either end of a step does no harm.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
@@ -61,7 +62,7 @@ impl Engagement {
     /// before the touch.
     pub fn kink_of_touch(&self, q: f64, change: f64) -> Option<f64> {
         if self.approach(q) <= 0.0 {
-            let touch = (self.half_backlash().copysign(change) - q) / change;
+            let touch = quotient(self.half_backlash().copysign(change) - q, change)?;
             return (touch > WORTHWHILE.0 && touch <= WORTHWHILE.1).then_some(touch * BEFORE_TOUCH);
         }
         first_change(|t| {
@@ -83,8 +84,10 @@ impl Engagement {
             for k in pairs {
                 let [start, end] = [position[1], position[1] + change[1]].map(|x| self.past_ends(flank, x, 0.0, k));
                 for (from, to) in start.into_iter().zip(end) {
-                    let t = from / (from - to);
-                    if t > 0.0 && t <= 1.0 {
+                    if let Some(t) = quotient(from, from - to)
+                        && t > 0.0
+                        && t <= 1.0
+                    {
                         visit(t);
                     }
                 }

@@ -1,8 +1,9 @@
 //! Access to a value within a group of values, and to a group within a larger group.
 
 use crate::spec::EnumType;
+use crate::static_memory::store;
 
-/// Access to a value of type `T` in a group `P`. Rows are created once and exist as long as the program.
+/// Access to a value of type `T` in a group `P`. Rows are created once and exist as long as the library.
 pub type Field<P, T> = &'static (dyn for<'a> Fn(&'a mut P) -> &'a mut T + Send + Sync);
 /// Getter of an enumeration in a group `P`.
 pub type GetChoice<P> = &'static (dyn Fn(&P) -> i32 + Send + Sync);
@@ -22,13 +23,8 @@ pub enum Parameter<P: 'static> {
     Enumeration(&'static EnumType, GetChoice<P>, SetChoice<P>),
 }
 
-/// Leaks `closure`, because rows exist as long as the program.
-pub(super) fn keep<F>(closure: F) -> &'static F {
-    Box::leak(Box::new(closure))
-}
-
 fn project<P, Q, T>(field: Field<P, T>, group: fn(&mut Q) -> &mut P) -> Field<Q, T> {
-    keep(move |q| field(group(q)))
+    store(move |q| field(group(q)))
 }
 
 impl<P> Parameter<P> {
@@ -40,8 +36,8 @@ impl<P> Parameter<P> {
             Self::Boolean(field) => Parameter::Boolean(project(field, group)),
             Self::Enumeration(kind, get, set) => Parameter::Enumeration(
                 kind,
-                keep(move |q: &Q| get(group(&mut { *q }))),
-                keep(move |q: &mut Q, value| set(group(q), value)),
+                store(move |q: &Q| get(group(&mut { *q }))),
+                store(move |q: &mut Q, value| set(group(q), value)),
             ),
         }
     }

@@ -2,9 +2,9 @@
 //! Conditions follow, and finally the kind of variable and the access. These functions are not inlined, because rows
 //! are created only once and inlining would add tens of kilobytes.
 
-use super::access::keep;
 use super::{DisplayUnit, Parameter, Shown, Unit, units};
 use crate::spec::Choices;
+use crate::static_memory::store;
 
 /// FMI causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -153,26 +153,26 @@ impl Row<()> {
         (min, max): (f64, f64),
         at: fn(&mut P) -> &mut f64,
     ) -> Row<Parameter<P>> {
-        self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(keep(at)))
+        self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(store(at)))
     }
 
     /// A parameter that is a time: any value that a host may use, including negative ones.
     #[inline(never)]
     pub fn time<P: 'static>(self, at: fn(&mut P) -> &mut f64) -> Row<Parameter<P>> {
-        self.number(units::SECOND.into(), None).map(|()| Parameter::Real(keep(at)))
+        self.number(units::SECOND.into(), None).map(|()| Parameter::Real(store(at)))
     }
 
     /// An integer parameter.
     #[inline(never)]
     pub fn integer<P: 'static>(self, (min, max): (i32, i32), at: fn(&mut P) -> &mut i32) -> Row<Parameter<P>> {
         let range = Some(Range { min: f64::from(min), max: f64::from(max) });
-        Row { range, ..self }.map(|()| Parameter::Integer(keep(at)))
+        Row { range, ..self }.map(|()| Parameter::Integer(store(at)))
     }
 
     /// A Boolean parameter.
     #[inline(never)]
     pub fn switch<P: 'static>(self, at: fn(&mut P) -> &mut bool) -> Row<Parameter<P>> {
-        self.map(|()| Parameter::Boolean(keep(at)))
+        self.map(|()| Parameter::Boolean(store(at)))
     }
 
     /// A parameter that is one of several choices.
@@ -183,7 +183,7 @@ impl Row<()> {
                 *at(p) = choice;
             }
         };
-        self.map(|()| Parameter::Enumeration(E::TYPE, keep(get), keep(set)))
+        self.map(|()| Parameter::Enumeration(E::TYPE, store(get), store(set)))
     }
 
     /// An input between −`limit` and `limit`.

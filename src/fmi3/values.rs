@@ -26,12 +26,12 @@ fn other_type(reference: u32, wanted: &str) -> CallError {
 }
 
 /// Name of a variable; empty for an unknown value reference.
-fn name(reference: u32) -> String {
-    let rows = &table().rows;
+fn name(reference: u32) -> &'static str {
+    let rows = table().rows;
     let index = reference as usize;
     match rows.get(index) {
-        Some(row) => row.name.to_owned(),
-        None => super::variables::added().get(index - rows.len()).map_or_else(String::new, |added| added.name.clone()),
+        Some(row) => row.name,
+        None => super::variables::added().get(index - rows.len()).map_or("", |added| added.name),
     }
 }
 

@@ -6,6 +6,7 @@ use std::sync::OnceLock;
 
 use crate::instance::EVENT_INDICATORS;
 use crate::model::{Happening, MAX_PLANETS, Parameters};
+use crate::static_memory::{store_all, store_text};
 use crate::variables::{Access, index_of, table};
 
 /// Prefix of the variables of the first planet.
@@ -14,7 +15,7 @@ const FIRST: &str = "planet[1].";
 const PAIR: &str = "mesh.pair[";
 
 /// Source of a variable's value.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub enum Item {
     /// A row of the table.
     Row(usize),
@@ -33,18 +34,18 @@ pub enum Item {
     /// An event indicator.
     Indicator(usize),
     /// One row of the table for each planet of the scene.
-    Planets(Vec<usize>),
+    Planets(&'static [usize]),
     /// One row of the table for each loaded tooth pair.
-    Pairs(Vec<usize>),
+    Pairs(&'static [usize]),
 }
 
 /// A variable that only FMI 3.0 has.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Added {
     /// Dotted name.
-    pub name: String,
+    pub name: &'static str,
     /// Description of the variable.
-    pub description: String,
+    pub description: &'static str,
     /// Source of the value.
     pub item: Item,
 }
@@ -80,10 +81,9 @@ pub fn held(index: usize) -> Option<usize> {
 
 /// Variables that only FMI 3.0 has. Their value references follow those of the rows.
 pub fn added() -> &'static [Added] {
-    static ADDED: OnceLock<Vec<Added>> = OnceLock::new();
+    static ADDED: OnceLock<&[Added]> = OnceLock::new();
     ADDED.get_or_init(|| {
-        let own =
-            |name: &str, description: &str, item| Added { name: name.into(), description: description.into(), item };
+        let own = |name, description, item| Added { name, description, item };
         let mut added = vec![
             own("time", "Simulation time", Item::Time),
             own("event.kind", "Kind of the last event", Item::EventKind),
@@ -96,8 +96,8 @@ pub fn added() -> &'static [Added] {
             own("event.text", "Text of the last event", Item::EventText),
         ];
         added.extend((0..EVENT_INDICATORS).map(|k| Added {
-            name: format!("event.indicator[{}]", k + 1),
-            description: "Changes its sign at an event: flanks touch or part, dry friction sticks or slips".into(),
+            name: store_text(&format!("event.indicator[{}]", k + 1)),
+            description: "Changes its sign at an event: flanks touch or part, dry friction sticks or slips",
             item: Item::Indicator(k),
         }));
         added.extend(arrays());
@@ -107,27 +107,34 @@ pub fn added() -> &'static [Added] {
             "Number of events from the start up to the last event; 0 = none",
             Item::EventCount,
         ));
-        added
+        store_all(&added)
     })
+}
+
+/// Variable with texts that are stored as long as the library.
+fn stored(name: &str, description: &str, item: Item) -> Added {
+    Added { name: store_text(name), description: store_text(description), item }
 }
 
 /// Arrays over planets, and over the loaded tooth pairs of the first planet.
 fn arrays() -> Vec<Added> {
-    let rows = &table().rows;
+    let rows = table().rows;
     let place = |name: &str| rows.iter().position(|row| row.name == name);
     let outputs = rows.iter().filter(|row| matches!(row.access, Access::Output(_)));
     let mut arrays = Vec::new();
     for row in outputs {
         if let Some(pair) = row.name.strip_prefix(PAIR).and_then(|rest| rest.strip_prefix("1].")) {
-            let members = (1..).map_while(|k| place(&format!("{PAIR}{k}].{pair}"))).collect();
-            let description = format!("{}, for each loaded pair", row.description);
-            arrays.push(Added { name: format!("mesh.pairs_{pair}"), description, item: Item::Pairs(members) });
+            let members: Vec<usize> = (1..).map_while(|k| place(&format!("{PAIR}{k}].{pair}"))).collect();
+            let (name, description) =
+                (format!("mesh.pairs_{pair}"), format!("{}, for each loaded pair", row.description));
+            arrays.push(stored(&name, &description, Item::Pairs(store_all(&members))));
         } else if let Some(quantity) = row.name.strip_prefix(FIRST).filter(|rest| !rest.contains('[')) {
             let members: Vec<usize> =
                 (1..=MAX_PLANETS).filter_map(|k| place(&format!("planet[{k}].{quantity}"))).collect();
             if members.len() == MAX_PLANETS {
-                let description = format!("{}, for each planet", row.description);
-                arrays.push(Added { name: format!("planets.{quantity}"), description, item: Item::Planets(members) });
+                let (name, description) =
+                    (format!("planets.{quantity}"), format!("{}, for each planet", row.description));
+                arrays.push(stored(&name, &description, Item::Planets(store_all(&members))));
             }
         }
     }
@@ -137,7 +144,7 @@ fn arrays() -> Vec<Added> {
 /// Returns the variable of a value reference.
 pub fn item(reference: u32) -> Option<Item> {
     let (index, rows) = (reference as usize, table().rows.len());
-    if index < rows { Some(Item::Row(index)) } else { added().get(index - rows).map(|added| added.item.clone()) }
+    if index < rows { Some(Item::Row(index)) } else { added().get(index - rows).map(|added| added.item) }
 }
 
 impl Item {

@@ -44,7 +44,7 @@ fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, Inp
 
 /// Returns `inputs`, in which an input that has passed a limit by rounding is set to the limit.
 pub fn within_ranges(mut inputs: Inputs) -> Inputs {
-    for &index in &table().inputs {
+    for &index in table().inputs {
         let row = &table().rows[index];
         if let Access::Input(slot) = row.access {
             let reached = slot(&mut inputs);

@@ -59,7 +59,7 @@ impl Snapshot {
     fn host_inputs(&self) -> HostInputs {
         let mut derivatives = self.input_derivatives.unwrap_or(InputDerivatives::ZERO);
         let mut follow = Inputs::ZERO;
-        for &index in &table().inputs {
+        for &index in table().inputs {
             let Access::Input(slot) = table().rows[index].access else { continue };
             let is_set = self.derivatives_set & input_bit(index as u32) != 0;
             if is_set || derivatives.rates.iter_mut().any(|rates| *slot(rates) != 0.0) {

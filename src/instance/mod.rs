@@ -18,6 +18,7 @@ mod component;
 mod derivatives;
 mod exchange;
 mod exports;
+mod float_traps;
 mod host_memory;
 mod initial_derivatives;
 mod input_ramp;

@@ -1,16 +1,19 @@
-//! Panic guard: a panic inside a call becomes a message for the host's log instead of text on stderr.
+//! Panic guard: a panic inside a call becomes a message for the host's log instead of text on stderr. Floating-point
+//! traps of the host are masked.
 
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
 
+use super::float_traps::MaskedTraps;
+
 thread_local! {
     /// True while this thread is inside a call of this library.
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `body`. Returns the message of a panic in it, and prints nothing.
+/// Runs `body` with masked floating-point traps. Returns the message of a panic in it, and prints nothing.
 pub fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     // the hook belongs to this library's copy of std; panics elsewhere in the process keep their hook
@@ -22,6 +25,7 @@ pub fn catch<T>(body: impl FnOnce() -> T) -> Result<T, String> {
             }
         }));
     });
+    let _masked = MaskedTraps::new();
     let outer = INSIDE.replace(true);
     let outcome = panic::catch_unwind(AssertUnwindSafe(body));
     INSIDE.set(outer);

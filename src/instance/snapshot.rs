@@ -269,7 +269,7 @@ impl Snapshot {
             return Err(format!("the state \"{}\" does not belong to this kind of instance", phase.name()));
         }
         for mut inputs in [Some(*inputs), state.as_deref().map(|running| running.1)].into_iter().flatten() {
-            for row in &table().rows {
+            for row in table().rows {
                 if let Access::Input(slot) = row.access {
                     check_value(row, *slot(&mut inputs)).map_err(|p| p.to_string())?;
                 }

@@ -2,6 +2,7 @@
 
 use super::course::{Extension, extended};
 use super::system::Point;
+use crate::numeric::quotient;
 
 /// Nodes and weights of the Gauss–Legendre quadrature with three points on [0, 1]. It is exact up to degree 5.
 const GAUSS: [(f64, f64); 3] =
@@ -110,7 +111,7 @@ fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
         return [0.0; 2];
     }
     let q = -0.5 * (c[1] + libm::sqrt(discriminant).copysign(c[1]));
-    [q / c[2], c[0] / q].map(|root| if root.is_nan() { 0.0 } else { root })
+    [quotient(q, c[2]), quotient(c[0], q)].map(Option::unwrap_or_default)
 }
 
 /// Root of `of` in a span at whose ends `of` has different signs, by bisection to the last bit.
@@ -170,5 +171,8 @@ mod tests {
             assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 1e-14 * expected[i].abs()), "{a} {b}: {found:?}");
         }
         assert_eq!(quadratic_roots([1.0, 0.0, 1.0]), [0.0; 2]);
+        // a line, and a constant
+        assert_eq!(quadratic_roots([1.0, -2.0, 0.0]).map(f64::abs), [0.0, 0.5]);
+        assert_eq!(quadratic_roots([1.0, 0.0, 0.0]), [0.0; 2]);
     }
 }

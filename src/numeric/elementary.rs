@@ -30,8 +30,34 @@ const SINE: [f64; 6] =
 const COSINE: [f64; 6] =
     [1.0 / 24.0, -1.0 / 720.0, 1.0 / 40_320.0, -1.0 / 3_628_800.0, 1.0 / 479_001_600.0, -1.0 / 87_178_291_200.0];
 
+/// Magnitude from which a quotient counts as infinite.
+const INFINITE: f64 = 1e100;
+
+/// Quotient of `a` and `b`, or `None` if `b` is 0 or the quotient is so large that it has no use. No division overflows.
+#[inline]
+pub fn quotient(a: f64, b: f64) -> Option<f64> {
+    let quotient = a / b.abs().max(a.abs() / INFINITE).max(f64::MIN_POSITIVE).copysign(b);
+    // compilers divide before they test, so the divisor must be valid in any case
+    (a.abs() < INFINITE * b.abs()).then_some(quotient)
+}
+
 /// Fractional part of `x` in [0, 1).
 pub fn frac(x: f64) -> f64 {
     let f = x - libm::floor(x);
     if f < 1.0 { f } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_quotient_exists_if_it_is_not_infinite() {
+        for (a, b) in [(6.0, -4.0), (-1e-3, 3.0), (0.0, -2.0), (7.0, f64::MIN_POSITIVE * 1e220), (1e90, 1e-9)] {
+            assert_eq!(quotient(a, b), Some(a / b));
+        }
+        for (a, b) in [(1.0, 0.0), (0.0, 0.0), (-1.0, 1e-101), (f64::NAN, 1.0), (1.0, f64::NAN)] {
+            assert_eq!(quotient(a, b), None);
+        }
+    }
 }

@@ -9,7 +9,7 @@ mod minimum;
 mod root;
 mod scalar;
 
-pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, sin, sin_cos, sqrt, tan};
+pub use elementary::{FRAC_PI_2, PI, TAU, acos, asin, atan2, cos, frac, pow, quotient, sin, sin_cos, sqrt, tan};
 pub use finite::Finite;
 pub(crate) use finite::finite;
 pub use jet::Jet;

@@ -1,5 +1,7 @@
 //! Root of a rising function, from its values and slopes: Newton's method within a bracket.
 
+use super::quotient;
+
 /// Maximum number of evaluations; a dozen is enough.
 const MAX_EVALUATIONS: usize = 200;
 
@@ -18,7 +20,7 @@ pub fn rising_root(f: impl Fn(f64) -> [f64; 2], most: f64, balance: f64) -> Opti
     }
     let mut halved = true;
     for _ in 0..MAX_EVALUATIONS {
-        let newton = x - value / slope;
+        let newton = quotient(value, slope).map_or(high, |step| x - step);
         let next = if halved && low < newton && newton < high { newton } else { 0.5 * (low + high) };
         if value == 0.0 || next == low || next == high {
             break;

@@ -1,6 +1,6 @@
 //! Values at the start, in the middle and at the end of an interval, and the parabola through them.
 
-use crate::numeric::sqrt;
+use crate::numeric::{quotient, sqrt};
 
 /// Values of one quantity at the start, in the middle and at the end of an interval.
 pub type Three = [f64; 3];
@@ -15,8 +15,10 @@ pub fn second_difference([begin, middle, end]: Three) -> f64 {
 pub fn extremum(values: Three) -> Option<(f64, f64)> {
     let [begin, middle, end] = values;
     let (difference, lean) = (second_difference(values), end - begin);
-    (lean.abs() < 2.0 * difference.abs())
-        .then(|| (middle - lean * lean / (8.0 * difference), 0.5 - lean / (4.0 * difference)))
+    // compilers divide before they test, so the divisor must be valid in any case
+    let divisor = difference.abs().max(0.5 * lean.abs()).max(f64::MIN_POSITIVE).copysign(difference);
+    let top = (middle - lean * lean / (8.0 * divisor), 0.5 - lean / (4.0 * divisor));
+    (lean.abs() < 2.0 * difference.abs()).then_some(top)
 }
 
 /// Largest value of the parabola, and the fraction of the interval before it.
@@ -43,17 +45,12 @@ pub fn reaching(values: Three, value: f64, [from, to]: [f64; 2]) -> f64 {
     let q = -0.5 * (slope + sqrt((slope * slope - 4.0 * bend * start).max(0.0)).copysign(slope));
     let middle = 0.5 * (from + to);
     let nearest = |a: f64, b: f64| if (b - middle).abs() < (a - middle).abs() { b } else { a };
-    let part = match [q / bend, start / q] {
-        [a, b] if a.is_finite() && b.is_finite() => nearest(a, b),
-        [a, b] => {
-            if a.is_finite() {
-                a
-            } else {
-                b
-            }
-        }
+    let part = match [quotient(q, bend), quotient(start, q)] {
+        [Some(a), Some(b)] => nearest(a, b),
+        [Some(one), None] | [None, Some(one)] => one,
+        [None, None] => middle,
     };
-    if part.is_nan() { middle } else { part.clamp(from, to) }
+    part.clamp(from, to)
 }
 
 /// True if all values have the same sign. A load that is 0 or changes its flank has a kink, which no parabola describes.

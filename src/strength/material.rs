@@ -31,11 +31,6 @@ impl SnCurve {
         Self { strength, slope, reference_cycles, static_cycles, endurance_slope: Some(slope) }
     }
 
-    /// Returns the curve with its strength multiplied by `factor` (idler factor, safety, reliability).
-    pub fn weakened(self, factor: f64) -> Self {
-        Self { strength: self.strength * factor, ..self }
-    }
-
     /// Damage of one cycle at `stress` [Pa], 1/N_f: 0 without stress, at most 1.
     ///
     /// The standard states no life above the static strength. The slope continues in that range, so that damage sums
@@ -77,11 +72,6 @@ impl Default for ToothStrength {
 }
 
 impl ToothStrength {
-    /// Bending strength of teeth loaded on alternate flanks.
-    pub fn idler_bending(&self) -> SnCurve {
-        self.bending.weakened(self.idler_factor)
-    }
-
     /// Mean stress sensitivity M that is consistent with the idler factor: Y_M = (1 + M)/2 for purely alternating load
     /// (ISO 6336-3, annex B, with the stress ratio −1).
     pub fn mean_stress_sensitivity(&self) -> f64 {

@@ -17,6 +17,7 @@ use super::table::table;
 use super::{Access, Variable};
 use crate::model::{Inputs, Parameters};
 use crate::problem::Problem;
+use crate::static_memory::store_all;
 
 /// Situation in which a value is set.
 #[derive(Clone, Copy, Debug)]
@@ -35,12 +36,12 @@ impl Situation {
 }
 
 /// A parsed condition, with rows by their indices.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 enum Condition {
-    Any(Vec<Self>),
-    All(Vec<Self>),
-    OneOf(usize, Vec<f64>),
-    NoneOf(usize, Vec<f64>),
+    Any(&'static [Self]),
+    All(&'static [Self]),
+    OneOf(usize, &'static [f64]),
+    NoneOf(usize, &'static [f64]),
     Above(usize, f64),
     OwnSteps,
     FromStart,
@@ -50,10 +51,10 @@ impl Condition {
     /// Parses `text`. Returns `None` if it has another form or contains an unknown name.
     fn read(text: &str) -> Option<Self> {
         let several = |parts: Vec<&str>| parts.into_iter().map(Self::read).collect::<Option<Vec<_>>>();
-        for (word, of) in [(" or ", Self::Any as fn(Vec<Self>) -> Self), (" and ", Self::All)] {
+        for (word, of) in [(" or ", Self::Any as fn(&'static [Self]) -> Self), (" and ", Self::All)] {
             let parts = split(text, word);
             if parts.len() > 1 {
-                return several(parts).map(of);
+                return several(parts).map(|parts| of(store_all(&parts)));
             }
         }
         if let Some(inner) = text.strip_prefix('(') {
@@ -68,6 +69,7 @@ impl Condition {
         let (name, sign, values) = (words.next()?, words.next()?, words.next()?);
         let index = index_of(name)?;
         let values = values.split('|').map(|word| number_in(&table().rows[index], word)).collect::<Option<Vec<_>>>()?;
+        let values = store_all(&values);
         match sign {
             "=" => Some(Self::OneOf(index, values)),
             "!=" => Some(Self::NoneOf(index, values)),
@@ -164,6 +166,7 @@ fn parameter(index: usize, parameters: &mut Parameters) -> Option<f64> {
 }
 
 /// Conditions under which the value of a row has an effect.
+#[derive(Clone, Copy)]
 struct Needs {
     /// Start value; `None` for an output.
     start: Option<f64>,
@@ -184,7 +187,7 @@ impl Needs {
 
 /// Conditions of all rows.
 fn needs() -> &'static [Needs] {
-    static NEEDS: OnceLock<Vec<Needs>> = OnceLock::new();
+    static NEEDS: OnceLock<&[Needs]> = OnceLock::new();
     NEEDS.get_or_init(|| {
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
         let mut of = |row: &Variable| Needs {
@@ -193,7 +196,7 @@ fn needs() -> &'static [Needs] {
             when: row.when.and_then(Condition::read),
             acts_when: row.acts_when.and_then(Condition::read),
         };
-        table().rows.iter().map(&mut of).collect()
+        store_all(&table().rows.iter().map(&mut of).collect::<Vec<_>>())
     })
 }
 

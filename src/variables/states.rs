@@ -7,6 +7,7 @@ use super::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, MM};
 use crate::declaration::{Causality, DisplayUnit, Unit, row};
 use crate::model::{ATTACHED, BODIES, Body, STATES};
+use crate::static_memory::store_text;
 
 /// A state and its derivative.
 struct State {
@@ -126,8 +127,7 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
     for &(k, ref state) in &numbered {
         let found = rows.iter().position(|row| row.name == state.name);
         indices[k] = found.unwrap_or_else(|| {
-            // the table exists as long as the process
-            let [name, description] = [&state.name, &state.description].map(|text| text.clone().leak());
+            let [name, description] = [&state.name, &state.description].map(|text| store_text(text));
             let row = local(name, state.unit, OutputSource::State(k), description);
             rows.push(Variable { display: state.display, ..row });
             rows.len() - 1
@@ -136,7 +136,7 @@ pub fn complete(rows: &mut Vec<Variable>) -> ([usize; STATES], [usize; STATES]) 
     }
     for &(k, ref state) in &numbered {
         let row = local(
-            state.derivative.clone().leak(),
+            store_text(&state.derivative),
             state.rate_unit,
             OutputSource::Rate(k),
             "Time derivative of the state",

@@ -7,15 +7,16 @@ use super::{Access, Variable};
 use crate::declaration::{Causality, Range, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
+use crate::static_memory::{store_all, store_text};
 
 /// Table of all variables. The value reference of a variable is its index.
 pub struct Table {
     /// The rows.
-    pub rows: Vec<Variable>,
+    pub rows: &'static [Variable],
     /// Indices of the outputs, ascending.
-    pub outputs: Vec<usize>,
+    pub outputs: &'static [usize],
     /// Indices of the inputs, ascending.
-    pub inputs: Vec<usize>,
+    pub inputs: &'static [usize],
     /// Indices of the continuous states, in their order.
     pub states: [usize; STATES],
     /// Indices of the derivatives of the states.
@@ -46,9 +47,9 @@ pub fn table() -> &'static Table {
         let (states, derivatives) = super::states::complete(&mut rows);
         let places = super::added::put_last(&mut rows);
         let [states, derivatives] = [states, derivatives].map(|all| all.map(|i| places[i]));
-        let of = |c: Causality| (0..rows.len()).filter(|&i| rows[i].causality == c).collect();
+        let of = |c| store_all(&(0..rows.len()).filter(|&i| rows[i].causality == c).collect::<Vec<_>>());
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
-        Table { rows, outputs, inputs, states, derivatives }
+        Table { rows: store_all(&rows), outputs, inputs, states, derivatives }
     })
 }
 
@@ -123,10 +124,10 @@ pub fn tuned(parameters: &Parameters, fixed: &Parameters) -> Parameters {
 
 /// GUID of this interface. It changes whenever a property of a row changes on which a host relies.
 pub fn guid() -> &'static str {
-    static GUID: OnceLock<String> = OnceLock::new();
+    static GUID: OnceLock<&str> = OnceLock::new();
     GUID.get_or_init(|| {
         let mut text = String::from(super::MODEL_NAME);
-        for row in &table().rows {
+        for row in table().rows {
             let _ = write!(text, "\n{} {:?} {:?}", row.name, row.causality, row.variability);
             let _ = write!(text, " {:?} {:?} {:?}", row.unit.map(|u| u.name), row.range, real_start(row));
             if row.unit.is_some_and(|unit| unit.is_relative) {
@@ -137,14 +138,14 @@ pub fn guid() -> &'static str {
             }
         }
         let (a, b) = (fnv1a(text.bytes()), fnv1a(text.bytes().rev()));
-        format!(
+        store_text(&format!(
             "{{{:08x}-{:04x}-{:04x}-{:04x}-{:012x}}}",
             a >> 32,
             (a >> 16) & 0xffff,
             a & 0xffff,
             b >> 48,
             b & 0xffff_ffff_ffff
-        )
+        ))
     })
 }
 

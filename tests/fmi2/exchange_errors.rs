@@ -65,7 +65,7 @@ fn values_that_are_not_finite_at_extreme_states_are_discarded_by_name() {
             refused(fmi2GetEventIndicators(c, many.as_mut_ptr(), EVENT_INDICATORS), &many[..EVENT_INDICATORS]);
             refused(fmi2GetDirectionalDerivative(c, &speed, 1, &load, 1, &1.0, &mut slope), &[slope]);
         }
-        for &i in &table().outputs {
+        for &i in table().outputs {
             let name = table().rows[i].name;
             let (status, value) = solver.host.try_get(name);
             if refused(status, &[value]) {

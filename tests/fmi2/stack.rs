@@ -138,6 +138,15 @@ fn a_small_stack_is_enough_for_every_level_with_all_its_effects() {
 }
 
 #[test]
+fn a_small_stack_is_enough_for_the_history_of_many_teeth() {
+    let teeth = [("geometry.planet_count", 4), ("geometry.planet_teeth", 200), ("geometry.side_teeth", 200)];
+    let scene: Scene = teeth.into_iter().chain([("effects.strength", 1)]).collect();
+    for kind in [MODEL_EXCHANGE, CO_SIMULATION] {
+        with_a_small_stack(kind, scene.clone());
+    }
+}
+
+#[test]
 fn a_small_stack_is_enough_for_every_method() {
     let Access::Enumeration(methods, ..) = table().rows[reference("solver.method") as usize].access else {
         panic!("solver.method is not an enumeration")

@@ -70,7 +70,7 @@ fn every_parameter_acts_immediately_despite_the_cache() {
     for base in scenes() {
         let (cache, unchanged) = (GearCache::default(), outcome(&base, None));
         let mut acting = Vec::new();
-        for row in &table().rows {
+        for row in table().rows {
             for p in changed(&base, row) {
                 let expected = outcome(&p, None);
                 assert_eq!(outcome(&p, Some(&cache)), expected, "{}", row.name);

@@ -76,9 +76,10 @@ fn least_arc(opening: &Opening, [inner, outer]: [f64; 2]) -> f64 {
     let edge = edge.clamp(inner, outer);
     let least = |even: f64, [from, to]: [f64; 2]| {
         let at = |r: f64| even / r + opening.turn + opening.bend * r;
-        let inside = sqrt(even / opening.bend);
+        // square of the position where the slope is 0; dividing by infinity gives 0 if it is far outside
+        let divisor = if even.abs() < 2.0 * to * to * opening.bend.abs() { opening.bend } else { f64::INFINITY };
+        let inside = sqrt((even / divisor).max(0.0));
         let ends = at(from).min(at(to));
-        // the comparisons are false if there is no such position
         if inside > from && inside < to { ends.min(at(inside)) } else { ends }
     };
     let sound = if edge > inner { least(opening.even.v, [inner, edge]) } else { f64::INFINITY };

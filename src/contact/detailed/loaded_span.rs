@@ -66,6 +66,9 @@ pub fn loaded_span(a: f64, opening_at_apex: f64, bend: f64, [from, to]: [f64; 2]
     }
 }
 
+/// Bend so small that the upper root is beyond every face [1/m]. It replaces 0, because a host may trap divisions by zero.
+const LEAST_BEND: f64 = 1e-100;
+
 /// Loaded part of [from, to] if at least one end is not loaded. `None` if no part is loaded.
 #[inline(never)]
 fn part(a: f64, opening_at_apex: f64, bend: f64, [from, to]: [f64; 2], ends_loaded: [bool; 2]) -> Option<Span> {
@@ -78,7 +81,7 @@ fn part(a: f64, opening_at_apex: f64, bend: f64, [from, to]: [f64; 2], ends_load
     let root = sqrt(discriminant.max(0.0));
     let larger = 0.5 * (a.abs() + root);
     let [low, high] = if a > 0.0 {
-        [opening_at_apex / larger, larger / bend]
+        [opening_at_apex / larger, larger / bend.max(LEAST_BEND)]
     } else {
         [f64::NEG_INFINITY, -opening_at_apex / larger]
     };

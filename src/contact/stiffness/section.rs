@@ -174,7 +174,7 @@ impl ToothSection {
         // squared distance from the centre to the base circle along the flank's normal; not positive if the centre is
         // inside
         let along = (centre - self.base_radius) * (centre + self.base_radius);
-        let roll = if along > 0.0 { sqrt(along) - radius } else { -1.0 };
+        let roll = sqrt(along.max(0.0)) - radius;
         if roll > 0.0 {
             (self.base_half_angle - roll / self.base_radius + atan2(roll + radius, self.base_radius), roll)
         } else {

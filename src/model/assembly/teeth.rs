@@ -4,6 +4,7 @@ use super::{BodyEffects, Inertias};
 use crate::contact::planet::Contact;
 use crate::geometry::Pair;
 use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
+use crate::numeric::quotient;
 
 /// Sign σ of the left and right side.
 pub const SIGMA: [f64; 2] = [1.0, -1.0];
@@ -60,7 +61,8 @@ impl Teeth {
         let (inertia, rigid_end) = inertias.by_freedom(&plan);
         let mut inverse_inertia = [0.0; MAX_DOF];
         for i in 0..layout.count() {
-            inverse_inertia[i] = 1.0 / inertia[i];
+            // imposed motion and rigid ends have no inertia; their entries follow
+            inverse_inertia[i] = quotient(1.0, inertia[i]).unwrap_or(f64::INFINITY);
         }
         if plan.carrier_imposed {
             inverse_inertia[CARRIER] = 0.0;

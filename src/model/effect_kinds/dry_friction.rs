@@ -9,7 +9,7 @@
 
 use super::body_friction::BodyFriction;
 use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
-use crate::numeric::TAU;
+use crate::numeric::{TAU, quotient};
 
 /// Damping of the spring over its stiffness τ if the source gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
@@ -187,7 +187,7 @@ impl<'a> DryFriction<'a> {
     /// Tolerance of zero speed at the end of a step under the loads `by` [rad/s].
     fn speed_tolerance(&self, by: &SurfaceLoad) -> f64 {
         let damping = self.of.stiffness * self.of.damping_time;
-        SPEED_TOLERANCE.min(DAMPED_SHARE * self.breakaway(by) / damping)
+        quotient(DAMPED_SHARE * self.breakaway(by), damping).map_or(SPEED_TOLERANCE, |speed| SPEED_TOLERANCE.min(speed))
     }
 
     /// Distance past the switch, as a fraction of the tolerance: negative before the switch, above 1 too far beyond it.

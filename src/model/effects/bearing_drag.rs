@@ -213,8 +213,11 @@ struct Drag {
     breakaway_speed: f64,
     /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
     churning_per_viscosity: f64,
-    /// Viscosity of the oil at which viscous drag has its given value [Pa·s], if viscous drag depends on the oil.
-    reference: Option<f64>,
+    /// True if viscous drag depends on the oil.
+    viscous_in_oil: bool,
+    /// Viscosity of the oil at which viscous drag has its given value [Pa·s]. It is never 0, because compilers may divide
+    /// before they test `viscous_in_oil`.
+    reference: f64,
     /// Index of the heat in the ledger.
     heat_index: usize,
 }
@@ -249,20 +252,23 @@ impl Drag {
             ],
             breakaway_speed: spec.breakaway_speed,
             churning_per_viscosity: if by_size { spec.churning_per_viscosity() } else { 0.0 },
-            reference: spec.viscosity_from_oil.then(|| oil.viscosity(spec.reference_temperature).dynamic),
+            viscous_in_oil: spec.viscosity_from_oil,
+            reference: if spec.viscosity_from_oil { oil.viscosity(spec.reference_temperature).dynamic } else { 1.0 },
             heat_index,
         }
     }
 
-    /// Resistance at the viscosity of `oil`. It is `#[cold]`, because in most scenes nothing depends on the oil.
+    /// Resistance at the viscosity of `oil`. It is `#[cold]`, because in most scenes nothing depends on the oil. It is
+    /// not inlined, because compilers would divide a viscosity before they test if there is one.
     #[cold]
+    #[inline(never)]
     fn in_oil(&self, oil: Viscosity, is_carrier: bool) -> Resistance {
         let mut on = self.on[usize::from(!is_carrier)];
         if is_carrier {
             on.churning += self.churning_per_viscosity * oil.kinematic;
         }
-        if let Some(reference) = self.reference {
-            on.viscous *= oil.dynamic / reference;
+        if self.viscous_in_oil {
+            on.viscous *= oil.dynamic / self.reference;
         }
         on
     }

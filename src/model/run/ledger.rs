@@ -15,6 +15,7 @@ use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 use crate::model::thermal::Thermal;
+use crate::numeric::quotient;
 
 /// Sums to which completed steps add.
 pub struct LedgerSums<'a> {
@@ -158,7 +159,7 @@ impl Largest<'_> {
                 let [from, to] = [start, end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [to[0] - from[0], to[1] - from[1]];
                 // in a very short step, this fraction of the step would be lost in rounding
-                let half_width = JUMP_HALF_WIDTH.max(LEAST_ARC / change[1].abs());
+                let half_width = JUMP_HALF_WIDTH.max(quotient(LEAST_ARC, change[1].abs()).unwrap_or(1.0));
                 self.teeth.contact.mesh.engagement.jumps(from, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);
                     energy += self.members(g) * self.energy_brought([&before, &after], g, s);

@@ -123,7 +123,7 @@ impl Scene {
 
     fn image_of_inputs(&self, view: View, inputs: &Inputs) -> Inputs {
         let (mut from, mut image) = (*inputs, Inputs::ZERO);
-        for row in &table().rows {
+        for row in table().rows {
             let Access::Input(here) = row.access else { continue };
             if let Access::Input(there) = variable(&self.name(view, row.name)).access {
                 *there(&mut image) = self.sign(view, row.name) * *here(&mut from);

@@ -139,7 +139,7 @@ impl Scene {
         let mut inputs = vec![&mut twin.inputs];
         inputs.extend(twin.steps.iter_mut().map(|step| &mut step.inputs));
         for inputs in inputs {
-            for row in &table().rows {
+            for row in table().rows {
                 if let Access::Input(field) = row.access {
                     *field(inputs) *= 1.0 + sign * BY;
                     sign = -sign;

@@ -92,7 +92,7 @@ fn outputs_and_inputs_have_separate_entries() {
 
 #[test]
 fn only_numbers_change_their_sign() {
-    for row in &table().rows {
+    for row in table().rows {
         let odd = line_of(row.name).is_some_and(|line| lines()[line].parity.contains(&Parity::Odd));
         let real = matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_));
         let both = row.range.is_none_or(|range| range.min < 0.0 && range.max == -range.min);

@@ -213,7 +213,7 @@ mod tests {
     #[test]
     fn every_settable_variable_accepts_its_own_start_value() {
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
-        for row in &table().rows {
+        for row in table().rows {
             let value = match row.access {
                 Access::Real(access) => Value::Float(*access(&mut parameters)),
                 Access::Input(access) => Value::Float(*access(&mut inputs)),
