@@ -114,7 +114,7 @@ fn variable(reference: usize, row: &Variable) -> Element {
 
 /// Declares a variable that exists only in FMI 3.0.
 fn added_variable(reference: usize, added: &Added) -> Element {
-    let of = |kind| named(kind, reference, &added.name, &added.description);
+    let of = |kind| named(kind, reference, added.name, added.description);
     let event =
         |kind| of(kind).with("causality", "output").with("variability", "discrete").with("initial", "calculated");
     let array = |members: &[usize], dimension: Element| {

@@ -5,7 +5,8 @@ use bevel_differential::variables::{Access, index_of};
 use serde_json::{Value as Json, json};
 use toml::Value;
 
-use super::set::{variable, written};
+use super::set::variable;
+use super::value::written;
 
 /// Start values that a scene accepts.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -22,8 +22,9 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use bevel_differential::variables::named;
 use toml::{Table, Value};
 
-use super::set::{Setting, real, written};
+use super::set::{Setting, real};
 use super::units;
+use super::value::{self, written};
 use crate::problem::{Problem, Problems};
 use crate::text::near;
 
@@ -69,13 +70,7 @@ fn dimension(key: &str, value: &Value, like: &str) -> Result<f64, Problem> {
     if key == "friction" {
         return real(row, value).map_err(problem);
     }
-    let number = match value {
-        Value::Float(number) => Ok(*number),
-        Value::Integer(number) => Ok(*number as f64),
-        Value::String(text) => units::parse(row, text),
-        _ => Err("must be a number, or a text like \"40 mm\"".into()),
-    };
-    let number = number.map_err(problem)?;
+    let number = value::real(value, row.unit.map(|unit| unit.name), false).map_err(problem)?;
     let (is_allowed, allowed) = match key {
         "faces" => (number >= 1.0 && number.fract() == 0.0, "a whole number of 1 or more"),
         "spring_force" => (number >= 0.0, "0 N or more"),

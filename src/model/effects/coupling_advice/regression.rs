@@ -143,8 +143,8 @@ mod tests {
 
     #[test]
     fn values_of_another_frequency_and_straight_lines_do_not_react() {
-        assert!(!over(|t| (40.0 * t).sin(), |t, _, _| (93.0 * t).sin()).law(EXPLAINED).is_some());
-        assert!(!over(|t| 50.0 * t, |_, _, _| 1.0).law(EXPLAINED).is_some());
-        assert!(!over(|t| 50.0 * t, |t, _, _| (93.0 * t).sin()).law(EXPLAINED).is_some());
+        assert!(over(|t| (40.0 * t).sin(), |t, _, _| (93.0 * t).sin()).law(EXPLAINED).is_none());
+        assert!(over(|t| 50.0 * t, |_, _, _| 1.0).law(EXPLAINED).is_none());
+        assert!(over(|t| 50.0 * t, |t, _, _| (93.0 * t).sin()).law(EXPLAINED).is_none());
     }
 }
