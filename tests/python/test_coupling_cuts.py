@@ -44,7 +44,6 @@ def test_a_large_error_is_noticed_and_a_small_one_gets_no_warning(fmu, number):
         assert not np.isfinite(coarse.warned)
 
 
-
 class PickUp(Coupling):
     """Launch of a pick-up on split friction: the host has wheels and tyres, and drives both sides by speed, Jacobi, held."""
 
