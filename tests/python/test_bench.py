@@ -21,7 +21,7 @@ PLAIN = {"scene.gear_contact": "ideal", "effects.tooth_friction": False, "effect
 
 
 def table(file):
-    return np.genfromtxt(file, delimiter=",", names=True, deletechars="", skip_header=1)
+    return np.genfromtxt(file, delimiter=",", names=True, deletechars="")
 
 
 def numbers(text):
@@ -90,7 +90,7 @@ def test_ramps_of_both_sides_shift_the_same_torque_while_both_meshes_have_the_sa
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.6])
 def test_torque_over_slip_is_a_power_law_or_the_measured_curve(fmu_file, tmp_path, exponent):
     says = bench("clutch_curve", tmp_path, values={"limited_slip.viscous_exponent": exponent}, fmu=fmu_file, workers=0)
-    rows = np.genfromtxt(tmp_path / "clutch_curve.csv", delimiter=",", names=True, deletechars="", skip_header=1, dtype=None,
+    rows = np.genfromtxt(tmp_path / "clutch_curve.csv", delimiter=",", names=True, deletechars="", dtype=None,
                          encoding="utf-8")
     seen = {name: rows[rows["clutch"] == name] for name in dict.fromkeys(rows["clutch"])}
     viscous, curve, holding = seen.values()
@@ -144,7 +144,7 @@ def test_a_pack_that_keeps_its_friction_does_not_fade(fmu_file, tmp_path):
 
 def test_a_winter_start_begins_with_the_drag_of_its_oil(fmu_file, tmp_path):
     loss, later, *_ = numbers(bench("winter_start", tmp_path, fmu=fmu_file))
-    record = np.genfromtxt(tmp_path / "winter_start.csv", delimiter=",", names=True, deletechars="", skip_header=2)
+    record = np.genfromtxt(tmp_path / "winter_start.csv", delimiter=",", names=True, deletechars="")
 
     def viscosity(kelvin):
         x0, x1 = log10(313.15), log10(373.15)

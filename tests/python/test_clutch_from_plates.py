@@ -164,7 +164,7 @@ def test_all_missing_dimensions_of_a_scene_file_are_listed(of_file):
 
 
 @pytest.mark.parametrize("arguments, words", [((0.99,), ["tbr = 0.99", "1 or more"]), ((inf,), ["tbr", "finite"]), (("x",), ["tbr"]),
-                                              ((2.0, -1.0), ["preload = -1", "0 N.m or more"]), ((2.0, "1 N"), ["preload", "unit 'N'"])])
+                                              ((2.0, -1.0), ["preload = -1", "0 N.m or more"]), ((2.0, "1 N"), ["preload", "unit N of"])])
 def test_a_wrong_bias_ratio_or_preload_is_refused(arguments, words, fmu):
     refused(lambda: Clutch.from_bias_ratio(*arguments, fmu=fmu), "Clutch.from_bias_ratio: ", *words)
 

@@ -37,7 +37,7 @@ def test_run_writes_the_record_of_the_scene(tmp_path, capsys):
     table = pq.read_table(parquet)
     assert all(np.array_equal(table[name].to_numpy(), record[name]) for name in record.dtype.names)
     assert table.schema.field("left.speed").metadata == {b"unit": b"rad/s"}
-    assert csv.read_text().splitlines()[2] == "time,left.speed,planet[1].left_pairs"
+    assert csv.read_text().splitlines()[0] == "time,left.speed,planet[1].left_pairs"
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 

@@ -317,7 +317,7 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("geometry.backlash =", "geometry.backslash =", ["[factors]", "geometry.backslash", "did you mean geometry.backlash"]),
     ("+- 0.04 mm", "+- -0.04 mm", ["geometry.backlash", "negative"]),
     ("+- 0.04 mm", "+- 0.2 mm", ["geometry.backlash", "draws are outside 0 mm to 50 mm", "narrower"]),
-    ("+- 0.04 mm", "+- 0.04 kg", ["geometry.backlash", "'kg'"]),
+    ("+- 0.04 mm", "+- 0.04 kg", ["geometry.backlash", "unit kg of"]),
     ("accuracy_grade = \"grade 7\"", "accuracy_grade = \"grade 12\"", ["accuracy_grade", "grade 12", "2 (finest) to 11"]),
     ("side_runout = \"grade 7\"", "side_runout = \"grade 1\"", ["tooth_errors.side_runout", "grade 1", "2 (finest) to 11"]),
     ("side_runout = \"grade 7\"", "side_runout = \"grade 6.5\"", ["tooth_errors.side_runout", "whole number"]),

@@ -39,6 +39,8 @@ def matplotlib(extra: str) -> ModuleType:
     backend is Agg."""
     try:
         return require("matplotlib", extra)
+    except DifferentialError:
+        raise
     except (ValueError, ImportError):
         chosen = os.environ.pop(BACKEND, None)
         if chosen is None:

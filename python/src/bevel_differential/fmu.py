@@ -145,8 +145,8 @@ class Fmu:
         return {each.name: each.start for each in self.variables.values() if each.causality == "parameter" and each.start is not None}
 
     def output(self, name: str) -> Variable:
-        """Variable or quantity `name` for a record. Suggestions for an unknown name are outputs and quantities."""
-        return self._variable(name, [*(each.name for each in self.variables.values() if each.causality not in SETTABLE), *QUANTITIES])
+        """Variable or quantity `name` for a record. Suggestions for an unknown name are outputs, inputs and quantities."""
+        return self._variable(name, [*(each.name for each in self.variables.values() if each.causality != "parameter"), *QUANTITIES])
 
     def _variable(self, name, similar):
         """Variable `name`, or a quantity. `similar`: names that may be suggested."""
