@@ -11,7 +11,7 @@ import numpy as np
 
 SIDES = ("left", "right")
 FINE = 1e-4
-STOP = 0.6
+STOP = 0.4
 # smallest speed of the slip of a tyre, m/s, and scale of a brake that holds a wheel, rad/s
 SLOW, HELD = 1.0, 0.05
 # torque at which a run has diverged, N.m
