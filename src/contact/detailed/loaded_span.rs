@@ -6,6 +6,9 @@
 
 use crate::numeric::sqrt;
 
+/// Bend so small that the upper root is beyond every face [1/m]. It replaces 0, because a host may trap divisions by zero.
+const LEAST_BEND: f64 = 1e-100;
+
 /// Loaded part of a face.
 #[derive(Clone, Copy, Debug)]
 pub struct Span {
@@ -65,9 +68,6 @@ pub fn loaded_span(a: f64, opening_at_apex: f64, bend: f64, [from, to]: [f64; 2]
         (lower, upper) => part(a, opening_at_apex, bend, [from, to], [lower, upper]),
     }
 }
-
-/// Bend so small that the upper root is beyond every face [1/m]. It replaces 0, because a host may trap divisions by zero.
-const LEAST_BEND: f64 = 1e-100;
 
 /// Loaded part of [from, to] if at least one end is not loaded. `None` if no part is loaded.
 #[inline(never)]

@@ -89,7 +89,7 @@ impl Simulation {
         coupling.add(&steps, &self.cut());
     }
 
-    /// What the unit knows of the host.
+    /// Delay of the host, and half-shafts at the cut.
     pub(in crate::model) fn cut(&self) -> Cut {
         let (specs, imposed) = (&self.model.parameters.specs, self.model.ideal.plan.side_imposed);
         let shaft = |s: usize| {

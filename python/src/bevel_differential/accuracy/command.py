@@ -27,8 +27,8 @@ def run(arguments: argparse.Namespace) -> int:
     """Finds the setting, prints it and writes files. If no setting is accurate enough, this is a finding."""
     from ..extras import matplotlib
     from ..progress import shown
-    from ..values import DifferentialError
     from ..records import localised
+    from ..values import DifferentialError
     from ..writing import write_whole
     from . import accuracy
 

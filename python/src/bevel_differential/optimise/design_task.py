@@ -10,11 +10,11 @@ import numpy as np
 
 from ..designs.farm import Farm
 from ..designs.task import Row, Task
+from ..pair import Pair, violations
+from ..quantities import QUANTITIES
 from ..values import DifferentialError, Number
 from ..want import ANGLES, Condition, Statistic, Want
-from ..pair import Pair, violations
 from .problem import Problem
-from ..quantities import QUANTITIES
 
 # prefixes of warnings that a design must not cause: gears, pins and washers that do not fit
 REFUSED_WARNINGS = ("geometry.", "thrust_friction.")

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::memory::{LEAST_STEPS, Oscillation};
 use super::regression::{Law, Regression};
 use super::swing::Swing;
-use crate::numeric::{finite, pow, sqrt};
+use crate::numeric::{finite, pow, quotient, sqrt};
 
 /// Magnitude up to which values count. Larger ones belong to a motion that has diverged.
 const LARGEST: f64 = 1e12;
@@ -193,17 +193,18 @@ impl Port {
     /// is a two-step Adams-Bashforth method, whose factor 1 + (ω h)⁴/4 in a step must not exceed the damping 1 + τ ω² h/2.
     pub fn stable_step(&self, delay: f64, shaft: Option<Shaft>) -> f64 {
         let Some(law) = self.regression.law(0.0).filter(|law| law.per_movement > 0.0) else { return f64::INFINITY };
-        let Law { per_movement, per_rate, .. } = law;
+        let Law { per_movement, per_rate } = law;
         let own = shaft.map_or(0.0, |shaft| shaft.damping / shaft.stiffness);
         let ahead = own + per_rate.max(0.0) / per_movement;
+        let by_delay = quotient(ahead, 0.5 + delay).unwrap_or(f64::INFINITY);
         let rate = shaft.map(|shaft| sqrt(shaft.stiffness * per_movement));
         let limit = match (self.is_line, rate) {
             (true, Some(rate)) => pow(2.0 * ahead * rate, 1.0 / 3.0) / rate,
             (true, None) => f64::INFINITY,
-            (false, Some(rate)) => (2.0 / rate).min(ahead / (0.5 + delay).max(0.0)),
-            (false, None) => ahead / (0.5 + delay).max(0.0),
+            (false, Some(rate)) => by_delay.min(2.0 / rate),
+            (false, None) => by_delay,
         };
-        // without any damping, no step is stable, and the growth tells it
+        // without any damping, no step is stable; a growing swing then reports the unstable cut
         if limit > 0.0 { limit } else { f64::INFINITY }
     }
 }

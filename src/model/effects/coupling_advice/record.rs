@@ -26,7 +26,7 @@ const LEAST_SHARE: f64 = 0.05;
 /// Position and its rate of each port at a communication point: angle and speed, or twist and torque of the half-shaft.
 pub type Places = [[f64; 2]; PORTS];
 
-/// What the unit knows of the host: its delay in steps, and the half-shafts of sides driven by speed.
+/// Cut between unit and host: the host's delay, and the half-shafts of sides driven by speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cut {
     /// Delay of the host's answer in communication steps.

@@ -50,8 +50,6 @@ pub struct Law {
     pub per_movement: f64,
     /// Change of u per change of the rate [N·m·s/rad, or rad/s per N·m].
     pub per_rate: f64,
-    /// Fraction of the changes of u that the law explains.
-    pub explained: f64,
 }
 
 impl Regression {
@@ -99,13 +97,13 @@ impl Regression {
         let [per_movement, per_rate] = if determinant > PROPORTIONAL * xx * yy {
             [(ux * yy - uy * xy) / determinant, (uy * xx - ux * xy) / determinant]
         } else {
-            // one of both tells everything
+            // the two regressors are proportional, so one of them is enough
             let alone = |product: f64, square: f64| if square > 0.0 { product / square } else { 0.0 };
             let [by_movement, by_rate] = [alone(ux, xx), alone(uy, yy)];
             if by_movement * ux >= by_rate * uy { [by_movement, 0.0] } else { [0.0, by_rate] }
         };
         let explained = (per_movement * ux + per_rate * uy) / uu;
-        (explained >= fraction).then_some(Law { per_movement, per_rate, explained })
+        (explained >= fraction).then_some(Law { per_movement, per_rate })
     }
 }
 

@@ -30,7 +30,7 @@ pub struct Swing {
     /// Sizes of the last two swings [N·m], and duration of the last one [s].
     sizes: [f64; 2],
     duration: f64,
-    /// Number of successive swings that were larger than the swing one period before, as the cut can cause it.
+    /// Number of successive swings that were larger than the swing one period before, by no more than the cut can cause.
     pub growths: u32,
 }
 
