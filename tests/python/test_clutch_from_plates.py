@@ -83,11 +83,11 @@ def test_a_self_locking_pack_is_allowed_and_the_fmu_warns(plates, fmu):
     ("faces", 0, ["1 or more"]), ("faces", 2.5, ["whole number"]), ("faces", True, ["number"]), ("faces", "many", ["number"]),
     ("friction", 0.0, ["0.01 or more", "at most 1"]), ("friction", 1.5, ["at most 1"]), ("friction", nan, ["finite"]),
     ("inner", 0.0, ["above 0 mm", "numbers are in m"]), ("inner", 0.06, ["not below outer = 60 mm"]), ("inner", "70 mm", ["not below"]),
-    ("inner", inf, ["finite"]), ("outer", "60 deg", ["unit 'deg'", "mm"]), ("outer", None, ["number"]),
+    ("inner", inf, ["finite"]), ("outer", "60 deg", ['unit deg of "60 deg" does not fit', "mm"]), ("outer", None, ["number"]),
     ("ramp_drive", 45, ["above 0 deg and at most 90 deg", "numbers are in rad"]), ("ramp_drive", "0 deg", ["above 0 deg"]),
     ("ramp_drive", "91 deg", ["at most 90 deg"]), ("ramp_coast", -0.1, ["above 0 deg"]), ("ramp_coast", "60", ["at most 90 deg", "rad"]),
     ("ramp_radius", 0.0, ["above 0 mm"]), ("ramp_radius", nan, ["finite"]), ("spring_force", -1.0, ["0 N or more"]),
-    ("spring_force", "500 N.m", ["unit 'N.m'"])])
+    ("spring_force", "500 N.m", ['unit N.m of "500 N.m" does not fit', "kN"])])
 def test_an_argument_out_of_range_is_refused_by_its_name(plates, name, value, words):
     refused(lambda: plates(**{name: value}), f"Clutch.from_plates: {name} = ", *words)
 
