@@ -1,7 +1,7 @@
 //! Dynamics of a bevel gear differential: geometry, tooth contact, model, integration, and FMI interfaces.
 //!
-//! Modules, each of which uses only those before it: `numeric` → `geometry` → `friction`, `contact` → `strength` →
-//! `integrate` → `declaration` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
+//! Modules, each of which uses only those before it: `numeric` → `declaration` → `drives` → `geometry` → `friction`,
+//! `contact` → `strength` → `integrate` → `model` → `variables` → `instance` → `fmi2`, `fmi3`.
 //!
 //! Programs in Rust start with [`Differential`], which sets, runs and reads a differential by the names of the FMU's
 //! variables.
@@ -20,9 +20,12 @@ pub mod problem;
 mod spec;
 mod static_memory;
 
-pub mod contact;
+#[macro_use]
 pub mod declaration;
+
+pub mod contact;
 mod differential;
+mod drives;
 pub mod friction;
 pub mod geometry;
 pub mod integrate;

@@ -31,16 +31,83 @@ pub trait Choices: Copy + 'static {
     fn of(value: i32) -> Option<Self>;
 }
 
-/// Defines a struct of parameters with their start values.
-macro_rules! spec {
-    ($(#[$about:meta])* pub struct $name:ident { $($(#[$doc:meta])* pub $field:ident: $type:ty = $start:expr,)+ }) => {
+/// Defines a group of parameters. One line declares a parameter:
+///
+/// ```text
+/// /// Mean radius of the linings, for sliding speed
+/// mean_radius: f64 = 0.12, METRE | MM, 1e-3..=1.0, TUNABLE, when(above!(WheelBrakeSpec.sliding.slip_slope, 0.0));
+/// ```
+///
+/// The doc comment is the description in the interface, so it has no unit and no final period. Start value, SI unit with
+/// display unit, range, variability and condition follow. Without a range, every number is valid. A pair `[f64; 2]` gives
+/// the parameters `left_…` and `right_…`, and its description contains `{side}`. Behind the parameters, `..field: Type`
+/// adds those of a nested group, which is declared `of` a trait of the groups that contain it.
+#[macro_export]
+macro_rules! parameters {
+    ($(#[$about:meta])* pub struct $name:ident in $group:literal {
+        $($(#[doc = $line:literal])+ $field:ident: $type:ty = $start:expr $(, $detail:expr)*;)*
+        $(..$nested:ident: $nested_type:ty $(, $default:expr)*;)*
+    }) => {
         $(#[$about])*
         #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-        pub struct $name { $($(#[$doc])* pub $field: $type,)+ }
+        pub struct $name {
+            $($(#[doc = $line])+ pub $field: $type,)*
+            $(#[allow(missing_docs)] pub $nested: $nested_type,)*
+        }
 
         impl Default for $name {
             fn default() -> Self {
-                Self { $($field: $start,)+ }
+                Self { $($field: $start,)* $($nested: Default::default(),)* }
+            }
+        }
+
+        impl $crate::declaration::Group for $name {
+            const NAME: &'static str = $group;
+        }
+
+        impl $crate::declaration::Rows for $name {
+            fn rows() -> Vec<$crate::declaration::Row<$crate::declaration::Parameter<Self>>> {
+                #[allow(unused_mut)]
+                let mut rows = Vec::new();
+                $($crate::declaration::add(
+                    &mut rows,
+                    <$type as $crate::declaration::Declared>::rows($group, stringify!($field), concat!($($line),+), &|p: &mut Self| &mut p.$field),
+                    &[$(&$detail),*],
+                );)*
+                $($crate::declaration::add(&mut rows, <$nested_type>::rows_of::<Self>(), &[$(&$default),*]);)*
+                rows
+            }
+
+            fn find(&self, kind: std::any::TypeId) -> Option<&dyn std::any::Any> {
+                (kind == std::any::TypeId::of::<Self>()).then_some(self)
+            }
+        }
+    };
+    ($(#[$about:meta])* pub struct $name:ident of $owner:ident: $bound:path, by $access:ident {
+        $($(#[doc = $line:literal])+ $field:ident: $type:ty = $start:expr $(, $detail:expr)*;)*
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        pub struct $name {
+            $($(#[doc = $line])+ pub $field: $type,)*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $start,)* }
+            }
+        }
+
+        impl $name {
+            /// Rows of the parameters in the group `$owner`.
+            pub fn rows_of<$owner: $bound>() -> Vec<$crate::declaration::Row<$crate::declaration::Parameter<$owner>>> {
+                let mut rows = Vec::new();
+                $($crate::declaration::add(
+                    &mut rows,
+                    <$type as $crate::declaration::Declared>::rows($owner::NAME, stringify!($field), concat!($($line),+), &|p: &mut $owner| &mut p.$access().$field),
+                    &[$(&$detail),*],
+                );)*
+                rows
             }
         }
     };

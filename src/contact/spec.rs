@@ -1,5 +1,11 @@
 //! User parameters of the contact law.
 
+use crate::declaration::units::{
+    M_PER_S, METRE, MM, N_PER_M, N_PER_M2, N_PER_M15, N_PER_MM, N_PER_MM_UM, N_PER_MM15, NS_PER_M, NS_PER_MM, ONE,
+};
+use crate::declaration::{Condition, TUNABLE, all, any, when};
+use crate::drives::{GearContact, Scene};
+
 choices! {
     /// Law of force against penetration.
     pub enum ContactLaw: "ContactLaw" {
@@ -25,36 +31,64 @@ choices! {
     }
 }
 
-spec! {
+parameters! {
     /// Contact law and its constants.
     ///
     /// The start values are the study's Adams settings.
-    pub struct ContactSpec {
-        /// The law.
-        pub law: ContactLaw = ContactLaw::Impact,
-        /// True if the stiffness is computed by the study's Hertz formula instead of the given value.
-        pub stiffness_from_hertz: bool = false,
-        /// Stiffness K [N/m^e].
+    pub struct ContactSpec in "contact" {
+        /// Contact law of tooth pairs
+        law: ContactLaw = ContactLaw::Impact, when(is!(Scene.gear_contact, GearContact::Tooth));
+        /// Stiffness by the study's Hertz formula 4/3 sqrt(Re) E* instead of contact.stiffness
+        stiffness_from_hertz: bool = false,
+            when(by_impact());
         // 5.77e5 N/mm^1.5 · (1000 mm/m)^1.5
-        pub stiffness: f64 = 5.77e5 * 1e3 * 1e3_f64.sqrt(),
-        /// Exponent e.
-        pub exponent: f64 = 1.5,
-        /// Damping C at full penetration [N·s/m].
-        pub damping: f64 = 5e4,
-        /// Penetration of full damping d_max [m].
-        pub penetration_depth: f64 = 1e-4,
-        /// The damping model.
-        pub damping_model: DampingModel = DampingModel::Step,
-        /// Coefficient of restitution e at the impact speed.
-        pub restitution: f64 = 0.8,
-        /// Impact speed at which the restitution is valid [m/s].
-        pub impact_speed: f64 = 0.1,
-        /// Line load at the mean cone distance for the Hertz part of [`ContactLaw::Line`] [N/m].
-        pub line_load: f64 = 4e5,
-        /// True if the stiffness of a lumped mesh is computed from the geometry of its teeth instead of the given
-        /// value.
-        pub mesh_stiffness_from_geometry: bool = true,
-        /// Stiffness of a lumped mesh per face width c_γ [N/m²].
-        pub mesh_stiffness: f64 = 1.8e10,
+        /// Contact stiffness K; in N/m^e if the exponent e is not 1.5
+        stiffness: f64 = 5.77e5 * 1e3 * 1e3_f64.sqrt(), N_PER_M15 | N_PER_MM15, 1e3..=1e18,
+            when(all([is!(Self.stiffness_from_hertz, false), by_impact()]));
+        /// Exponent e of the contact force
+        exponent: f64 = 1.5, ONE, 1.0..=3.0,
+            when(by_impact());
+        /// Contact damping C at contact.penetration_depth or more
+        damping: f64 = 5e4, NS_PER_M | NS_PER_MM, 0.0..=1e9, TUNABLE,
+            when(by_step());
+        /// Penetration at which damping reaches contact.damping
+        penetration_depth: f64 = 1e-4, METRE | MM, 1e-9..=0.01,
+            when(by_step());
+        /// Damping law of tooth pairs
+        damping_model: DampingModel = DampingModel::Step, when(differs!(Scene.gear_contact, GearContact::Ideal));
+        /// Coefficient of restitution, if contact.damping_model = restitution
+        restitution: f64 = 0.8, ONE, 0.05..=1.0,
+            when(by_restitution());
+        /// Impact speed at which contact.restitution applies
+        impact_speed: f64 = 0.1, M_PER_S, 1e-6..=1e3,
+            when(by_restitution());
+        /// Line load at the mean cone distance for the Hertz part of the tooth stiffness; for contact.law = line and
+        /// lumped meshes
+        reference_line_load: f64 = 4e5, N_PER_M | N_PER_MM, 1.0..=1e8,
+            when(any([all([is!(Scene.gear_contact, GearContact::Tooth), is!(Self.law, ContactLaw::Line)]),
+                all([is!(Scene.gear_contact, GearContact::Lumped), is!(Self.mesh_stiffness_from_geometry, true)])]));
+        /// Stiffness of a lumped mesh from the tooth geometry; false: contact.mesh_stiffness
+        mesh_stiffness_from_geometry: bool = true, when(is!(Scene.gear_contact, GearContact::Lumped));
+        /// Stiffness of a lumped mesh per face width, if not from geometry
+        mesh_stiffness: f64 = 1.8e10, N_PER_M2 | N_PER_MM_UM, 1e3..=1e15,
+            when(all([is!(Scene.gear_contact, GearContact::Lumped), is!(Self.mesh_stiffness_from_geometry, false)]));
     }
+}
+
+/// Condition that pairs have the force of `contact.stiffness` and `contact.exponent`.
+fn by_impact() -> Condition {
+    any([
+        all([is!(Scene.gear_contact, GearContact::Tooth), is!(ContactSpec.law, ContactLaw::Impact)]),
+        is!(Scene.gear_contact, GearContact::Solid),
+    ])
+}
+
+/// Condition that teeth have the damping by restitution.
+fn by_restitution() -> Condition {
+    all([differs!(Scene.gear_contact, GearContact::Ideal), is!(ContactSpec.damping_model, DampingModel::Restitution)])
+}
+
+/// Condition that teeth have the damping of Adams IMPACT.
+fn by_step() -> Condition {
+    all([differs!(Scene.gear_contact, GearContact::Ideal), is!(ContactSpec.damping_model, DampingModel::Step)])
 }

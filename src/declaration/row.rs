@@ -1,10 +1,9 @@
-//! A row declares a variable, with `A` as the access to its value. A row starts with the name and the description.
-//! Conditions follow, and finally the kind of variable and the access. These functions are not inlined, because rows
-//! are created only once and inlining would add tens of kilobytes.
+//! A row declares a variable, with `A` as the access to its value. Rows of parameters follow from `parameters!`. For other
+//! variables, a row starts with the name and the description; a condition follows, and finally the kind of variable and
+//! the access. These functions are not inlined, because rows are created only once and inlining would add tens of
+//! kilobytes.
 
-use super::{DisplayUnit, Parameter, Shown, Unit, units};
-use crate::spec::Choices;
-use crate::static_memory::store;
+use super::{Condition, DisplayUnit, Shown, Unit};
 
 /// FMI causality of a variable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,13 +55,12 @@ pub struct Row<A> {
     pub nominal: Option<f64>,
     /// Index of the variable whose time derivative this variable is.
     pub derivative_of: Option<usize>,
-    /// Switch of the effect that the variable belongs to, if the variable has no effect without it.
-    pub switch: Option<&'static str>,
-    /// Condition on other variables under which the value has an effect, as parsed by `variables::effective`; `None` =
-    /// always.
-    pub when: Option<&'static str>,
+    /// Condition that the effect to which the variable belongs is on, if the variable has no effect without it.
+    pub switch: Option<Condition>,
+    /// Condition under which the value has an effect; `None` = always.
+    pub when: Option<Condition>,
     /// Condition under which the value affects more than outputs that repeat it; `None` = as `when`.
-    pub acts_when: Option<&'static str>,
+    pub acts_when: Option<Condition>,
     /// Access to the value.
     pub access: A,
 }
@@ -122,68 +120,14 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
 }
 
 impl Row<()> {
-    /// Declares that the value has an effect only under `condition` (`variables::effective`).
+    /// Declares that the value has an effect only under `condition`.
     #[inline(never)]
-    pub const fn when(self, condition: &'static str) -> Self {
+    pub const fn when(self, condition: Condition) -> Self {
         Row { when: Some(condition), ..self }
-    }
-
-    /// Declares that outputs repeat the value, but anything else depends on it only under `condition`
-    /// (`variables::effective`).
-    #[inline(never)]
-    pub const fn acts_when(self, condition: &'static str) -> Self {
-        Row { acts_when: Some(condition), ..self }
-    }
-
-    /// Declares that the parameter may also be changed while a simulation runs.
-    #[inline(never)]
-    pub const fn tunable(self) -> Self {
-        Row { variability: Variability::Tunable, ..self }
     }
 
     const fn number(self, Shown(unit, display): Shown, range: Option<Range>) -> Self {
         Row { unit: Some(unit), display, range, ..self }
-    }
-
-    /// A real parameter.
-    #[inline(never)]
-    pub fn real<P: 'static>(
-        self,
-        unit: impl Into<Shown>,
-        (min, max): (f64, f64),
-        at: fn(&mut P) -> &mut f64,
-    ) -> Row<Parameter<P>> {
-        self.number(unit.into(), Some(Range { min, max })).map(|()| Parameter::Real(store(at)))
-    }
-
-    /// A parameter that is a time: any value that a host may use, including negative ones.
-    #[inline(never)]
-    pub fn time<P: 'static>(self, at: fn(&mut P) -> &mut f64) -> Row<Parameter<P>> {
-        self.number(units::SECOND.into(), None).map(|()| Parameter::Real(store(at)))
-    }
-
-    /// An integer parameter.
-    #[inline(never)]
-    pub fn integer<P: 'static>(self, (min, max): (i32, i32), at: fn(&mut P) -> &mut i32) -> Row<Parameter<P>> {
-        let range = Some(Range { min: f64::from(min), max: f64::from(max) });
-        Row { range, ..self }.map(|()| Parameter::Integer(store(at)))
-    }
-
-    /// A Boolean parameter.
-    #[inline(never)]
-    pub fn switch<P: 'static>(self, at: fn(&mut P) -> &mut bool) -> Row<Parameter<P>> {
-        self.map(|()| Parameter::Boolean(store(at)))
-    }
-
-    /// A parameter that is one of several choices.
-    pub fn choice<P: Copy + 'static, E: Choices>(self, at: fn(&mut P) -> &mut E) -> Row<Parameter<P>> {
-        let get = move |p: &P| at(&mut { *p }).value();
-        let set = move |p: &mut P, value| {
-            if let Some(choice) = E::of(value) {
-                *at(p) = choice;
-            }
-        };
-        self.map(|()| Parameter::Enumeration(E::TYPE, store(get), store(set)))
     }
 
     /// An input between −`limit` and `limit`.

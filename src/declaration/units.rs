@@ -1,6 +1,9 @@
 //! SI units of the interface, and the units in which users read values.
 
 use std::f64::consts::PI;
+use std::ops::BitOr;
+
+use super::Range;
 
 /// Exponents of the SI base units kg, m, s and K, and of the radian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,6 +66,14 @@ impl Unit {
 /// An SI unit, and the display unit of its values if users expect another unit.
 #[derive(Clone, Copy, Debug)]
 pub struct Shown(pub Unit, pub Option<DisplayUnit>);
+
+impl BitOr<DisplayUnit> for Unit {
+    type Output = Shown;
+
+    fn bitor(self, display: DisplayUnit) -> Shown {
+        Shown(self, Some(display))
+    }
+}
 
 impl From<Unit> for Shown {
     fn from(unit: Unit) -> Self {
@@ -141,7 +152,7 @@ macro_rules! units {
 }
 
 /// Lowest and highest temperature allowed for oil, gears and clutches [K]: −60 and 400 °C.
-pub const TEMPERATURES: (f64, f64) = (213.15, 673.15);
+pub const TEMPERATURES: Range = Range { min: 213.15, max: 673.15 };
 
 units! {
     /// Dimensionless.

@@ -1,5 +1,7 @@
 //! User parameters of tooth friction.
 
+use crate::declaration::units::{M_PER_S, METRE, MILLI_PA_S, ONE, PA_S, UM};
+use crate::declaration::{TUNABLE, all, when};
 use crate::problem::Problem;
 
 /// Largest coefficient that a law may return; the coefficient of unlubricated steel is higher.
@@ -15,32 +17,32 @@ choices! {
     }
 }
 
-spec! {
+parameters! {
     /// Law, lubricant and surface.
     ///
     /// The start values are μ = 0.05 without a peak. For the published laws, they represent a 75W-90 axle oil at about
     /// 80 °C on run-in flanks.
-    pub struct ToothFrictionSpec {
-        /// The law.
-        pub law: FrictionLaw = FrictionLaw::CoulombStribeck,
-        /// Kinetic coefficient μ_k of [`FrictionLaw::CoulombStribeck`], 0 to 0.3.
-        pub coefficient: f64 = 0.05,
-        /// Ratio of static to kinetic coefficient μ_s/μ_k, at least 1; 1 means no peak.
-        pub static_ratio: f64 = 1.0,
-        /// Stribeck speed v_S, at which the peak has fallen to 1/e [m/s].
-        pub stribeck_speed: f64 = 0.01,
-        /// Speed v_ε over which friction changes its sign [m/s].
-        pub regularisation_speed: f64 = 1e-3,
-        /// Dynamic viscosity of the oil at ambient pressure and the temperature at which the oil enters the mesh
-        /// [Pa·s]. All three published laws use this quantity, so no temperature is needed.
-        pub oil_viscosity: f64 = 0.02,
-        /// True if the viscosity is that of `oil` at its temperature.
-        pub viscosity_from_oil: bool = false,
-        /// Factor X_L of the oil in ISO/TR 14179-2: 1 mineral oils, 0.8 polyalphaolefins and esters, 0.75 polyglycols,
-        /// 1.3 phosphate esters, 1.5 traction fluids.
-        pub lubricant_factor: f64 = 1.0,
-        /// Roughness R_a, the mean of both flanks [m].
-        pub roughness: f64 = 0.4e-6,
+    pub struct ToothFrictionSpec in "tooth_friction" {
+        /// Friction law of the flanks
+        law: FrictionLaw = FrictionLaw::CoulombStribeck;
+        /// Kinetic coefficient of friction of the flanks
+        coefficient: f64 = 0.05, ONE, 0.0..=0.3, TUNABLE, when(is!(Self.law, FrictionLaw::CoulombStribeck));
+        /// Ratio of static to kinetic coefficient; 1 = no Stribeck peak
+        static_ratio: f64 = 1.0, ONE, 1.0..=10.0, when(is!(Self.law, FrictionLaw::CoulombStribeck));
+        /// Sliding speed at which the Stribeck peak has fallen to 1/e
+        stribeck_speed: f64 = 0.01, M_PER_S, 1e-6..=100.0,
+            when(all([is!(Self.law, FrictionLaw::CoulombStribeck), above!(Self.static_ratio, 1.0)]));
+        /// Sliding speed over which friction changes sign
+        regularisation_speed: f64 = 1e-3, M_PER_S, 1e-6..=1.0;
+        /// Dynamic viscosity of the oil at the mesh inlet
+        oil_viscosity: f64 = 0.02, PA_S | MILLI_PA_S, 1e-5..=100.0,
+            when(all([differs!(Self.law, FrictionLaw::CoulombStribeck), is!(Self.viscosity_from_oil, false)]));
+        /// Viscosity of the oil at its temperature; false: tooth_friction.oil_viscosity
+        viscosity_from_oil: bool = false, when(differs!(Self.law, FrictionLaw::CoulombStribeck));
+        /// Lubricant factor X_L of ISO/TR 14179-2
+        lubricant_factor: f64 = 1.0, ONE, 0.1..=3.0, when(is!(Self.law, FrictionLaw::Iso14179));
+        /// Roughness R_a of the flanks
+        roughness: f64 = 0.4e-6, METRE | UM, 0.0..=1e-4, when(differs!(Self.law, FrictionLaw::CoulombStribeck));
     }
 }
 

@@ -16,4 +16,4 @@ mod spec;
 pub use corner::{CornerGap, CornerTravel};
 pub use involute::Gear;
 pub use pair::{Pair, Path, Tredgold};
-pub use spec::{AddendumSystem, GearSpec};
+pub use spec::{AddendumSystem, GearSpec, PlainTeeth};

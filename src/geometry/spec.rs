@@ -1,5 +1,9 @@
 //! User parameters of the gears, the inputs of all geometry formulas.
 
+use crate::declaration::units::{DEG, METRE, MM, ONE, RADIAN};
+use crate::declaration::when;
+use crate::drives::{GearContact, Scene};
+
 choices! {
     /// Rule that splits the working depth into addenda and fixes the clearance.
     pub enum AddendumSystem: "AddendumSystem" {
@@ -10,42 +14,52 @@ choices! {
     }
 }
 
-spec! {
+parameters! {
     /// Specification of a gear pair: planet (index p) and side gear (index s) with coincident apexes.
     ///
     /// The default is the study's gear pair, but with Gleason's addenda.
-    pub struct GearSpec {
-        /// Outer transverse module m [m].
-        pub module: f64 = 4.5e-3,
-        /// Number of planet teeth z_p.
-        pub planet_teeth: i32 = 10,
-        /// Number of side gear teeth z_s.
-        pub side_teeth: i32 = 16,
-        /// Number of equally spaced planets N.
-        pub planet_count: i32 = 2,
-        /// Pressure angle α [rad].
-        pub pressure_angle: f64 = 20f64.to_radians(),
-        /// Shaft angle Σ [rad].
-        pub shaft_angle: f64 = 90f64.to_radians(),
-        /// Face width b [m].
-        pub face_width: f64 = 20e-3,
-        /// Circumferential backlash j_t at the outer pitch circle [m].
-        pub backlash: f64 = 1e-4,
-        /// Rule for addenda and dedenda.
-        pub addendum_system: AddendumSystem = AddendumSystem::Gleason,
-        /// Planet addendum coefficient h_ap/m for [`AddendumSystem::Explicit`].
-        pub planet_addendum: f64 = 1.0,
-        /// Side gear addendum coefficient h_as/m for [`AddendumSystem::Explicit`].
-        pub side_addendum: f64 = 1.0,
-        /// Planet dedendum coefficient h_fp/m for [`AddendumSystem::Explicit`].
-        pub planet_dedendum: f64 = 1.25,
-        /// Side gear dedendum coefficient h_fs/m for [`AddendumSystem::Explicit`].
-        pub side_dedendum: f64 = 1.25,
-        /// Fillet radius at the root of the teeth, in modules.
-        pub root_fillet: f64 = 0.40,
-        /// Diameter of the planet's bore (its pin) [m]; 0 means solid.
-        pub planet_bore: f64 = 0.0,
-        /// Diameter of the side gear's bore (its shaft) [m]; 0 means solid.
-        pub side_bore: f64 = 0.0,
+    pub struct GearSpec in "geometry" {
+        /// Outer transverse module
+        module: f64 = 4.5e-3, METRE | MM, 2e-4..=0.1;
+        /// Number of teeth of a planet
+        planet_teeth: i32 = 10, 5..=200;
+        /// Number of teeth of a side gear
+        side_teeth: i32 = 16, 5..=200;
+        /// Number of equally spaced planets; 2 side_teeth / planet_count must be an integer
+        planet_count: i32 = 2, 2..=4;
+        /// Pressure angle
+        pressure_angle: f64 = 20f64.to_radians(), RADIAN | DEG, 0.17..=0.53;
+        /// Angle between planet and side gear axes; a differential needs 90 deg
+        shaft_angle: f64 = 90f64.to_radians(), RADIAN | DEG, 0.17..=3.0;
+        /// Face width
+        face_width: f64 = 20e-3, METRE | MM, 1e-4..=1.0;
+        /// Rule for addenda and dedenda
+        addendum_system: AddendumSystem = AddendumSystem::Gleason;
+        /// Planet addendum per module, if geometry.addendum_system = explicit
+        planet_addendum: f64 = 1.0, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
+        /// Side gear addendum per module, if geometry.addendum_system = explicit
+        side_addendum: f64 = 1.0, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
+        /// Planet dedendum per module, if geometry.addendum_system = explicit
+        planet_dedendum: f64 = 1.25, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
+        /// Side gear dedendum per module, if geometry.addendum_system = explicit
+        side_dedendum: f64 = 1.25, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
+        /// Circumferential backlash at the outer pitch circle
+        backlash: f64 = 1e-4, METRE | MM, 0.0..=0.05, when(is!(PlainTeeth.backlash, true));
+        /// Root fillet radius per module, for the tooth stiffness
+        root_fillet: f64 = 0.40, ONE, 0.0..=1.0;
+        /// Bore diameter of a planet (pin diameter), for mass and rim; 0 = no bore
+        planet_bore: f64 = 0.0, METRE | MM, 0.0..=10.0;
+        /// Bore diameter of a side gear (shaft diameter), for mass and rim; 0 = no bore
+        side_bore: f64 = 0.0, METRE | MM, 0.0..=10.0;
+    }
+}
+
+parameters! {
+    /// Switches of plain teeth, which belong to no effect.
+    pub struct PlainTeeth in "effects" {
+        /// Backlash between the teeth; false: none
+        backlash: bool = true;
+        /// Tip-corner contact outside the path of contact; false: pairs enter and leave abruptly
+        corner_contact: bool = true, when(differs!(Scene.gear_contact, GearContact::Ideal));
     }
 }

@@ -160,7 +160,7 @@ impl Instance {
     /// True if a change of the variable affects the present scene.
     pub fn has_effect(&mut self, reference: u32) -> bool {
         let situation = self.situation(self.now.phase == Phase::Initialization);
-        effective::has_effect(reference as usize, &mut self.now.parameters, situation)
+        effective::has_effect(reference as usize, &self.now.parameters, situation)
     }
 
     fn situation(&self, from_start: bool) -> Situation {
@@ -174,7 +174,7 @@ impl Instance {
             if variables::table().rows.get(index).is_some_and(|row| self.without_effect.contains(&row.name)) {
                 return;
             }
-            let found = effective::value_without_effect(index, value, &mut self.now.parameters, situation);
+            let found = effective::value_without_effect(index, value, &self.now.parameters, situation);
             self.warn_without_effect(found);
         }
     }

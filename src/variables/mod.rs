@@ -2,13 +2,11 @@
 //! model description, the value references and the C ABI are derived from this table.
 
 mod access;
-mod added;
 mod calculated;
 pub mod effective;
 mod inputs;
 mod named;
 mod outputs;
-mod parameters;
 mod states;
 mod table;
 pub mod unset;

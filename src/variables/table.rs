@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::sync::OnceLock;
 
 use super::{Access, Variable};
-use crate::declaration::{Causality, Range, Variability};
+use crate::declaration::{Causality, Range, Rows, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
 use crate::static_memory::{store_all, store_text};
@@ -40,17 +40,39 @@ pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut rows: Vec<Variable> = Vec::new();
-        rows.extend(super::parameters::rows().into_iter().map(|row| row.map(Access::from)));
+        rows.extend(Parameters::rows().into_iter().map(|row| row.map(Access::from)));
         rows.extend(super::inputs::rows().into_iter().map(|row| row.map(Access::Input)));
         rows.extend(super::outputs::rows().into_iter().map(|row| row.map(Access::Output)));
         rows.extend(super::calculated::rows().into_iter().map(|row| row.map(Access::Output)));
+        sort_by_group(&mut rows);
         let (states, derivatives) = super::states::complete(&mut rows);
-        let places = super::added::put_last(&mut rows);
-        let [states, derivatives] = [states, derivatives].map(|all| all.map(|i| places[i]));
         let of = |c| store_all(&(0..rows.len()).filter(|&i| rows[i].causality == c).collect::<Vec<_>>());
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
         Table { rows: store_all(&rows), outputs, inputs, states, derivatives }
     })
+}
+
+/// Sorts variables of the same causality by the first part of their names. Groups and variables keep their order.
+fn sort_by_group(rows: &mut [Variable]) {
+    let group = |row: &Variable| row.name.split('.').next().unwrap_or(row.name);
+    let causalities: Vec<Causality> = distinct(rows.iter().map(|row| row.causality));
+    let groups: Vec<&str> = distinct(rows.iter().map(group));
+    let place = |row: &Variable| {
+        let causality = causalities.iter().position(|&causality| causality == row.causality);
+        (causality, groups.iter().position(|&name| name == group(row)))
+    };
+    rows.sort_by_cached_key(place);
+}
+
+/// Returns each value once, in the order of first appearance.
+fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
+    let mut found = Vec::new();
+    for value in values {
+        if !found.contains(&value) {
+            found.push(value);
+        }
+    }
+    found
 }
 
 /// Returns the start value of a real parameter or input.

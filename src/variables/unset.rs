@@ -105,7 +105,7 @@ pub fn unset_as_shown(
             continue;
         }
         let Some(value) = number(row, &mut parameters, &mut inputs) else { continue };
-        if has_no_effect(row, value) || !acts(index, &mut parameters, Situation::START) {
+        if has_no_effect(row, value) || !acts(index, &parameters, Situation::START) {
             continue;
         }
         let name = if group == DRIVES { row.name } else { row.name.split_once('.').map_or(row.name, |(_, rest)| rest) };

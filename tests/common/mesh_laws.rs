@@ -44,7 +44,7 @@ pub struct Built {
 impl Built {
     /// Creates the law `kind` for steel teeth.
     pub fn new(pair: &Pair, kind: Kind) -> Self {
-        let line_load = ContactSpec::default().line_load;
+        let line_load = ContactSpec::default().reference_line_load;
         let stiffness = PairStiffness::new(pair, &RootSpec::default(), 2.07e11, 0.25, line_load).unwrap();
         Self::of(pair, &stiffness, kind, 1.5)
     }

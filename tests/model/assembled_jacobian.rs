@@ -48,7 +48,7 @@ fn backward((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
 fn by_speed(p: &mut Parameters) {
     (p.effects.thrust_friction, p.effects.limited_slip, p.effects.wheel_brake) = (true, true, true);
     let specs = &mut p.specs;
-    (specs.thrust_friction.static_ratio, specs.limited_slip.static_ratio) = (1.6, 1.3);
+    (specs.thrust_friction.sliding.static_ratio, specs.limited_slip.sliding.static_ratio) = (1.6, 1.3);
     for (sliding, speed, slope) in [
         (&mut specs.thrust_friction.sliding, 0.05, -0.8),
         (&mut specs.limited_slip.sliding, 0.2, 0.3),

@@ -40,7 +40,7 @@ fn scenes(bodies: bool) -> Vec<(&'static str, (Parameters, Inputs))> {
             }),
         ),
         ("friction", turn(bodies, |p| (p.effects.tooth_friction, p.effects.thrust_friction) = (true, true))),
-        ("no corners", turn(bodies, |p| p.effects.corner_contact = false)),
+        ("no corners", turn(bodies, |p| p.effects.teeth.corner_contact = false)),
     ]
 }
 
@@ -88,7 +88,7 @@ fn a_preloaded_start_is_in_balance() {
 fn elastic_bodies_increase_deflection_only_under_load() {
     // without backlash, straight ahead, with and without load
     let error = |bodies: bool, load: f64| {
-        let (mut p, mut inputs) = turn(bodies, |p| p.effects.backlash = false);
+        let (mut p, mut inputs) = turn(bodies, |p| p.effects.teeth.backlash = false);
         p.scene.planet_spin = PlanetSpin::Free;
         inputs.load_torque = [load; 2];
         inputs.planet_spin = 0.0;
@@ -158,7 +158,7 @@ fn assumptions_about_bores_are_logged_only_with_the_effect() {
 /// mm can transmit the load of 20 N·m.
 fn error_on(side_bore: f64) -> f64 {
     let (p, mut inputs) = turn(true, |p| {
-        (p.effects.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
+        (p.effects.teeth.backlash, p.scene.planet_spin, p.geometry.side_bore) = (false, PlanetSpin::Free, side_bore);
     });
     (inputs.planet_spin, inputs.load_torque) = (0.0, [20.0; 2]);
     let mut simulation = Simulation::start(&p, &inputs, 0.0).expect("a scene that can be built");

@@ -82,7 +82,7 @@ fn a_jump_of_an_imposed_speed_is_counted_as_work() {
 #[test]
 fn pairs_that_enter_and_leave_contact_abruptly_keep_the_energy_balanced() {
     let (mut p, inputs) = turn();
-    p.effects.corner_contact = false;
+    p.effects.teeth.corner_contact = false;
     let mut s = Simulation::start(&p, &inputs, 0.0).unwrap();
     s.advance(0.5).unwrap();
     // there are a dozen jumps of some tenths of a joule

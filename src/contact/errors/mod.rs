@@ -22,7 +22,7 @@ pub use chip::Chip;
 pub use individual::GearTeeth;
 pub use normals::{ContactNormals, Normal};
 pub use random::Random;
-pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec};
+pub use spec::{FaultyGear, ToothErrorSpec, ToothFaultSpec, breaks};
 
 use super::Flank;
 

@@ -1,5 +1,8 @@
 //! User parameters of tooth errors: deviations, modifications, misalignment, and a broken tooth.
 
+use crate::contact::{ContactLaw, ContactSpec};
+use crate::declaration::units::{DEG, METRE, MM, ONE, RADIAN, SECOND, UM};
+use crate::declaration::{Condition, all, any, when};
 use crate::problem::Problem;
 
 /// Largest deviation or modification of a flank [m]. First-order formulas are not valid beyond it.
@@ -7,40 +10,37 @@ const MAX_DEVIATION: f64 = 1e-3;
 /// Largest error of the shaft angle [rad]. First-order formulas are not valid beyond it.
 const MAX_ANGLE: f64 = 0.02;
 
-spec! {
+parameters! {
     /// Deviations and modifications of all teeth; the default is error-free teeth.
-    pub struct ToothErrorSpec {
-        /// Accuracy grade B of ISO 17485:2006 for the pitch of every gear: 2 to 11, 0 = no pitch deviations.
-        pub accuracy_grade: i32 = 0,
-        /// Seed of the individual pitch deviations and of the phases of runout.
-        pub seed: i32 = 0,
-        /// Radial runout F_r of each planet [m], peak to peak over a revolution: its teeth are eccentric to its axis by
-        /// F_r/2.
-        pub planet_runout: f64 = 0.0,
-        /// Radial runout F_r of each side gear [m], peak to peak over a revolution: its teeth are eccentric to its axis
-        /// by F_r/2.
-        pub side_runout: f64 = 0.0,
-        /// True if the runout of all gears is the tolerance F_rT of the accuracy grade instead of the two values above.
-        pub runout_by_grade: bool = false,
-        /// Tip relief of the planet: material missing at its tip, along the line of action [m].
-        pub planet_tip_relief: f64 = 0.0,
-        /// Tip relief of the side gear: material missing at its tip, along the line of action [m].
-        pub side_tip_relief: f64 = 0.0,
-        /// Length of both reliefs along the line of action, in base pitches.
-        pub relief_length: f64 = 0.3,
-        /// Lengthwise crowning of a tooth pair: gap at both face ends relative to the middle of the face [m].
-        pub crowning: f64 = 0.0,
-        /// Error of the shaft angle [rad]: each planet's axis leans away from the left side gear, toward the right one.
-        pub shaft_angle_error: f64 = 0.0,
-        /// Displacement of each planet along its own axis, outward [m].
-        pub planet_axial_offset: f64 = 0.0,
-        /// Displacement of each side gear along its own axis, away from the planets' axes [m].
-        pub side_axial_offset: f64 = 0.0,
-        /// Displacement of all planet pins, as one rigid body, from the side gears' axis [m], in the direction in which
-        /// the forward-turning carrier moves planet 0. For planet 0 it is the hypoid offset, and for an opposite planet
-        /// the negative hypoid offset. For planets between them, it is partly a hypoid offset and partly a displacement
-        /// along their own axes.
-        pub axis_offset: f64 = 0.0,
+    pub struct ToothErrorSpec in "tooth_errors" {
+        /// Pitch accuracy grade by ISO 17485, 2 to 11; 0 = no pitch deviations
+        accuracy_grade: i32 = 0, 0..=11;
+        /// Seed of the individual pitch deviations and runout phases
+        seed: i32 = 0, i32::MIN..=i32::MAX,
+            when(any([above!(Self.accuracy_grade, 0), above!(Self.planet_runout, 0.0), above!(Self.side_runout, 0.0)]));
+        /// Radial runout of each planet, peak to peak
+        planet_runout: f64 = 0.0, METRE | UM, 0.0..=1e-3, when(is!(Self.runout_by_grade, false));
+        /// Radial runout of each side gear, peak to peak
+        side_runout: f64 = 0.0, METRE | UM, 0.0..=1e-3, when(is!(Self.runout_by_grade, false));
+        /// Runout of all gears from the tolerance of the accuracy grade; false: given values
+        runout_by_grade: bool = false;
+        /// Tip relief of the planets along the line of action
+        planet_tip_relief: f64 = 0.0, METRE | UM, 0.0..=1e-3;
+        /// Tip relief of the side gears along the line of action
+        side_tip_relief: f64 = 0.0, METRE | UM, 0.0..=1e-3;
+        /// Length of the tip reliefs of both gears, in base pitches
+        relief_length: f64 = 0.3, ONE, 0.01..=2.0,
+            when(any([above!(Self.planet_tip_relief, 0.0), above!(Self.side_tip_relief, 0.0)]));
+        /// Lengthwise crowning of a tooth pair: gap at both ends of the face relative to its middle
+        crowning: f64 = 0.0, METRE | UM, 0.0..=1e-3;
+        /// Tilt of each planet axis away from the left side gear, toward the right one
+        shaft_angle_error: f64 = 0.0, RADIAN | DEG, -0.02..=0.02;
+        /// Displacement of each planet along its axis, outward
+        planet_axial_offset: f64 = 0.0, METRE | UM, -1e-3..=1e-3;
+        /// Displacement of each side gear along its axis, away from the planet axes
+        side_axial_offset: f64 = 0.0, METRE | UM, -1e-3..=1e-3;
+        /// Displacement of all pins together, across the side gear axis, with planet 1 forward
+        axis_offset: f64 = 0.0, METRE | UM, -1e-3..=1e-3;
     }
 }
 
@@ -53,25 +53,30 @@ choices! {
     }
 }
 
-spec! {
-    /// A tooth that loses a piece at its heel while running; the default is sound teeth.
-    pub struct ToothFaultSpec {
-        /// Kind of gear with the broken tooth.
-        pub gear: FaultyGear = FaultyGear::None,
-        /// Index of the planet (0 to N − 1) or side gear (0 left, 1 right).
-        pub index: i32 = 0,
-        /// Number of the tooth, from 0, counted as in [`super::PairId`].
-        pub tooth: i32 = 0,
-        /// Missing fraction of the face width, from the heel inward: 0 to 1.
-        pub missing_fraction: f64 = 0.5,
-        /// Depth removed along the line of action [m]. If it exceeds the approach of loaded teeth, nothing touches
-        /// there.
-        pub depth: f64 = 1e-3,
-        /// True if the piece breaks off at `onset`. Otherwise only the trigger breaks it off.
-        pub at_onset: bool = false,
-        /// Time at which the piece breaks off [s].
-        pub onset: f64 = 0.0,
+parameters! {
+    /// A tooth that loses a piece at its heel while running.
+    pub struct ToothFaultSpec in "tooth_fault" {
+        /// Kind of gear with the broken tooth
+        gear: FaultyGear = FaultyGear::Planet;
+        /// Planet (0 = planet[1]) or side gear (0 = left, 1 = right) with the broken tooth
+        index: i32 = 0, 0..=3, when(breaks());
+        /// Number of the broken tooth, counted from 0
+        tooth: i32 = 0, 0..=199, when(breaks());
+        /// Missing fraction of the face width, from the heel inward
+        missing_fraction: f64 = 0.6, ONE, 0.0..=1.0,
+            when(all([breaks(), is!(ContactSpec.law, ContactLaw::Line, ContactLaw::LineWeber)]));
+        /// Depth removed along the line of action
+        depth: f64 = 1e-3, METRE | MM, 0.0..=1e-2, when(breaks());
+        /// The piece breaks off at tooth_fault.onset; false: only by fault.trigger
+        at_onset: bool = false, when(breaks());
+        /// Time at which the piece breaks off; a run that starts later starts with the broken tooth
+        onset: f64 = 0.0, SECOND, when(all([breaks(), is!(Self.at_onset, true)]));
     }
+}
+
+/// Condition that a tooth can break.
+pub fn breaks() -> Condition {
+    differs!(ToothFaultSpec.gear, FaultyGear::None)
 }
 
 impl ToothErrorSpec {

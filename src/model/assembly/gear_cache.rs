@@ -125,7 +125,7 @@ impl GearCache {
 
 /// Young's modulus [Pa], Poisson's ratio and the reference line load [N/m] of the scene `p`.
 fn elasticity(p: &Parameters) -> [f64; 3] {
-    [p.material.young_modulus, p.material.poisson_ratio, p.contact.line_load]
+    [p.material.young_modulus, p.material.poisson_ratio, p.contact.reference_line_load]
 }
 
 /// Shared cache, and the number of its users.
@@ -193,8 +193,8 @@ mod tests {
             |p| p.geometry.root_fillet *= 1.001,
             |p| p.material.young_modulus *= 1.001,
             |p| p.material.poisson_ratio *= 1.001,
-            |p| p.contact.line_load *= 1.001,
-            |p| p.effects.backlash = !p.effects.backlash,
+            |p| p.contact.reference_line_load *= 1.001,
+            |p| p.effects.teeth.backlash = !p.effects.teeth.backlash,
         ];
         for change in changes {
             let mut changed = p;

@@ -208,7 +208,7 @@ fn teeth(
     let single = plan.contact == GearContact::Lumped;
     let in_detail = tooth.gaps[0].is_some() || friction.is_some() || plan.has_pins || body_effects.needs_loads();
     body_effects.has_effects |= in_detail || laws.bodies.is_some();
-    let engagement = cache.engagement(pair, p.effects.corner_contact, deflection_limit);
+    let engagement = cache.engagement(pair, p.effects.teeth.corner_contact, deflection_limit);
     let damping = Laws::damping(p);
     let mesh = Mesh { spring: laws.spring, damping, whole: laws.whole, is_single: single, engagement };
     let mut detailed =

@@ -9,7 +9,7 @@ use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects}
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
 use crate::declaration::units::{W_PER_M2, W_PER_MM2};
-use crate::declaration::{DisplayUnit, Parameter, Row, Unit};
+use crate::declaration::{Condition, DisplayUnit, Group, Need, Row, Rows, Unit};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
 use crate::problem::Problem;
@@ -107,9 +107,8 @@ pub struct Instant<'a> {
     pub shaft_torque: [f64; 2],
 }
 
-/// Declaration of an effect. It is implemented by the struct of the effect's parameters, whose `Default` gives their
-/// start values.
-pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeOwned {
+/// Declaration of an effect. It is implemented by the struct of the effect's parameters.
+pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + DeserializeOwned {
     /// Description of its switch in the interface.
     const DESCRIPTION: &'static str;
     /// Heat in the ledger; `None` if the effect dissipates nothing.
@@ -120,18 +119,18 @@ pub trait Declare: Copy + Debug + Default + PartialEq + Serialize + DeserializeO
     const NEEDS: Option<Needs> = None;
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
-    /// Condition under which its switch has any influence, in the form of a row's condition. `None` means always.
-    const WHEN: Option<&'static str> = None;
     /// Values that make the effect visible in an example: names of variables with values in SI units.
     const EXAMPLE: &'static [(&'static str, f64)] = &[];
 
-    /// Start values of its parameters.
-    fn start() -> Self {
-        Self::default()
+    /// Condition under which its switch has any influence; `None` means always.
+    fn when() -> Option<Condition> {
+        None
     }
 
-    /// Rows of its parameters.
-    fn parameters() -> Vec<Row<Parameter<Self>>>;
+    /// Influences on shared parameters, with the condition under which the effect has each.
+    fn needs() -> Vec<(Need, Condition)> {
+        Vec::new()
+    }
 
     /// Rows of its inputs.
     fn inputs() -> Vec<Row<InputField>> {

@@ -38,7 +38,7 @@ impl FrictionPart {
 
     /// Limit torque while stuck [N·m].
     pub(super) fn breakaway(&self, source: &FrictionSource, by: &SurfaceLoad) -> f64 {
-        if self.surface == SurfaceKind::SideCurve { self.constant } else { source.static_ratio * self.at(by) }
+        if self.surface == SurfaceKind::SideCurve { self.constant } else { source.sliding.static_ratio * self.at(by) }
     }
 
     /// Limit torque of a surface of `source` [N·m] while the body slides at `speed` [rad/s] in its direction, and the

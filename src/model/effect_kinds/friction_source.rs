@@ -96,8 +96,6 @@ pub struct FrictionSource {
     pub wheel: Option<WheelFriction>,
     /// Damping of the springs on side gears and planets over their stiffness [s].
     pub damping_time: f64,
-    /// Limit torque while stuck over limit torque while sliding.
-    pub static_ratio: f64,
     /// Parameters of sliding.
     pub sliding: SlipSpec,
     /// Origin of the temperature of its surfaces.
@@ -117,7 +115,6 @@ impl FrictionSource {
             planet,
             wheel: None,
             damping_time: DAMPING_TIME,
-            static_ratio: 1.0,
             sliding: SlipSpec::default(),
             temperature: SurfaceTemperature::Node(OIL),
             by_lock: false,
@@ -148,7 +145,12 @@ impl FrictionSource {
     /// Law of friction over slip speed on a surface.
     pub fn law(&self, kind: SurfaceKind) -> SlipLaw {
         let SlipSpec { stribeck_speed, slip_slope, .. } = self.sliding;
-        SlipLaw { radius: self.surface(kind).0, excess: self.static_ratio - 1.0, stribeck_speed, slope: slip_slope }
+        SlipLaw {
+            radius: self.surface(kind).0,
+            excess: self.sliding.static_ratio - 1.0,
+            stribeck_speed,
+            slope: slip_slope,
+        }
     }
 
     /// Pressure on a surface.

@@ -100,8 +100,14 @@ mod tests {
         let PvLimit { limit: pv_limit, beyond: beyond_limit } = LIMIT;
         FrictionSource {
             side: SideFriction { radius: 0.05, pressed: PRESSED, ..SideFriction::default() },
-            static_ratio: 1.2,
-            sliding: SlipSpec { stribeck_speed: 0.3, slip_slope: -0.01, pv_limit, beyond_limit, ..SlipSpec::default() },
+            sliding: SlipSpec {
+                static_ratio: 1.2,
+                stribeck_speed: 0.3,
+                slip_slope: -0.01,
+                pv_limit,
+                beyond_limit,
+                ..SlipSpec::default()
+            },
             ..FrictionSource::new(0)
         }
     }

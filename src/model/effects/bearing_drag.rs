@@ -21,8 +21,8 @@
 //!
 //! with the dip factor f_g = immersed depth / D: 0 if the disc runs dry, 1 if it is submerged.
 
-use crate::declaration::units::{self, DEG_C, DEG_PER_S, MM, RPM};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need, all, any, when};
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::{OilSpec, Plan, Viscosity};
 use crate::problem::Problem;
@@ -38,44 +38,54 @@ const EXPONENT: f64 = 4.7;
 /// Carrier bearings.
 const BEARINGS: f64 = 2.0;
 
-spec! {
+parameters! {
     /// Drag of bearings and oil.
-    pub struct BearingDragSpec {
-        /// Load-independent bearing torque on the carrier [N·m].
-        pub carrier_torque: f64 = 0.0,
-        /// Viscous drag on the carrier [N·m·s/rad].
-        pub carrier_viscous: f64 = 0.0,
-        /// Churning on the carrier, with the square of its speed [N·m·s²/rad²].
-        pub carrier_churning: f64 = 0.0,
-        /// Load-independent bearing torque on each side gear [N·m].
-        pub side_torque: f64 = 0.0,
-        /// Viscous drag on each side gear [N·m·s/rad].
-        pub side_viscous: f64 = 0.0,
-        /// Speed ω₀ at which the bearing torque has built up to tanh 1 = 76 % [rad/s].
-        pub breakaway_speed: f64 = 0.1,
-        /// True if viscous drag follows the viscosity of `oil` at its temperature.
-        pub viscosity_from_oil: bool = false,
-        /// Temperature at which viscous drag has its given value [K].
-        pub reference_temperature: f64 = 353.15,
-        /// True if churning follows from the carrier's size and the oil; otherwise it is given.
-        pub churning_from_geometry: bool = false,
-        /// Outside diameter of crown wheel and case D [m].
-        pub carrier_diameter: f64 = 0.2,
-        /// Width of crown wheel and case L [m].
-        pub carrier_width: f64 = 0.05,
-        /// Immersed depth over the diameter, f_g.
-        pub oil_level: f64 = 0.3,
-        /// Diameter of each side gear's shaft at its seal d [m]; 0 = no seals.
-        pub seal_diameter: f64 = 0.0,
-        /// Torque of a seal per shaft diameter k [N].
-        pub seal_torque_per_diameter: f64 = 3.737,
-        /// Load of each of two carrier bearings F [N].
-        pub bearing_load: f64 = 0.0,
-        /// Mean diameter of the carrier bearings d_m [m].
-        pub bearing_diameter: f64 = 0.07,
-        /// Coefficient of friction of the carrier bearings f₁.
-        pub bearing_coefficient: f64 = 4e-4,
+    pub struct BearingDragSpec in "bearing_drag" {
+        /// Load-independent bearing torque on the carrier
+        carrier_torque: f64 = 0.0, NEWTON_METRE, 0.0..=1e4;
+        /// Viscous drag on the carrier
+        carrier_viscous: f64 = 0.0, NMS_PER_RAD, 0.0..=1e3;
+        /// Churning torque of the carrier per square of its speed
+        carrier_churning: f64 = 0.0, NMS2_PER_RAD2, 0.0..=1e2, when(is!(Self.churning_from_geometry, false));
+        /// Load-independent bearing torque on each side gear
+        side_torque: f64 = 0.0, NEWTON_METRE, 0.0..=1e4;
+        /// Viscous drag on each side gear
+        side_viscous: f64 = 0.0, NMS_PER_RAD, 0.0..=1e3;
+        /// Speed at which the load-independent bearing torque has built up
+        breakaway_speed: f64 = 0.1, RAD_PER_S | DEG_PER_S, 1e-6..=1e3,
+            when(any([above!(Self.carrier_torque, 0.0), above!(Self.side_torque, 0.0),
+                above!(Self.seal_diameter, 0.0), above!(Self.bearing_load, 0.0)]));
+        /// Viscous drag proportional to the oil viscosity; false: given values
+        viscosity_from_oil: bool = false,
+            when(any([above!(Self.carrier_viscous, 0.0), above!(Self.side_viscous, 0.0)]));
+        /// Oil temperature at which viscous drag has its given values
+        reference_temperature: f64 = 353.15, KELVIN | DEG_C, TEMPERATURES, when(is!(Self.viscosity_from_oil, true));
+        /// Churning torque from dimensions and oil (ISO/TR 14179-1); false: given value
+        churning_from_geometry: bool = false;
+        /// Outside diameter of crown wheel and case
+        carrier_diameter: f64 = 0.2, METRE | MM, 1e-3..=10.0,
+            when(churning());
+        /// Width of crown wheel and case
+        carrier_width: f64 = 0.05, METRE | MM, 0.0..=10.0,
+            when(churning());
+        /// Immersed depth over bearing_drag.carrier_diameter
+        oil_level: f64 = 0.3, ONE, 0.0..=1.0, when(is!(Self.churning_from_geometry, true));
+        /// Shaft diameter at the side gear seals; 0 = no seals
+        seal_diameter: f64 = 0.0, METRE | MM, 0.0..=1.0;
+        /// Torque of a seal per shaft diameter
+        seal_torque_per_diameter: f64 = 3.737, NEWTON, 1e-3..=1e3, when(above!(Self.seal_diameter, 0.0));
+        /// Load on each carrier bearing
+        bearing_load: f64 = 0.0, NEWTON, 0.0..=1e7;
+        /// Mean diameter of the carrier bearings
+        bearing_diameter: f64 = 0.07, METRE | MM, 1e-3..=10.0, when(above!(Self.bearing_load, 0.0));
+        /// Palmgren's coefficient f1 of the carrier bearings
+        bearing_coefficient: f64 = 4e-4, ONE, 1e-6..=1.0, when(above!(Self.bearing_load, 0.0));
     }
+}
+
+/// Condition that churning follows from the carrier's size.
+fn churning() -> Condition {
+    all([is!(BearingDragSpec.churning_from_geometry, true), above!(BearingDragSpec.oil_level, 0.0)])
 }
 
 impl Declare for BearingDragSpec {
@@ -90,78 +100,10 @@ impl Declare for BearingDragSpec {
         ("bearing_drag.side_viscous", 1e-3),
     ];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
+    fn needs() -> Vec<(Need, Condition)> {
         vec![
-            row("bearing_drag.carrier_torque", "Load-independent bearing torque on the carrier").real(
-                units::NEWTON_METRE,
-                (0.0, 1e4),
-                |p| &mut p.carrier_torque,
-            ),
-            row("bearing_drag.carrier_viscous", "Viscous drag on the carrier").real(
-                units::NMS_PER_RAD,
-                (0.0, 1e3),
-                |p| &mut p.carrier_viscous,
-            ),
-            row("bearing_drag.carrier_churning", "Churning torque of the carrier per square of its speed")
-                .when("bearing_drag.churning_from_geometry = false")
-                .real(units::NMS2_PER_RAD2, (0.0, 1e2), |p| &mut p.carrier_churning),
-            row("bearing_drag.side_torque", "Load-independent bearing torque on each side gear").real(
-                units::NEWTON_METRE,
-                (0.0, 1e4),
-                |p| &mut p.side_torque,
-            ),
-            row("bearing_drag.side_viscous", "Viscous drag on each side gear").real(
-                units::NMS_PER_RAD,
-                (0.0, 1e3),
-                |p| &mut p.side_viscous,
-            ),
-            row("bearing_drag.breakaway_speed", "Speed at which the load-independent bearing torque has built up")
-                .when(
-                    "bearing_drag.carrier_torque > 0 or bearing_drag.side_torque > 0 or bearing_drag.seal_diameter > 0 \
-                     or bearing_drag.bearing_load > 0",
-                )
-                .real((units::RAD_PER_S, DEG_PER_S), (1e-6, 1e3), |p| &mut p.breakaway_speed),
-            row(
-                "bearing_drag.viscosity_from_oil",
-                "Viscous drag proportional to the oil viscosity; false: given \
-                                                    values",
-            )
-            .when("bearing_drag.carrier_viscous > 0 or bearing_drag.side_viscous > 0")
-            .switch(|p| &mut p.viscosity_from_oil),
-            row("bearing_drag.reference_temperature", "Oil temperature at which viscous drag has its given values")
-                .when("bearing_drag.viscosity_from_oil = true")
-                .real((units::KELVIN, DEG_C), units::TEMPERATURES, |p| &mut p.reference_temperature),
-            row(
-                "bearing_drag.churning_from_geometry",
-                "Churning torque from dimensions and oil (ISO/TR 14179-1); \
-                                                        false: given value",
-            )
-            .switch(|p| &mut p.churning_from_geometry),
-            row("bearing_drag.carrier_diameter", "Outside diameter of crown wheel and case")
-                .when("bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0")
-                .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.carrier_diameter),
-            row("bearing_drag.carrier_width", "Width of crown wheel and case")
-                .when("bearing_drag.churning_from_geometry = true and bearing_drag.oil_level > 0")
-                .real((units::METRE, MM), (0.0, 10.0), |p| &mut p.carrier_width),
-            row("bearing_drag.oil_level", "Immersed depth over bearing_drag.carrier_diameter")
-                .when("bearing_drag.churning_from_geometry = true")
-                .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_level),
-            row("bearing_drag.seal_diameter", "Shaft diameter at the side gear seals; 0 = no seals").real(
-                (units::METRE, MM),
-                (0.0, 1.0),
-                |p| &mut p.seal_diameter,
-            ),
-            row("bearing_drag.seal_torque_per_diameter", "Torque of a seal per shaft diameter")
-                .when("bearing_drag.seal_diameter > 0")
-                .real(units::NEWTON, (1e-3, 1e3), |p| &mut p.seal_torque_per_diameter),
-            row("bearing_drag.bearing_load", "Load on each carrier bearing")
-                .real(units::NEWTON, (0.0, 1e7), |p| &mut p.bearing_load),
-            row("bearing_drag.bearing_diameter", "Mean diameter of the carrier bearings")
-                .when("bearing_drag.bearing_load > 0")
-                .real((units::METRE, MM), (1e-3, 10.0), |p| &mut p.bearing_diameter),
-            row("bearing_drag.bearing_coefficient", "Palmgren's coefficient f1 of the carrier bearings")
-                .when("bearing_drag.bearing_load > 0")
-                .real(units::ONE, (1e-6, 1.0), |p| &mut p.bearing_coefficient),
+            (Need::DynamicViscosity, all([on!(Self), is!(Self.viscosity_from_oil, true)])),
+            (Need::Viscosity, all([on!(Self), churning()])),
         ]
     }
 }

@@ -1,18 +1,16 @@
 //! Elastic gear bodies under the teeth (`contact::bodies`, `contact::shared`). Side gears are held by splines in the
 //! bore `geometry.side_bore`, and planets by pins in the bore `geometry.planet_bore`.
 
-use serde::{Deserialize, Serialize};
-
 use crate::contact::bodies::Support;
-use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::{Declare, Effect, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::numeric::sin;
 use crate::problem::Problem;
 
-/// Parameters of the effect: none, because geometry and material determine it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct BodyComplianceSpec {}
+parameters! {
+    /// Elastic gear bodies. Geometry and material determine them, so the effect has no parameters.
+    pub struct BodyComplianceSpec in "body_compliance" {}
+}
 
 impl Declare for BodyComplianceSpec {
     const DESCRIPTION: &'static str = "Elastic gear bodies: they turn and tilt on their bores, and a loaded tooth \
@@ -21,10 +19,6 @@ impl Declare for BodyComplianceSpec {
         Some(Needs { contacts: &[GearContact::Tooth], why: "it adds to the deflection of single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("contact.law", 2.0), ("geometry.planet_bore", 16e-3), ("geometry.side_bore", 30e-3)];
-
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        Vec::new()
-    }
 }
 
 /// Ratio of bore to root circle at the toe below which a bore that transmits torque dominates the compliance of the

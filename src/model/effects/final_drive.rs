@@ -1,36 +1,24 @@
 //! Excitation by the final drive. The carrier's torque or imposed speed varies at the mesh order z of the ring gear,
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ): the first harmonic of a gear pair's mesh excitation.
 
-use crate::declaration::{Parameter, Row, row, units};
+use crate::declaration::units::*;
+use crate::declaration::when;
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Setting, Slopes};
 use crate::model::scene::{CARRIER, Plan};
 use crate::numeric::{cos, sin};
 
-spec! {
+parameters! {
     /// Excitation by the final drive's ring gear.
-    pub struct FinalDriveSpec {
-        /// Teeth of the ring gear.
-        pub ring_teeth: i32 = 37,
-        /// Amplitude relative to the commanded torque or speed of the carrier.
-        pub amplitude: f64 = 0.02,
+    pub struct FinalDriveSpec in "final_drive" {
+        /// Number of teeth of the ring gear
+        ring_teeth: i32 = 37, 1..=1000, when(above!(Self.amplitude, 0.0));
+        /// Amplitude of the excitation relative to the carrier command
+        amplitude: f64 = 0.02, ONE, 0.0..=1.0;
     }
 }
 
 impl Declare for FinalDriveSpec {
     const DESCRIPTION: &'static str = "Excitation of the carrier at the mesh order of the final drive's ring gear";
-
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("final_drive.ring_teeth", "Number of teeth of the ring gear")
-                .when("final_drive.amplitude > 0")
-                .integer((1, 1000), |p| &mut p.ring_teeth),
-            row("final_drive.amplitude", "Amplitude of the excitation relative to the carrier command").real(
-                units::ONE,
-                (0.0, 1.0),
-                |p| &mut p.amplitude,
-            ),
-        ]
-    }
 }
 
 impl Effect for FinalDriveSpec {

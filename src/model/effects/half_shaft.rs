@@ -2,22 +2,37 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_t / L.
 
-use crate::declaration::units::{self, DEG};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::{self, DEG, NM_PER_RAD, NMS_PER_RAD};
+use crate::declaration::{Condition, all, any, when_each};
 use crate::model::effect_kinds::{
     Action, BodyEffect, BodyMotion, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
 };
-use crate::model::scene::{Plan, Requests, SideDrive};
+use crate::model::scene::{InertiaSpec, Plan, Requests, Scene, SideDrive};
 use crate::problem::Problem;
 
-spec! {
+parameters! {
     /// Torsion of the half-shafts.
-    pub struct HalfShaftSpec {
-        /// Stiffness, left and right [N·m/rad].
-        pub stiffness: [f64; 2] = [1e4; 2],
-        /// Damping, left and right [N·m·s/rad].
-        pub damping: [f64; 2] = [5.0; 2],
+    pub struct HalfShaftSpec in "half_shaft" {
+        /// Torsional stiffness of the {side} half-shaft
+        stiffness: [f64; 2] = [1e4; 2], NM_PER_RAD, 0.0..=1e9, when_each(driven().map(|driven| any([on!(Self), driven])));
+        /// Torsional damping of the {side} half-shaft
+        damping: [f64; 2] = [5.0; 2], NMS_PER_RAD, 0.0..=1e6, when_each(twists());
     }
+}
+
+/// Condition that the wheel side of each half-shaft is driven by speed.
+fn driven() -> [Condition; 2] {
+    [is!(Scene.left_drive, SideDrive::Speed), is!(Scene.right_drive, SideDrive::Speed)]
+}
+
+/// Condition that the twist of each half-shaft changes with a delay.
+fn twists() -> [Condition; 2] {
+    let [left, right] = driven();
+    let on = on!(HalfShaftSpec);
+    [
+        any([left, all([on, above!(InertiaSpec.left_end, 0.0)])]),
+        any([right, all([on, above!(InertiaSpec.right_end, 0.0)])]),
+    ]
 }
 
 impl Declare for HalfShaftSpec {
@@ -30,24 +45,10 @@ impl Declare for HalfShaftSpec {
     const READINGS: &'static [Reading] = &[twist("left.twist"), twist("right.twist")];
     /// A speed-driven side acts through its half-shaft.
     const MAY_ACT_UNSWITCHED: bool = true;
-    const WHEN: Option<&'static str> = Some("scene.left_drive = torque or scene.right_drive = torque");
     const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("half_shaft.left_stiffness", "Torsional stiffness of the left half-shaft")
-                .when("effects.half_shaft = true or scene.left_drive = speed")
-                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[0]),
-            row("half_shaft.left_damping", "Torsional damping of the left half-shaft")
-                .when("scene.left_drive = speed or effects.half_shaft = true and inertia.left_end > 0")
-                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[0]),
-            row("half_shaft.right_stiffness", "Torsional stiffness of the right half-shaft")
-                .when("effects.half_shaft = true or scene.right_drive = speed")
-                .real(units::NM_PER_RAD, (0.0, 1e9), |p| &mut p.stiffness[1]),
-            row("half_shaft.right_damping", "Torsional damping of the right half-shaft")
-                .when("scene.right_drive = speed or effects.half_shaft = true and inertia.right_end > 0")
-                .real(units::NMS_PER_RAD, (0.0, 1e6), |p| &mut p.damping[1]),
-        ]
+    fn when() -> Option<Condition> {
+        Some(any([is!(Scene.left_drive, SideDrive::Torque), is!(Scene.right_drive, SideDrive::Torque)]))
     }
 }
 

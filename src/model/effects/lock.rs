@@ -2,19 +2,20 @@
 //! each side is a spring and a damper in parallel: T = command × stiffness × (z + τ ω).
 
 use super::limited_slip::CLUTCH_HEAT;
-use crate::declaration::{Parameter, Row, row, units};
+use crate::declaration::units::*;
+use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};
 
-spec! {
+parameters! {
     /// Lock between side gears and carrier, controlled by a command.
-    pub struct LockSpec {
-        /// Torque that each side holds at full command [N·m].
-        pub torque: f64 = 5e3,
-        /// Stiffness of each side at full command [N·m/rad].
-        pub stiffness: f64 = 1e6,
-        /// Damping of each side over its stiffness [s].
-        pub damping_time: f64 = DAMPING_TIME,
+    pub struct LockSpec in "lock" {
+        /// Lock torque on each side at full command
+        torque: f64 = 5e3, NEWTON_METRE, 0.0..=1e7;
+        /// Lock stiffness on each side at full command
+        stiffness: f64 = 1e6, NM_PER_RAD, 1.0..=1e9;
+        /// Damping of the closed lock over its stiffness
+        damping_time: f64 = DAMPING_TIME, SECOND, 0.0..=1.0;
     }
 }
 
@@ -23,28 +24,11 @@ impl Declare for LockSpec {
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
     const EXAMPLE: &'static [(&'static str, f64)] = &[("lock.command", 1.0)];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("lock.torque", "Lock torque on each side at full command")
-                .real(units::NEWTON_METRE, (0.0, 1e7), |p| &mut p.torque),
-            row("lock.stiffness", "Lock stiffness on each side at full command").real(
-                units::NM_PER_RAD,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-            ),
-            row("lock.damping_time", "Damping of the closed lock over its stiffness").real(
-                units::SECOND,
-                (0.0, 1.0),
-                |p| &mut p.damping_time,
-            ),
-        ]
-    }
-
     fn inputs() -> Vec<Row<InputField>> {
         // a build without effects accepts no command for the lock
         let most = if BUILT { 1.0 } else { 0.0 };
         let row = row("lock.command", "Command of the differential lock: 0 open, 1 locked");
-        vec![row.command(units::ONE, most, |i| &mut i.lock)]
+        vec![row.command(ONE, most, |i| &mut i.lock)]
     }
 }
 

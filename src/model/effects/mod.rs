@@ -19,11 +19,14 @@ mod tooth_friction;
 pub mod warm_up;
 mod wheel_brake;
 
+use std::any::{Any, TypeId};
+
 use serde::{Deserialize, Serialize};
 
 use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, Setting, row};
 use crate::friction::ToothFrictionSpec;
+use crate::geometry::PlainTeeth;
 use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Reading};
 
 /// Entry of an effect in the list [`EFFECTS`].
@@ -62,35 +65,38 @@ impl EffectEntry {
     }
 }
 
-/// Rows of an effect's parameters within the parameters of all effects. Each row names the switch without which its
-/// parameter has no influence.
-fn within<E: Declare + 'static>(
-    switch: Option<&'static str>,
+/// Rows of an effect's parameters within the parameters of all effects. Without its switch, they have no influence.
+fn within<E: Declare>(
+    switch: Option<Condition>,
     group: fn(&mut EffectParameters) -> &mut E,
 ) -> impl Iterator<Item = Row<Parameter<EffectParameters>>> {
     let switch = switch.filter(|_| !E::MAY_ACT_UNSWITCHED);
-    E::parameters().into_iter().map(move |row| Row { switch, ..row.map(|at| at.within(group)) })
+    E::rows().into_iter().map(move |row| Row { switch, ..row.map(|at| at.within(group)) })
+}
+
+/// Row of the switch of an effect.
+fn switch<E: Declare>(name: &'static str, at: Field<Effects, bool>) -> Row<Parameter<Effects>> {
+    Row { when: E::when(), ..row(name, E::DESCRIPTION).map(|()| bool::parameter(at)) }
 }
 
 macro_rules! effects {
     (switched { $($name:ident: $effect:ty,)+ } commanded { $($command:ident: $commanded:ty,)+ }) => {
-        /// Switches of the effects, and of two properties of plain teeth.
+        /// Switches of plain teeth and of the effects.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         pub struct Effects {
-            /// Backlash `geometry.backlash`; off = teeth without play.
-            pub backlash: bool,
-            /// Tip-corner contact outside the path of contact; off = pairs enter and leave abruptly.
-            pub corner_contact: bool,
+            /// Switches of plain teeth.
+            pub teeth: PlainTeeth,
             $(#[allow(missing_docs)] pub $name: bool,)+
         }
 
         impl Effects {
             /// Teeth without effects: backlash and corner contact on.
-            pub const TEETH: Self = Self { backlash: true, corner_contact: true, $($name: false),+ };
+            pub const TEETH: Self =
+                Self { teeth: PlainTeeth { backlash: true, corner_contact: true }, $($name: false),+ };
 
             /// All switches, by their names.
             pub fn switches(&self) -> impl Iterator<Item = (&'static str, bool)> {
-                let teeth = [("effects.backlash", self.backlash), ("effects.corner_contact", self.corner_contact)];
+                let teeth = [("effects.backlash", self.teeth.backlash), ("effects.corner_contact", self.teeth.corner_contact)];
                 let effects = [$((concat!("effects.", stringify!($name)), self.$name)),+];
                 teeth.into_iter().chain(effects)
             }
@@ -99,21 +105,24 @@ macro_rules! effects {
             pub fn active(&self) -> impl Iterator<Item = &'static str> {
                 self.switches().filter_map(|(name, on)| on.then_some(name))
             }
+
+            /// True if the effect with the parameters of type `kind` is on; `None` if there is no such effect.
+            pub fn is_on(&self, kind: TypeId) -> Option<bool> {
+                $(if kind == TypeId::of::<$effect>() {
+                    return Some(self.$name);
+                })+
+                None
+            }
         }
 
         /// Parameters of all effects.
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         #[allow(missing_docs)]
         pub struct EffectParameters {
             $(pub $name: $effect,)+
             $(pub $command: $commanded,)+
         }
 
-        impl Default for EffectParameters {
-            fn default() -> Self {
-                Self { $($name: <$effect>::start(),)+ $($command: <$commanded>::start(),)+ }
-            }
-        }
 
         /// All effects, in the order in which they are set up.
         pub const EFFECTS: &[EffectEntry] = &[
@@ -131,20 +140,35 @@ macro_rules! effects {
             [$(next(effects.$name, &parameters.$name),)+ $(next(true, &parameters.$command),)+]
         }
 
-        /// Rows of the switches.
-        pub fn switches() -> Vec<Row<Parameter<Effects>>> {
-            vec![$(Row {
-                when: <$effect>::WHEN,
-                ..row(concat!("effects.", stringify!($name)), <$effect>::DESCRIPTION).switch(|e| &mut e.$name)
-            }),+]
+        impl Rows for Effects {
+            fn rows() -> Vec<Row<Parameter<Self>>> {
+                let teeth = PlainTeeth::rows().into_iter().map(|row| row.map(|at| at.within(|e: &mut Self| &mut e.teeth)));
+                let effects = [$(switch::<$effect>(concat!("effects.", stringify!($name)), &|e| &mut e.$name)),+];
+                teeth.chain(effects).collect()
+            }
+
+            fn find(&self, kind: TypeId) -> Option<&dyn Any> {
+                self.teeth.find(kind)
+            }
         }
 
-        /// Rows of the parameters.
-        pub fn parameters() -> Vec<Row<Parameter<EffectParameters>>> {
-            let mut rows = Vec::new();
-            $(rows.extend(within(Some(concat!("effects.", stringify!($name))), |p| &mut p.$name));)+
-            $(rows.extend(within(None, |p| &mut p.$command));)+
-            rows
+        impl Rows for EffectParameters {
+            fn rows() -> Vec<Row<Parameter<Self>>> {
+                let mut rows = Vec::new();
+                $(rows.extend(within(Some(switched!($effect, stringify!($name), true)), |p| &mut p.$name));)+
+                $(rows.extend(within(None, |p| &mut p.$command));)+
+                rows
+            }
+
+            fn find(&self, kind: TypeId) -> Option<&dyn Any> {
+                None $(.or_else(|| self.$name.find(kind)))+ $(.or_else(|| self.$command.find(kind)))+
+            }
+        }
+
+        /// Conditions under which an effect has `need`.
+        pub fn needing(need: Need) -> Vec<Condition> {
+            let all = [$(<$effect>::needs(),)+ $(<$commanded>::needs(),)+];
+            all.into_iter().flatten().filter(|(of, _)| *of == need).map(|(_, condition)| condition).collect()
         }
 
         /// Rows of the inputs of the effect `name`.
@@ -158,11 +182,10 @@ macro_rules! effects {
 
         /// Rows of the inputs of all effects.
         pub fn inputs() -> Vec<Row<InputField>> {
-            let of = |effect: &EffectEntry| {
-                let switch = effect.switch;
-                inputs_of(effect.name).into_iter().map(move |row| Row { switch, ..row })
-            };
-            EFFECTS.iter().flat_map(of).collect()
+            let mut rows = Vec::new();
+            $(rows.extend(<$effect>::inputs().into_iter().map(|row| Row { switch: Some(switched!($effect, stringify!($name), true)), ..row }));)+
+            $(rows.extend(<$commanded>::inputs());)+
+            rows
         }
     };
 }

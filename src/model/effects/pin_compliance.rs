@@ -4,8 +4,8 @@
 //! the distance of its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w +
 //! τ ẇ). The springs are linear, with damping proportional to stiffness.
 
-use crate::declaration::units::{self, N_PER_UM};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need};
 use crate::model::effect_kinds::{
     Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
 };
@@ -14,15 +14,15 @@ use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;
 use crate::problem::Problem;
 
-spec! {
+parameters! {
     /// Compliance of pins and case, in series with the teeth.
-    pub struct PinComplianceSpec {
-        /// Stiffness of a pin against the tangential force of its planet at the mean cone distance [N/m].
-        pub pin_stiffness: f64 = 5e8,
-        /// Stiffness of the case against the thrust of a side gear [N/m].
-        pub case_stiffness: f64 = 1e9,
-        /// Damping over stiffness [s].
-        pub damping_time: f64 = 1e-6,
+    pub struct PinComplianceSpec in "pin_compliance" {
+        /// Stiffness of a pin against the tangential force of its planet
+        pin_stiffness: f64 = 5e8, N_PER_M | N_PER_UM, 1e3..=1e13;
+        /// Stiffness of the case against the thrust of a side gear
+        case_stiffness: f64 = 1e9, N_PER_M | N_PER_UM, 1e3..=1e13;
+        /// Ratio of damping to stiffness of pins and case
+        damping_time: f64 = 1e-6, SECOND, 0.0..=1.0;
     }
 }
 
@@ -38,24 +38,8 @@ impl Declare for PinComplianceSpec {
         why: "it follows from the forces of the meshes along the axes and across the pins",
     });
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("pin_compliance.pin_stiffness", "Stiffness of a pin against the tangential force of its planet").real(
-                (units::N_PER_M, N_PER_UM),
-                (1e3, 1e13),
-                |p| &mut p.pin_stiffness,
-            ),
-            row("pin_compliance.case_stiffness", "Stiffness of the case against the thrust of a side gear").real(
-                (units::N_PER_M, N_PER_UM),
-                (1e3, 1e13),
-                |p| &mut p.case_stiffness,
-            ),
-            row("pin_compliance.damping_time", "Ratio of damping to stiffness of pins and case").real(
-                units::SECOND,
-                (0.0, 1.0),
-                |p| &mut p.damping_time,
-            ),
-        ]
+    fn needs() -> Vec<(Need, Condition)> {
+        vec![(Need::AxialMass, on!(Self))]
     }
 }
 

@@ -11,12 +11,12 @@
 //! uniform wear, p r = constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). For the study's
 //! gears, this rule gives 8.0, 13.5 and 22.8 mm; the start values are 8, 14 and 22 mm.
 
-use crate::declaration::units::{self, CM2, MM};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need, TUNABLE, all, when};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
-    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, SlipSpec,
-    SurfaceTemperature, check_slip, pv_reading, slip_rows,
+    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, Slides,
+    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, pv_reading,
 };
 use crate::model::scene::GearContact;
 use crate::model::thermal::WASHERS;
@@ -32,34 +32,31 @@ const ROUNDING: f64 = 1e-9;
 /// Millimetres per metre.
 const PER_MM: f64 = 1e3;
 
-spec! {
+parameters! {
     /// Friction of thrust washers and pins.
-    pub struct ThrustFrictionSpec {
-        /// Coefficient of the thrust washers μ_w.
-        pub coefficient: f64 = 0.05,
-        /// Coefficient of the pins μ_p.
-        pub pin_coefficient: f64 = 0.05,
-        /// True if the radii follow from the gears; otherwise the values below apply.
-        pub radii_from_geometry: bool = false,
-        /// Radius of the pins [m], if not from the gears.
-        pub pin_radius: f64 = 8e-3,
-        /// Mean radius of the planets' washers [m], if not from the gears.
-        pub planet_washer_radius: f64 = 14e-3,
-        /// Mean radius of the side gears' washers [m], if not from the gears.
-        pub side_washer_radius: f64 = 22e-3,
-        /// Area of a planet's washer [m²].
-        pub planet_washer_area: f64 = 1e-3,
-        /// Area of a side gear's washer [m²].
-        pub side_washer_area: f64 = 2e-3,
-        /// Projected area of a planet's bore on its pin, diameter × length [m²].
-        pub pin_area: f64 = 3e-4,
-        /// Stiffness of a side gear's washer until it slips [N·m/rad]. The stiffness of the planets follows with the
-        /// square of the gear ratio.
-        pub stiffness: f64 = 1e5,
-        /// Breakaway torque of a stuck surface over its sliding torque.
-        pub static_ratio: f64 = 1.0,
-        /// Sliding of the surfaces.
-        pub sliding: SlipSpec = SlipSpec::default(),
+    pub struct ThrustFrictionSpec in "thrust_friction" {
+        /// Coefficient of friction of the thrust washers
+        coefficient: f64 = 0.05, ONE, 0.0..=1.0, TUNABLE;
+        /// Coefficient of friction of the pins
+        pin_coefficient: f64 = 0.05, ONE, 0.0..=1.0, TUNABLE;
+        /// Radii of pins and washers from the gear geometry: pins fill the bores or 0.8 of the root circle at the toe,
+        /// washers reach the root circle at the heel; false: given values
+        radii_from_geometry: bool = false;
+        /// Radius of the pins
+        pin_radius: f64 = 8e-3, METRE | MM, 0.0..=1.0, when(is!(Self.radii_from_geometry, false));
+        /// Mean radius of the planet washers
+        planet_washer_radius: f64 = 14e-3, METRE | MM, 0.0..=1.0, when(is!(Self.radii_from_geometry, false));
+        /// Mean radius of the side gear washers
+        side_washer_radius: f64 = 22e-3, METRE | MM, 0.0..=1.0, when(is!(Self.radii_from_geometry, false));
+        /// Stiffness of a sticking side gear washer; scaled by the square of the gear ratio for planets
+        stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9;
+        /// Area of a planet washer
+        planet_washer_area: f64 = 1e-3, SQUARE_METRE | CM2, 1e-8..=10.0;
+        /// Area of a side gear washer
+        side_washer_area: f64 = 2e-3, SQUARE_METRE | CM2, 1e-8..=10.0;
+        /// Projected contact area of a pin in its planet
+        pin_area: f64 = 3e-4, SQUARE_METRE | CM2, 1e-8..=10.0;
+        ..sliding: SlipSpec;
     }
 }
 
@@ -78,50 +75,14 @@ impl Declare for ThrustFrictionSpec {
         why: "it follows from the thrusts of the meshes",
     });
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        let area = |name, of, at| row(name, of).real((units::SQUARE_METRE, CM2), (1e-8, 10.0), at);
-        let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("thrust_friction.coefficient", "Coefficient of friction of the thrust washers").tunable().real(
-                units::ONE,
-                (0.0, 1.0),
-                |p| &mut p.coefficient,
-            ),
-            row("thrust_friction.pin_coefficient", "Coefficient of friction of the pins").tunable().real(
-                units::ONE,
-                (0.0, 1.0),
-                |p| &mut p.pin_coefficient,
-            ),
-            row(
-                "thrust_friction.radii_from_geometry",
-                "Radii of pins and washers from the gear geometry: pins fill the bores or 0.8 of the root circle at \
-                 the toe, washers reach the root circle at the heel; false: given values",
-            )
-            .switch(|p| &mut p.radii_from_geometry),
-            row("thrust_friction.pin_radius", "Radius of the pins")
-                .when("thrust_friction.radii_from_geometry = false")
-                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.pin_radius),
-            row("thrust_friction.planet_washer_radius", "Mean radius of the planet washers")
-                .when("thrust_friction.radii_from_geometry = false")
-                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.planet_washer_radius),
-            row("thrust_friction.side_washer_radius", "Mean radius of the side gear washers")
-                .when("thrust_friction.radii_from_geometry = false")
-                .real((units::METRE, MM), (0.0, 1.0), |p| &mut p.side_washer_radius),
-            row(
-                "thrust_friction.stiffness",
-                "Stiffness of a sticking side gear washer; scaled by the square of the gear ratio for planets",
-            )
-            .real(units::NM_PER_RAD, (1.0, 1e9), |p| &mut p.stiffness),
-            row("thrust_friction.static_ratio", "Ratio of breakaway torque to sliding torque").real(
-                units::ONE,
-                (1.0, 10.0),
-                |p| &mut p.static_ratio,
-            ),
-            area("thrust_friction.planet_washer_area", "Area of a planet washer", |p| &mut p.planet_washer_area),
-            area("thrust_friction.side_washer_area", "Area of a side gear washer", |p| &mut p.side_washer_area),
-            area("thrust_friction.pin_area", "Projected contact area of a pin in its planet", |p| &mut p.pin_area),
-        ];
-        rows.extend(slip_rows!("thrust_friction", sliding));
-        rows
+    fn needs() -> Vec<(Need, Condition)> {
+        vec![(Need::Temperature, all([on!(Self), depends_on_temperature::<Self>()]))]
+    }
+}
+
+impl Slides for ThrustFrictionSpec {
+    fn sliding(&mut self) -> &mut SlipSpec {
+        &mut self.sliding
     }
 }
 
@@ -239,7 +200,6 @@ impl Effect for ThrustFrictionSpec {
                 radius: [pin, washer[0]],
                 pressed: [on_pin, by_thrust(washer[0], self.planet_washer_area)],
             },
-            static_ratio: self.static_ratio,
             sliding: self.sliding,
             temperature: SurfaceTemperature::Node(WASHERS),
             ..FrictionSource::new(setting.heat_index)
@@ -250,6 +210,7 @@ impl Effect for ThrustFrictionSpec {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::declaration::Rows;
     use crate::model::setup::Parameters;
 
     /// The study's gears, scaled.
@@ -304,7 +265,7 @@ mod tests {
     fn radii_that_do_not_fit_are_named() {
         assert!(warned(&scaled(1.0)).is_empty());
         let [pin, planet, side] = ["pin", "planet_washer", "side_washer"].map(|part| {
-            let rows = ThrustFrictionSpec::parameters();
+            let rows = ThrustFrictionSpec::rows();
             rows.iter().map(|row| row.name).find(|name| name.contains(&format!("{part}_radius"))).unwrap()
         });
         // the same pins and washers on gears of half the size

@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use crate::contact::FlankGaps;
-use crate::contact::errors::{Chip, FaultyGear, ToothFaultSpec};
-use crate::declaration::units::{self, MM};
-use crate::declaration::{Parameter, Row, row};
+use crate::contact::errors::{Chip, ToothFaultSpec, breaks};
+use crate::declaration::units::ONE;
+use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{Declare, Effect, InputField, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
@@ -16,45 +16,11 @@ impl Declare for ToothFaultSpec {
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("tooth_fault.at_onset", 1.0), ("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];
 
-    fn start() -> Self {
-        Self { gear: FaultyGear::Planet, missing_fraction: 0.6, ..Self::default() }
-    }
-
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("tooth_fault.gear", "Kind of gear with the broken tooth").choice(|p| &mut p.gear),
-            row("tooth_fault.index", "Planet (0 = planet[1]) or side gear (0 = left, 1 = right) with the broken tooth")
-                .when("tooth_fault.gear != none")
-                .integer((0, 3), |p| &mut p.index),
-            row("tooth_fault.tooth", "Number of the broken tooth, counted from 0")
-                .when("tooth_fault.gear != none")
-                .integer((0, 199), |p| &mut p.tooth),
-            row("tooth_fault.missing_fraction", "Missing fraction of the face width, from the heel inward")
-                .when("tooth_fault.gear != none and contact.law = line|line_weber")
-                .real(units::ONE, (0.0, 1.0), |p| &mut p.missing_fraction),
-            row("tooth_fault.depth", "Depth removed along the line of action").when("tooth_fault.gear != none").real(
-                (units::METRE, MM),
-                (0.0, 1e-2),
-                |p| &mut p.depth,
-            ),
-            row("tooth_fault.at_onset", "The piece breaks off at tooth_fault.onset; false: only by fault.trigger")
-                .when("tooth_fault.gear != none")
-                .switch(|p| &mut p.at_onset),
-            row(
-                "tooth_fault.onset",
-                "Time at which the piece breaks off; a run that starts later starts with the \
-                                      broken tooth",
-            )
-            .when("tooth_fault.gear != none and tooth_fault.at_onset = true")
-            .time(|p| &mut p.onset),
-        ]
-    }
-
     fn inputs() -> Vec<Row<InputField>> {
         vec![
             row("fault.trigger", "Breaks the tooth of effects.tooth_fault when it rises above 0.5")
-                .when("tooth_fault.gear != none")
-                .command(units::ONE, 1.0, |i| &mut i.fault),
+                .when(breaks())
+                .command(ONE, 1.0, |i| &mut i.fault),
         ]
     }
 }

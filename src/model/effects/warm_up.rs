@@ -5,66 +5,73 @@
 //! effect, all nodes have the temperature `oil.temperature`.
 
 use super::limited_slip::CLUTCH_HEAT;
-use crate::declaration::units::{self, DEG_C};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need, Range, Row, TUNABLE, any, row, when};
 use crate::model::effect_kinds::{BUILT, Changes, Declare, Effect, InputField, Reading, Setting};
+use crate::model::scene::{Scene, Start};
 use crate::model::thermal::network::{Around, Conductance};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
 use crate::problem::Problem;
 
-spec! {
+parameters! {
     /// Warming up of oil, gears, clutch packs, washers and case.
-    pub struct WarmUpSpec {
-        /// Temperature around the case [K].
-        pub ambient: f64 = 293.15,
-        /// True if the oil has the given temperature `oil.temperature`, as with a cooler. The host may change it by an
-        /// input.
-        pub sump_given: bool = false,
-        /// Heat capacity of the oil [J/K].
-        pub oil_capacity: f64 = 1800.0,
-        /// Specific heat of the gears [J/(kg·K)]. Their masses follow from their solids.
-        pub gear_specific_heat: f64 = 460.0,
-        /// Heat capacity of the clutch packs [J/K].
-        pub clutch_capacity: f64 = 300.0,
-        /// Heat capacity of washers and pins [J/K].
-        pub washer_capacity: f64 = 60.0,
-        /// Heat capacity of the case [J/K].
-        pub case_capacity: f64 = 6000.0,
-        /// Conductance from the gears to the oil [W/K].
-        pub gears_to_oil: f64 = 20.0,
-        /// Growth of `gears_to_oil` per carrier speed [W·s/(K·rad)].
-        pub gears_to_oil_per_speed: f64 = 0.2,
-        /// Conductance from the clutch packs to the oil [W/K].
-        pub clutch_to_oil: f64 = 10.0,
-        /// Conductance from washers and pins to the oil [W/K].
-        pub washers_to_oil: f64 = 5.0,
-        /// Conductance from the oil to the case [W/K].
-        pub oil_to_case: f64 = 30.0,
-        /// Conductance from the case to ambient [W/K].
-        pub case_to_ambient: f64 = 10.0,
-        /// Growth of `case_to_ambient` per carrier speed [W·s/(K·rad)].
-        pub case_to_ambient_per_speed: f64 = 0.1,
-        /// Share of the heat of teeth, washers and clutches that enters the oil directly.
-        pub oil_share: f64 = 0.0,
-        /// Temperature of the gears minus oil temperature, at the start [K].
-        pub gears_above_oil: f64 = 0.0,
-        /// Temperature of the clutch packs minus oil temperature, at the start [K].
-        pub clutch_above_oil: f64 = 0.0,
-        /// Temperature of washers and pins minus oil temperature, at the start [K].
-        pub washers_above_oil: f64 = 0.0,
-        /// Temperature of the case minus oil temperature, at the start [K].
-        pub case_above_oil: f64 = 0.0,
-        /// Length of the cycle whose mean heats balance at a start with steady heat [s].
-        pub cycle: f64 = 1.0,
+    pub struct WarmUpSpec in "warm_up" {
+        /// Ambient temperature around the case
+        ambient_temperature: f64 = 293.15, KELVIN | DEG_C, TEMPERATURES, TUNABLE;
+        /// The oil stays at oil.temperature, as with a cooler; false: it warms up
+        sump_given: bool = false;
+        /// Heat capacity of the oil
+        oil_capacity: f64 = 1800.0, JOULE_PER_K, CAPACITIES;
+        /// Specific heat of the gears, whose masses follow from their geometry
+        gear_specific_heat: f64 = 460.0, JOULE_PER_KG_K, 1.0..=1e5;
+        /// Heat capacity of the clutch packs
+        clutch_capacity: f64 = 300.0, JOULE_PER_K, CAPACITIES;
+        /// Heat capacity of the washers and pins
+        washer_capacity: f64 = 60.0, JOULE_PER_K, CAPACITIES;
+        /// Heat capacity of the case and housing
+        case_capacity: f64 = 6000.0, JOULE_PER_K, CAPACITIES;
+        /// Conductance from the gears to the oil
+        gears_to_oil: f64 = 20.0, WATT_PER_K, CONDUCTANCES, TUNABLE;
+        /// Increase of warm_up.gears_to_oil per carrier speed
+        gears_to_oil_per_speed: f64 = 0.2, WATT_S_PER_K_RAD, 0.0..=1e4, TUNABLE;
+        /// Conductance from the clutch packs to the oil
+        clutch_to_oil: f64 = 10.0, WATT_PER_K, CONDUCTANCES, TUNABLE;
+        /// Conductance from the washers and pins to the oil
+        washers_to_oil: f64 = 5.0, WATT_PER_K, CONDUCTANCES, TUNABLE;
+        /// Conductance from the oil to the case
+        oil_to_case: f64 = 30.0, WATT_PER_K, CONDUCTANCES, TUNABLE;
+        /// Conductance from the case to the surroundings
+        case_to_ambient: f64 = 10.0, WATT_PER_K, CONDUCTANCES, TUNABLE;
+        /// Increase of warm_up.case_to_ambient per carrier speed
+        case_to_ambient_per_speed: f64 = 0.1, WATT_S_PER_K_RAD, 0.0..=1e4, TUNABLE;
+        /// Fraction of the friction heat of teeth, washers and clutches that heats the oil directly
+        oil_share: f64 = 0.0, ONE, 0.0..=1.0;
+        /// Temperature of the gears above the oil at the start
+        gears_above_oil: f64 = 0.0, KELVIN_DIFFERENCE, DIFFERENCES, when(differs!(Scene.start, Start::SteadyHeat));
+        /// Temperature of the clutch packs above the oil at the start
+        clutch_above_oil: f64 = 0.0, KELVIN_DIFFERENCE, DIFFERENCES, when(differs!(Scene.start, Start::SteadyHeat));
+        /// Temperature of the washers and pins above the oil at the start
+        washers_above_oil: f64 = 0.0, KELVIN_DIFFERENCE, DIFFERENCES, when(differs!(Scene.start, Start::SteadyHeat));
+        /// Temperature of the case above the oil at the start
+        case_above_oil: f64 = 0.0, KELVIN_DIFFERENCE, DIFFERENCES, when(differs!(Scene.start, Start::SteadyHeat));
+        /// Length of the cycle over which scene.start = steady_heat balances the mean heat flows
+        cycle: f64 = 1.0, SECOND, 1e-3..=10.0, when(is!(Scene.start, Start::SteadyHeat));
     }
 }
+
+/// Heat capacities [J/K].
+const CAPACITIES: Range = Range { min: 1.0, max: 1e9 };
+/// Conductances [W/K].
+const CONDUCTANCES: Range = Range { min: 0.0, max: 1e6 };
+/// Differences of temperatures at the start [K].
+const DIFFERENCES: Range = Range { min: -400.0, max: 400.0 };
 
 /// Reading of a temperature.
 macro_rules! temperature {
     ($name:literal, $of:literal) => {
         Reading {
             name: concat!("temperature.", $name),
-            unit: units::KELVIN,
+            unit: KELVIN,
             display: Some(DEG_C),
             changes: Changes::ByStep,
             description: concat!("Temperature of ", $of, "; oil.temperature without effects.warm_up"),
@@ -77,7 +84,7 @@ macro_rules! heat {
     ($name:literal, $of:literal) => {
         Reading {
             name: concat!("warm_up.", $name),
-            unit: units::JOULE,
+            unit: JOULE,
             display: None,
             changes: Changes::ByStep,
             description: $of,
@@ -98,71 +105,10 @@ impl Declare for WarmUpSpec {
         heat!("given_off", "Heat given off to the surroundings and to a given sump since the start"),
     ];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        let capacity = |name, of, at| row(name, of).real(units::JOULE_PER_K, (1.0, 1e9), at);
-        let conductance = |name, of, at| row(name, of).tunable().real(units::WATT_PER_K, (0.0, 1e6), at);
-        let above = |name, of, at| {
-            row(name, of).when("scene.start != steady_heat").real(units::KELVIN_DIFFERENCE, (-400.0, 400.0), at)
-        };
-        let per_speed = |name, of, at| row(name, of).tunable().real(units::WATT_S_PER_K_RAD, (0.0, 1e4), at);
+    fn needs() -> Vec<(Need, Condition)> {
         vec![
-            row("warm_up.ambient_temperature", "Ambient temperature around the case").tunable().real(
-                (units::KELVIN, DEG_C),
-                units::TEMPERATURES,
-                |p| &mut p.ambient,
-            ),
-            row("warm_up.sump_given", "The oil stays at oil.temperature, as with a cooler; false: it warms up")
-                .switch(|p| &mut p.sump_given),
-            capacity("warm_up.oil_capacity", "Heat capacity of the oil", |p| &mut p.oil_capacity),
-            row("warm_up.gear_specific_heat", "Specific heat of the gears, whose masses follow from their geometry")
-                .real(units::JOULE_PER_KG_K, (1.0, 1e5), |p| &mut p.gear_specific_heat),
-            capacity("warm_up.clutch_capacity", "Heat capacity of the clutch packs", |p| &mut p.clutch_capacity),
-            capacity("warm_up.washer_capacity", "Heat capacity of the washers and pins", |p| &mut p.washer_capacity),
-            capacity("warm_up.case_capacity", "Heat capacity of the case and housing", |p| &mut p.case_capacity),
-            conductance("warm_up.gears_to_oil", "Conductance from the gears to the oil", |p| &mut p.gears_to_oil),
-            per_speed("warm_up.gears_to_oil_per_speed", "Increase of warm_up.gears_to_oil per carrier speed", |p| {
-                &mut p.gears_to_oil_per_speed
-            }),
-            conductance("warm_up.clutch_to_oil", "Conductance from the clutch packs to the oil", |p| {
-                &mut p.clutch_to_oil
-            }),
-            conductance("warm_up.washers_to_oil", "Conductance from the washers and pins to the oil", |p| {
-                &mut p.washers_to_oil
-            }),
-            conductance("warm_up.oil_to_case", "Conductance from the oil to the case", |p| &mut p.oil_to_case),
-            conductance("warm_up.case_to_ambient", "Conductance from the case to the surroundings", |p| {
-                &mut p.case_to_ambient
-            }),
-            per_speed(
-                "warm_up.case_to_ambient_per_speed",
-                "Increase of warm_up.case_to_ambient per carrier speed",
-                |p| &mut p.case_to_ambient_per_speed,
-            ),
-            row(
-                "warm_up.oil_share",
-                "Fraction of the friction heat of teeth, washers and clutches that heats the \
-                                      oil directly",
-            )
-            .real(units::ONE, (0.0, 1.0), |p| &mut p.oil_share),
-            above("warm_up.gears_above_oil", "Temperature of the gears above the oil at the start", |p| {
-                &mut p.gears_above_oil
-            }),
-            above("warm_up.clutch_above_oil", "Temperature of the clutch packs above the oil at the start", |p| {
-                &mut p.clutch_above_oil
-            }),
-            above("warm_up.washers_above_oil", "Temperature of the washers and pins above the oil at the start", |p| {
-                &mut p.washers_above_oil
-            }),
-            above("warm_up.case_above_oil", "Temperature of the case above the oil at the start", |p| {
-                &mut p.case_above_oil
-            }),
-            row(
-                "warm_up.cycle",
-                "Length of the cycle over which scene.start = steady_heat balances the mean heat \
-                                  flows",
-            )
-            .when("scene.start = steady_heat")
-            .real(units::SECOND, (1e-3, 10.0), |p| &mut p.cycle),
+            (Need::GivenTemperature, any([off!(Self), is!(Self.sump_given, true)])),
+            (Need::TemperatureAtStart, on!(Self)),
         ]
     }
 
@@ -171,13 +117,13 @@ impl Declare for WarmUpSpec {
         let most = if BUILT { MOST_CHANGE } else { 0.0 };
         vec![
             row(AMBIENT_CHANGE, "Deviation of the ambient temperature from warm_up.ambient_temperature").input(
-                units::KELVIN_DIFFERENCE,
+                KELVIN_DIFFERENCE,
                 most,
                 |i| &mut i.ambient_change,
             ),
             row(SUMP_CHANGE, "Deviation of a given sump temperature from oil.temperature, for example by a cooler")
-                .when("warm_up.sump_given = true")
-                .input(units::KELVIN_DIFFERENCE, most, |i| &mut i.sump_change),
+                .when(is!(Self.sump_given, true))
+                .input(KELVIN_DIFFERENCE, most, |i| &mut i.sump_change),
         ]
     }
 }
@@ -191,7 +137,7 @@ const MOST_CHANGE: f64 = 500.0;
 
 impl Effect for WarmUpSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
-        let (coldest, hottest) = units::TEMPERATURES;
+        let Range { min: coldest, max: hottest } = TEMPERATURES;
         for (name, above) in self.above_oil() {
             let temperature = setting.oil.temperature + above;
             if !(coldest..=hottest).contains(&temperature) {
@@ -259,7 +205,7 @@ impl WarmUpSpec {
             ],
             to_oil: [Conductance::default(), gears, constant(clutch), constant(washers), constant(case)],
             to_ambient: Conductance { at_rest: self.case_to_ambient, per_speed: self.case_to_ambient_per_speed },
-            around: Around { ambient: self.ambient, sump: self.sump_given.then_some(oil) },
+            around: Around { ambient: self.ambient_temperature, sump: self.sump_given.then_some(oil) },
             shares: outputs.map(|output| self.shares(output)),
         }
     }

@@ -9,33 +9,38 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl
 //! instead of a locked mode. Both wheels may therefore be braked while speeds are imposed.
 
-use crate::declaration::units::{self, CM2, DEG_C, MM};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Row, TUNABLE, any, row, when};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, SlipSpec, SurfaceTemperature,
-    WheelFriction, check_slip, pv_reading, slip_rows,
+    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, Slides, SlipSpec,
+    SurfaceTemperature, WheelFriction, check_slip, depends_on_temperature, pv_reading,
 };
 use crate::numeric::sqrt;
 use crate::problem::Problem;
 
-spec! {
+parameters! {
     /// Brakes at the wheels.
-    pub struct WheelBrakeSpec {
-        /// Stiffness of a brake at standstill [N·m/rad].
-        pub stiffness: f64 = 1e5,
-        /// Breakaway torque at standstill over the commanded torque.
-        pub static_ratio: f64 = 1.0,
-        /// Mean radius of the linings [m].
-        pub mean_radius: f64 = 0.12,
-        /// Area of the linings of a wheel [m²].
-        pub friction_area: f64 = 0.01,
-        /// Coefficient of friction of the linings.
-        pub lining_coefficient: f64 = 0.4,
-        /// Temperature of the linings [K].
-        pub temperature: f64 = 353.15,
-        /// Sliding of the linings.
-        pub sliding: SlipSpec = SlipSpec::default(),
+    pub struct WheelBrakeSpec in "wheel_brake" {
+        /// Stiffness of a brake at standstill
+        stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9;
+        /// Mean radius of the linings, for sliding speed
+        mean_radius: f64 = 0.12, METRE | MM, 1e-3..=1.0,
+            when(any([above!(Self.sliding.stribeck_speed, 0.0), differs!(Self.sliding.slip_slope, 0.0)]));
+        /// Lining area of a wheel brake
+        friction_area: f64 = 0.01, SQUARE_METRE | CM2, 1e-8..=10.0;
+        /// Coefficient of friction of the linings
+        lining_coefficient: f64 = 0.4, ONE, 0.01..=1.0;
+        /// Temperature of the linings
+        temperature: f64 = 353.15, KELVIN | DEG_C, 213.15..=1273.15, TUNABLE,
+            when(depends_on_temperature::<Self>());
+        ..sliding: SlipSpec;
+    }
+}
+
+impl Slides for WheelBrakeSpec {
+    fn sliding(&mut self) -> &mut SlipSpec {
+        &mut self.sliding
     }
 }
 
@@ -50,45 +55,11 @@ impl Declare for WheelBrakeSpec {
         &[pv_reading("pv.brake", "Pressure times sliding speed of the linings; larger of both")];
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("wheel_brake.stiffness", "Stiffness of a brake at standstill").real(
-                units::NM_PER_RAD,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-            ),
-            row("wheel_brake.static_ratio", "Ratio of breakaway torque to sliding torque").real(
-                units::ONE,
-                (1.0, 10.0),
-                |p| &mut p.static_ratio,
-            ),
-            row("wheel_brake.mean_radius", "Mean radius of the linings, for sliding speed")
-                .when("wheel_brake.stribeck_speed > 0 or wheel_brake.slip_slope != 0")
-                .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("wheel_brake.friction_area", "Lining area of a wheel brake").real(
-                (units::SQUARE_METRE, CM2),
-                (1e-8, 10.0),
-                |p| &mut p.friction_area,
-            ),
-            row("wheel_brake.lining_coefficient", "Coefficient of friction of the linings").real(
-                units::ONE,
-                (0.01, 1.0),
-                |p| &mut p.lining_coefficient,
-            ),
-            row("wheel_brake.temperature", "Temperature of the linings")
-                .when("wheel_brake.cold_factor != 1 or wheel_brake.hot_factor != 1")
-                .tunable()
-                .real((units::KELVIN, DEG_C), (213.15, 1273.15), |p| &mut p.temperature),
-        ];
-        rows.extend(slip_rows!("wheel_brake", sliding));
-        rows
-    }
-
     fn inputs() -> Vec<Row<InputField>> {
         let torque = |name, at: InputField, description| {
             // a build without effects accepts no brake torque
             let max = if BUILT { MAX_TORQUE } else { 0.0 };
-            row(name, description).command(units::NEWTON_METRE, max, at)
+            row(name, description).command(NEWTON_METRE, max, at)
         };
         vec![
             torque(
@@ -122,9 +93,9 @@ impl Effect for WheelBrakeSpec {
             // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
             pressed: Pressed { per_load: 1.0 / (self.lining_coefficient * self.friction_area), ..Pressed::NONE },
         };
-        let Self { static_ratio, sliding, .. } = *self;
+        let Self { sliding, .. } = *self;
         let temperature = SurfaceTemperature::Given(self.temperature);
         let none = FrictionSource::new(setting.heat_index);
-        Some(FrictionSource { wheel: Some(wheel), static_ratio, sliding, temperature, ..none })
+        Some(FrictionSource { wheel: Some(wheel), sliding, temperature, ..none })
     }
 }

@@ -29,7 +29,7 @@ pub fn more_damping(p: &Parameters) -> &'static str {
 
 /// Remedy for too many attempted steps.
 pub fn fewer_steps(p: &Parameters) -> &'static str {
-    if p.scene.gear_contact == GearContact::Tooth && !p.effects.corner_contact {
+    if p.scene.gear_contact == GearContact::Tooth && !p.effects.teeth.corner_contact {
         return "set effects.corner_contact = true: without it, the force jumps when a loaded tooth enters contact, \
                 and slow gears stall at this jump";
     }
@@ -47,7 +47,7 @@ mod tests {
         p.contact.damping_model = DampingModel::Restitution;
         assert!(more_damping(&p).contains("contact.restitution"));
         assert_eq!(fewer_steps(&p), more_damping(&p));
-        p.effects.corner_contact = false;
+        p.effects.teeth.corner_contact = false;
         assert!(fewer_steps(&p).contains("effects.corner_contact = true"));
     }
 }

@@ -1,6 +1,5 @@
 //! Scene without effects: drives, inputs, material, integration, and the plan of its bodies.
 
-mod drives;
 mod input_derivatives;
 mod inputs;
 pub mod layout;
@@ -9,7 +8,7 @@ mod oil;
 mod plan;
 mod solver;
 
-pub use drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
+pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
 pub use layout::{

@@ -9,6 +9,8 @@
 //!
 //! Source: C. Walther; ASTM D341, without its corrections below 2 mm²/s.
 
+use crate::declaration::units::{DEG_C, KELVIN, KG_PER_M3, KG_PER_M3_K, M2_PER_S, MM2_PER_S, TEMPERATURES};
+use crate::declaration::{Condition, Need, TUNABLE, acts_when, any, when};
 use crate::problem::Problem;
 
 /// Temperatures at which the viscosity is given, 40 and 100 °C [K].
@@ -22,23 +24,29 @@ const MM2: f64 = 1e-6;
 /// Lower limit of the density, as a fraction of the given density. No oil is so light.
 const LEAST_DENSITY: f64 = 0.1;
 
-spec! {
+parameters! {
     /// The oil in the sump. The start values are those of an axle oil 75W-90.
-    pub struct OilSpec {
-        /// Temperature of the oil and of all rubbing surfaces [K]. With the effect `warm_up`, it is the oil's
-        /// temperature at the start, unless the scene starts with `steady_heat`. With `warm_up.sump_given`, the oil
-        /// keeps it, apart from the input `warm_up.sump_change`.
-        pub temperature: f64 = 353.15,
-        /// Kinematic viscosity at 40 °C [m²/s].
-        pub viscosity_40: f64 = 100e-6,
-        /// Kinematic viscosity at 100 °C [m²/s].
-        pub viscosity_100: f64 = 15e-6,
-        /// Density at 15 °C [kg/m³].
-        pub density: f64 = 870.0,
-        /// Decrease of the density per temperature [kg/(m³·K)].
-        pub density_fall: f64 = 0.65,
+    pub struct OilSpec in "oil" {
+        /// Temperature of the oil and of all friction surfaces in it; with effects.warm_up, the temperature at the start
+        /// or of a given sump
+        temperature: f64 = 353.15, KELVIN | DEG_C, TEMPERATURES, TUNABLE,
+            when(any([Condition::Need(Need::GivenTemperature), Condition::FromStart])),
+            acts_when(any([Condition::Need(Need::TemperatureAtStart), Condition::Need(Need::Temperature), VISCOUS]));
+        /// Kinematic viscosity of the oil at 40 degC
+        viscosity_40: f64 = 100e-6, M2_PER_S | MM2_PER_S, 1e-6..=0.1, when(VISCOUS);
+        /// Kinematic viscosity of the oil at 100 degC
+        viscosity_100: f64 = 15e-6, M2_PER_S | MM2_PER_S, 1e-6..=0.1, when(VISCOUS);
+        /// Density of the oil at 15 degC
+        density: f64 = 870.0, KG_PER_M3, 1.0..=1e5, when(DENSE);
+        /// Decrease of the oil density per temperature
+        density_fall: f64 = 0.65, KG_PER_M3_K, 0.0..=1e3, when(DENSE);
     }
 }
+
+/// Condition that the dynamic viscosity, and therefore the density, has an effect.
+const DENSE: Condition = Condition::Need(Need::DynamicViscosity);
+/// Condition that the viscosity has an effect.
+const VISCOUS: Condition = Condition::Any(&[DENSE, Condition::Need(Need::Viscosity)]);
 
 /// Viscosity of an oil at one temperature.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,9 @@
 //! Integration of a scene, and facets of solid teeth.
 
+use crate::declaration::units::{ONE, SECOND};
+use crate::declaration::{Condition, all, when};
+use crate::drives::{GearContact, Scene};
+
 choices! {
     /// Integration method.
     pub enum Method: "SolverMethod" {
@@ -20,29 +24,32 @@ pub fn removed_method<'a>(given: &str, mut names: impl Iterator<Item = &'a str>)
     }
 }
 
-spec! {
+parameters! {
     /// Accuracy and method of integration.
-    pub struct SolverSpec {
-        /// Integration method.
-        pub method: Method = Method::Adaptive,
-        /// Relative tolerance of the local error per step.
-        pub relative_tolerance: f64 = 1e-6,
-        /// Longest step of the method with fixed steps [s].
-        pub fixed_step: f64 = 1e-4,
-        /// True if identical planets in phase are simulated once and counted; otherwise each planet is simulated.
-        pub merge_planets: bool = true,
-        /// True if a jump of a torque or an imposed speed is spread linearly over the next communication step.
-        pub input_ramp: bool = false,
+    pub struct SolverSpec in "solver" {
+        /// Integration method
+        method: Method = Method::Adaptive, when(Condition::OwnSteps);
+        /// Relative tolerance of the local error per step
+        relative_tolerance: f64 = 1e-6, ONE, 1e-11..=1e-1,
+            when(all([Condition::OwnSteps, differs!(Self.method, Method::FixedStep)]));
+        /// Maximum step of the fixed-step method; a communication step is divided into equal steps
+        fixed_step: f64 = 1e-4, SECOND, 1e-7..=1e-2,
+            when(all([Condition::OwnSteps, is!(Self.method, Method::FixedStep)]));
+        /// Identical planets in phase are simulated as one; false: each planet is simulated
+        merge_planets: bool = true, when(all([Condition::OwnSteps, differs!(Scene.gear_contact, GearContact::Ideal)]));
+        /// Spreads jumps of torques and imposed speeds linearly over the next communication step; they then act half a
+        /// step late; lock, fault trigger and temperatures still jump
+        input_ramp: bool = false, when(Condition::OwnSteps);
     }
 }
 
-spec! {
+parameters! {
     /// Facets of solid teeth.
-    pub struct SolidTeeth {
-        /// Facets on the involute of each flank.
-        pub facets: i32 = 32,
-        /// Width of the patch over which the maximum overlap is evaluated, relative to the width that follows from the
-        /// facets.
-        pub smoothing: f64 = 1.0,
+    pub struct SolidTeeth in "solid" {
+        /// Number of facets on the involute of each flank of solid teeth
+        facets: i32 = 32, 4..=1024, when(is!(Scene.gear_contact, GearContact::Solid));
+        /// Relative width of the patch for the smooth maximum overlap of solid teeth: 1 is the width of a facet, and
+        /// small values approach contact at the deepest point only
+        smoothing: f64 = 1.0, ONE, 0.02..=10.0, when(is!(Scene.gear_contact, GearContact::Solid));
     }
 }

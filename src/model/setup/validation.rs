@@ -74,7 +74,7 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
                  choose impact",
             ));
         }
-        if !p.effects.corner_contact {
+        if !p.effects.teeth.corner_contact {
             found.push(Problem::new(
                 "effects.corner_contact",
                 "solid teeth have corners: with scene.gear_contact = solid corner contact cannot be switched off",

@@ -61,7 +61,7 @@ impl Simulation {
             ));
         }
         if !influential.is_empty() {
-            let from_hot = network.steady(TEMPERATURES.1, &influential, heats)?;
+            let from_hot = network.steady(TEMPERATURES.max, &influential, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
         }
         self.state.thermal = Thermal::at(temperatures);
@@ -120,8 +120,8 @@ fn no_steady_heat(end: Steady) -> String {
     format!(
         "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, by \
          which their heat leaves, or lower the friction",
-        TEMPERATURES.0 - ZERO,
-        TEMPERATURES.1 - ZERO,
+        TEMPERATURES.min - ZERO,
+        TEMPERATURES.max - ZERO,
         temperature - ZERO
     )
 }
@@ -138,14 +138,14 @@ fn several(cold: &[f64; NODES], hot: Steady) -> Option<Problem> {
                     "there are several steady states: the oil warms up to {oil:.1} degC from cold, where this run begins, and \
                      cools down to {:.1} degC from {:.0} degC",
                     hot[OIL] - ZERO,
-                    TEMPERATURES.1 - ZERO
+                    TEMPERATURES.max - ZERO
                 )
             })
         }
         _ => Some(problem!(
             START,
             "the oil warms up to {oil:.1} degC, where this run begins; from {:.0} degC it would not cool down to this",
-            TEMPERATURES.1 - ZERO
+            TEMPERATURES.max - ZERO
         )),
     }
 }

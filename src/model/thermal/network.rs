@@ -14,6 +14,7 @@
 //! Oviedo-Marlot, P. Velex, J. Mechanical Design 128 (2006), p. 1128).
 
 use super::{CASE, NODES, OIL, Thermal};
+use crate::declaration::Range;
 use crate::declaration::units::TEMPERATURES;
 
 /// Maximum substep of the midpoint rule, as a fraction of the time constant of the fastest node.
@@ -71,7 +72,7 @@ impl Around {
 
     /// Returns the temperatures changed by `changes` [K], limited to the range of the friction laws.
     pub fn changed(self, changes: [f64; 2]) -> Self {
-        let (coldest, hottest) = TEMPERATURES;
+        let Range { min: coldest, max: hottest } = TEMPERATURES;
         let within = |temperature: f64| temperature.clamp(coldest, hottest);
         let Self { ambient, sump } = self.commanded(changes);
         Self { ambient: within(ambient), sump: sump.map(within) }

@@ -22,6 +22,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::network::GEARS_TO_CASE;
 use super::{CASE, NODES, Network, OIL};
+use crate::declaration::Range;
 use crate::declaration::units::TEMPERATURES;
 
 /// First and longest steps [s].
@@ -70,7 +71,7 @@ impl<const H: usize> Network<H> {
         at[OIL] = self.around.sump.unwrap_or(begin);
         let [first, longest] = STEPS;
         let mut h = if influential.is_empty() { longest } else { first };
-        let (coldest, hottest) = TEMPERATURES;
+        let Range { min: coldest, max: hottest } = TEMPERATURES;
         // oil laws are not valid far outside this range; iterations may leave the range, but the result must not
         let within = |at: &SVector<f64, NODES>| at.map(|x| x.clamp(coldest, hottest)).into();
         // heats that do not depend on temperature are computed once

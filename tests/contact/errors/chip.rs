@@ -22,7 +22,7 @@ fn only_the_broken_tooth_misses_material_and_only_from_the_heel() {
     assert_eq!(chip.edge(right, id(5)), Some((edge, 2e-3)));
     assert_eq!(chip.edge(right, id(4)), None);
     assert_eq!(chip.edge(left, id(5)), None);
-    assert_eq!(Chip::new(&ToothFaultSpec::default(), &pair, 2), Ok(None));
+    assert_eq!(Chip::new(&ToothFaultSpec { gear: FaultyGear::None, ..spec }, &pair, 2), Ok(None));
     assert!(Chip::new(&ToothFaultSpec { index: 2, ..spec }, &pair, 2).is_err());
 }
 

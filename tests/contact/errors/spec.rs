@@ -3,7 +3,7 @@
 use bevel_differential::contact::errors::*;
 
 #[test]
-fn defaults_are_error_free_teeth_and_pass() {
+fn defaults_pass() {
     assert_eq!(ToothErrorSpec::default().check(), Ok(()));
     assert_eq!(ToothFaultSpec::default().check([10, 16], 2), Ok(()));
 }

@@ -11,6 +11,7 @@ use crate::mirror::random;
 use crate::mirror::scene::{Scene, Step};
 use alternatives::{Requirement, alternatives};
 use bevel_differential::contact::ContactLaw;
+use bevel_differential::declaration::Condition;
 use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::effective::{Situation, has_effect};
@@ -27,6 +28,11 @@ struct Run {
     parameters: Parameters,
     inputs: Inputs,
     steps: Vec<Step>,
+}
+
+/// True if `row` has no effect without `effects.tooth_fault`.
+fn is_of_fault(row: &Variable) -> bool {
+    matches!(row.switch, Some(Condition::Test(test)) if test.name() == "effects.tooth_fault")
 }
 
 impl Run {
@@ -121,7 +127,7 @@ impl Run {
     }
 
     fn has_effect(&self, index: usize, situation: Situation) -> bool {
-        has_effect(index, &mut self.parameters.clone(), situation)
+        has_effect(index, &self.parameters, situation)
     }
 }
 
@@ -280,7 +286,7 @@ const ROLLING: u64 = 3;
 fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     let p = &mut run.parameters;
     (p.scene.gear_contact, p.contact.law) = (contact, law);
-    p.effects.corner_contact |= contact == GearContact::Solid;
+    p.effects.teeth.corner_contact |= contact == GearContact::Solid;
     for _ in 0..8 {
         let Err(problems) = run.started() else { return };
         for problem in problems {
@@ -380,7 +386,7 @@ impl Cases {
         if requirements.iter().any(contradicts) {
             return None;
         }
-        let fault = (row.switch == Some("effects.tooth_fault")).then_some(!matches!(row.access, Access::Input(_)));
+        let fault = is_of_fault(row).then_some(!matches!(row.access, Access::Input(_)));
         let mut exists = false;
         for attempt in 0..TRIES {
             if attempt == TRIES / 2 && !exists {

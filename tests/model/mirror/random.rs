@@ -62,8 +62,8 @@ fn gears(d: &mut Rng, p: &mut Parameters) {
         AddendumSystem::Explicit,
     ]);
     g.root_fillet = d.between(0.1, 0.4);
-    p.effects.backlash = d.share(0.9);
-    p.effects.corner_contact = d.share(0.9);
+    p.effects.teeth.backlash = d.share(0.9);
+    p.effects.teeth.corner_contact = d.share(0.9);
     let growth = (g.module / MODULE).powi(5);
     p.inertia.carrier = growth * d.about(0.02, 3.0);
     p.inertia.left_end = if d.share(0.2) { 0.0 } else { growth * d.about(0.1, 5.0) };
@@ -150,7 +150,7 @@ fn effects(d: &mut Rng, p: &mut Parameters) {
     e.limited_slip = d.share(0.25);
     s.limited_slip.preload = d.between(0.0, 100.0);
     s.limited_slip.torque_coefficient = if contact == GearContact::Ideal { 0.0 } else { d.between(0.0, 0.3) };
-    s.limited_slip.static_ratio = d.between(1.0, 1.5);
+    s.limited_slip.sliding.static_ratio = d.between(1.0, 1.5);
     e.half_shaft = d.share(0.4);
     s.half_shaft.stiffness = [d.about(1e4, 4.0), d.about(1e4, 4.0)];
     s.half_shaft.damping = [d.between(0.0, 10.0), d.between(0.0, 10.0)];
@@ -212,7 +212,8 @@ pub fn warm(d: &mut Rng, p: &mut Parameters) {
         (sliding.stribeck_speed, sliding.slip_slope) = (d.between(0.0, 0.2), d.between(-0.02, 0.02));
         (sliding.cold_factor, sliding.hot_factor) = (d.between(0.8, 1.3), d.between(0.5, 1.1));
     }
-    (s.thrust_friction.static_ratio, s.wheel_brake.static_ratio) = (d.between(1.0, 1.5), d.between(1.0, 1.5));
+    (s.thrust_friction.sliding.static_ratio, s.wheel_brake.sliding.static_ratio) =
+        (d.between(1.0, 1.5), d.between(1.0, 1.5));
     s.bearing_drag.viscosity_from_oil = d.share(0.5);
     s.tooth_friction.viscosity_from_oil = d.share(0.5);
     (p.oil.temperature, s.wheel_brake.temperature) = (d.between(250.0, 400.0), d.between(250.0, 600.0));

@@ -102,7 +102,7 @@ mod tests {
         let p = Parameters::default();
         let mut changed = p;
         changed.scene.gear_contact = GearContact::Lumped;
-        changed.effects.backlash = false;
+        changed.effects.teeth.backlash = false;
         changed.effects.half_shaft = true;
         changed.solver.relative_tolerance = 1e-3;
         assert_eq!(difference(&p, &changed), "lumped, without backlash, with half_shaft, tolerance 1e-3");

@@ -27,8 +27,8 @@ pub fn acting(scene: &Scene) -> Scene {
 
 /// Names of the variables whose values take effect in `scene`, and of outputs other than those of inactive effects.
 pub fn names(scene: &Scene) -> Vec<&'static str> {
-    let mut parameters = scene.parameters;
-    let mut acts = |index: usize| effective::acts(index, &mut parameters, Situation::START);
+    let parameters = scene.parameters;
+    let acts = |index: usize| effective::acts(index, &parameters, Situation::START);
     let rows =
         table().rows.iter().enumerate().filter(|(index, row)| acts(*index) && !off::is_switched_off(row.name, scene));
     rows.map(|(_, row)| row.name).collect()
@@ -38,9 +38,9 @@ pub fn names(scene: &Scene) -> Vec<&'static str> {
 /// scene has an output of the same unit.
 pub fn acts(row: &Variable, scene: &Scene, situation: Situation) -> bool {
     let Some(index) = index_of(row.name) else { return true };
-    let mut parameters = scene.parameters;
+    let parameters = scene.parameters;
     let unit = |row: &Variable| row.unit.map(|unit| unit.name);
     let is_repeated = || scene.outputs.iter().any(|output| unit(output) == unit(row));
-    effective::acts(index, &mut parameters, situation)
-        || effective::has_effect(index, &mut parameters, situation) && is_repeated()
+    effective::acts(index, &parameters, situation)
+        || effective::has_effect(index, &parameters, situation) && is_repeated()
 }

@@ -52,10 +52,10 @@ fn owners(output: &str) -> Vec<&'static EffectEntry> {
 /// influence although its switch is off.
 fn is_active(effect: &EffectEntry, scene: &Scene) -> bool {
     let Some(switch) = effect.switch else { return commands(effect).any(|row| is_commanded(row, scene)) };
-    let mut parameters = scene.parameters;
+    let parameters = scene.parameters;
     scene.parameters.effects.active().any(|on| on == switch)
         || effect.may_act_unswitched
-            && rows(effect, Causality::Parameter).any(|(index, _)| acts(index, &mut parameters, Situation::START))
+            && rows(effect, Causality::Parameter).any(|(index, _)| acts(index, &parameters, Situation::START))
 }
 
 /// True if `input` has a value other than zero at any time.

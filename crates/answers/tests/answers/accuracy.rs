@@ -197,7 +197,7 @@ thrust_friction.coefficient = 0.05
     let scene = parsed(&text);
     for setting in &scene.settings {
         let index = index_of(setting.row.name).expect("a variable");
-        assert!(effective::acts(index, &mut scene.parameters.clone(), Situation::START), "{}", setting.row.name);
+        assert!(effective::acts(index, &scene.parameters, Situation::START), "{}", setting.row.name);
     }
     assert_eq!(scene.events.iter().map(|event| event.settings.len()).collect::<Vec<_>>(), [1], "{text}");
     let started = SceneRun::start(&scene, scene.step).expect("a start");
@@ -337,10 +337,10 @@ fn an_effect_that_saves_time_stays_on_if_the_scene_has_it() {
     let found = asked(BIAS, &["torque_bias_ratio:mean"], 0.02);
     let chosen = &found.trials[found.chosen.expect("a setting")];
     let parameters = &chosen.scene.parameters;
-    assert!(parameters.scene.gear_contact == GearContact::Tooth && parameters.effects.corner_contact);
+    assert!(parameters.scene.gear_contact == GearContact::Tooth && parameters.effects.teeth.corner_contact);
     // forces jump without corner contact, so the run takes more evaluations
     let mut without = chosen.scene.clone();
-    without.parameters.effects.corner_contact = false;
+    without.parameters.effects.teeth.corner_contact = false;
     let evaluations = |scene: &Scene| {
         let mut run = SceneRun::start(scene, scene.step).expect("a run");
         while !run.is_over() {

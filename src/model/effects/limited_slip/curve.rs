@@ -1,58 +1,71 @@
 //! Points of a measured clutch torque over slip. They become a curve (`effect_kinds::torque_curve`).
 
-use crate::declaration::units::{self, RPM};
-use crate::declaration::{Parameter, Row, row};
+use serde::{Deserialize, Serialize};
+
+use crate::declaration::units::{NEWTON_METRE, RAD_PER_S, RPM};
+use crate::declaration::{Condition, Declared, Field, Parameter, Row, add, all, any, when};
 use crate::model::effect_kinds::TorqueCurve;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::problem::Problem;
+use crate::static_memory::store;
 
 use super::LimitedSlipSpec;
 
-spec! {
-    /// Point of the curve. A point with slip 0 and torque 0 is unset.
-    pub struct CurvePoint {
-        /// Slip speed [rad/s].
-        pub slip: f64 = 0.0,
-        /// Torque [N·m].
-        pub torque: f64 = 0.0,
-    }
+/// Point of the curve. A point with slip 0 and torque 0 is unset.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CurvePoint {
+    /// Slip speed [rad/s].
+    pub slip: f64,
+    /// Torque [N·m].
+    pub torque: f64,
 }
 
-/// Condition under which the slips of points have an effect.
-macro_rules! any_torque {
-    () => {
-        "limited_slip.curve[1].torque > 0 or limited_slip.curve[2].torque > 0 or limited_slip.curve[3].torque > 0 or \
-         limited_slip.curve[4].torque > 0 or limited_slip.curve[5].torque > 0 or limited_slip.curve[6].torque > 0 or \
-         limited_slip.curve[7].torque > 0 or limited_slip.curve[8].torque > 0"
-    };
+impl CurvePoint {
+    /// Point that is unset.
+    pub const UNSET: Self = Self { slip: 0.0, torque: 0.0 };
 }
 
-/// Names of the slip and the torque of each point, and their rows.
-macro_rules! points {
+/// Names of the slips and torques in the interface.
+macro_rules! names {
     ($($number:literal)+) => {
         /// Names of the slips.
         const SLIPS: [&str; POINTS] = [$(concat!("limited_slip.curve[", $number, "].slip")),+];
+        /// Names of the torques, without the name of their group.
+        const TORQUES: [&str; POINTS] = [$(concat!("curve[", $number, "].torque")),+];
 
-        /// Rows of all points.
-        pub fn rows() -> Vec<Row<Parameter<LimitedSlipSpec>>> {
-            vec![$(
-                row(
-                    concat!("limited_slip.curve[", $number, "].slip"),
-                    "Slip speed of this point of the measured clutch torque; a point is unset if slip and torque are 0",
-                )
-                .when(any_torque!())
-                .real((units::RAD_PER_S, RPM), (0.0, 1e4), |p| &mut p.curve[$number - 1].slip),
-                row(
-                    concat!("limited_slip.curve[", $number, "].torque"),
-                    "Torque of each clutch pack at this point, in addition to preload and mesh torque",
-                )
-                .real(units::NEWTON_METRE, (0.0, 1e6), |p| &mut p.curve[$number - 1].torque),
-            )+]
+        /// Condition that any point has a torque.
+        fn has_torque() -> Condition {
+            any([$(test!(LimitedSlipSpec, TORQUES[$number - 1], ">", |g| g.curve[$number - 1].torque > 0.0, [0.0])),+])
         }
     };
 }
 
-points! { 1 2 3 4 5 6 7 8 }
+names! { 1 2 3 4 5 6 7 8 }
+
+/// Condition that the curve holds the packs at standstill.
+pub fn holds() -> Condition {
+    all([
+        test!(LimitedSlipSpec, "curve[1].slip", "=", |g| g.curve[0].slip == 0.0, [0.0]),
+        test!(LimitedSlipSpec, TORQUES[0], ">", |g| g.curve[0].torque > 0.0, [0.0]),
+    ])
+}
+
+impl Declared for [CurvePoint; POINTS] {
+    fn rows<P: Copy + 'static>(group: &str, _: &str, _: &'static str, at: Field<P, Self>) -> Vec<Row<Parameter<P>>> {
+        let has_torque = has_torque();
+        let mut rows = Vec::new();
+        for i in 0..POINTS {
+            let slip =
+                "Slip speed of this point of the measured clutch torque; a point is unset if slip and torque are 0";
+            let slips = f64::rows(group, &SLIPS[i][group.len() + 1..], slip, store(move |p| &mut at(p)[i].slip));
+            add(&mut rows, slips, &[&(RAD_PER_S | RPM), &(0.0..=1e4), &when(has_torque)]);
+            let torque = "Torque of each clutch pack at this point, in addition to preload and mesh torque";
+            let torques = f64::rows(group, TORQUES[i], torque, store(move |p| &mut at(p)[i].torque));
+            add(&mut rows, torques, &[&NEWTON_METRE, &(0.0..=1e6)]);
+        }
+        rows
+    }
+}
 
 /// Number of points up to the last one that is set.
 fn count(points: &[CurvePoint; POINTS]) -> usize {

@@ -16,12 +16,12 @@
 mod curve;
 mod slip_torque;
 
-use crate::declaration::units::{CM2, MM, RPM};
-use crate::declaration::{Parameter, Row, row, units};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need, TUNABLE, all, any, when};
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
-    BodyEffect, Declare, Effect, FrictionSource, Heat, Pressed, Ramps, Reading, Setting, SideFriction, SlipSpec,
-    SurfaceTemperature, TorqueCurve, check_slip, pv_reading, slip_rows,
+    BodyEffect, Declare, Effect, FrictionSource, Heat, Pressed, Ramps, Reading, Setting, SideFriction, Slides,
+    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, pv_reading,
 };
 use crate::model::scene::{GearContact, Plan};
 use crate::model::thermal::CLUTCH;
@@ -37,37 +37,35 @@ choices! {
     }
 }
 
-spec! {
+parameters! {
     /// Clutch packs between side gears and carrier.
-    pub struct LimitedSlipSpec {
-        /// Torque of each clutch without load [N·m].
-        pub preload: f64 = 0.0,
-        /// Torque of each clutch per mesh torque that presses it, while the meshes drive the side gear forward.
-        pub torque_coefficient: f64 = 0.0,
-        /// Mesh torque that presses each clutch.
-        pub pressed_by: PressedBy = PressedBy::OwnSide,
-        /// Torque coefficient under negative mesh torque over `torque_coefficient`.
-        pub coast_ratio: f64 = 1.0,
-        /// Torque of sheared oil at the slip `viscous_speed` [N·m].
-        pub viscous_torque: f64 = 0.0,
-        /// Slip at which sheared oil has its torque [rad/s].
-        pub viscous_speed: f64 = 10.0,
-        /// Exponent of the slip in the torque of sheared oil.
-        pub viscous_exponent: f64 = 1.0,
-        /// Measured torque over slip.
-        pub curve: [CurvePoint; POINTS] = [CurvePoint { slip: 0.0, torque: 0.0 }; POINTS],
-        /// Breakaway torque of a stuck clutch over its sliding torque.
-        pub static_ratio: f64 = 1.0,
-        /// Stiffness of a stuck clutch [N·m/rad].
-        pub stiffness: f64 = 1e5,
-        /// Mean radius of the plates [m].
-        pub mean_radius: f64 = 0.05,
-        /// Area of all rubbing faces of a pack [m²].
-        pub friction_area: f64 = 0.05,
-        /// Coefficient of friction of the plates.
-        pub plate_coefficient: f64 = 0.1,
-        /// Sliding of the plates.
-        pub sliding: SlipSpec = SlipSpec::default(),
+    pub struct LimitedSlipSpec in "limited_slip" {
+        /// Clutch torque on each side without load
+        preload: f64 = 0.0, NEWTON_METRE, 0.0..=1e6, TUNABLE;
+        /// Clutch torque on each side per mesh torque that presses the pack, in drive direction
+        torque_coefficient: f64 = 0.0, ONE, 0.0..=10.0, TUNABLE;
+        /// Mesh torque that presses each clutch pack
+        pressed_by: PressedBy = PressedBy::OwnSide, when(by_torque());
+        /// Torque coefficient under negative mesh torque, relative to torque_coefficient; 0 = one-way
+        coast_ratio: f64 = 1.0, ONE, 0.0..=10.0, TUNABLE, when(by_torque());
+        /// Viscous torque of each clutch at the slip viscous_speed
+        viscous_torque: f64 = 0.0, NEWTON_METRE, 0.0..=1e6;
+        /// Slip relative to the carrier at which viscous_torque applies
+        viscous_speed: f64 = 10.0, RAD_PER_S | RPM, 1e-3..=1e4, when(above!(Self.viscous_torque, 0.0));
+        /// Exponent of the slip in the viscous torque
+        viscous_exponent: f64 = 1.0, ONE, 0.3..=2.0, when(above!(Self.viscous_torque, 0.0));
+        /// Stiffness of a sticking clutch
+        stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9, when(holds());
+        /// Mean radius of the plates, for sliding speed
+        mean_radius: f64 = 0.05, METRE | MM, 1e-3..=1.0,
+            when(any([above!(Self.sliding.stribeck_speed, 0.0), differs!(Self.sliding.slip_slope, 0.0)]));
+        /// Total friction area of a clutch pack
+        friction_area: f64 = 0.05, SQUARE_METRE | CM2, 1e-8..=10.0, when(pressed());
+        /// Coefficient of friction of the plates
+        plate_coefficient: f64 = 0.1, ONE, 0.01..=1.0, when(pressed());
+        /// Point of the measured clutch torque
+        curve: [CurvePoint; POINTS] = [CurvePoint::UNSET; POINTS];
+        ..sliding: SlipSpec, when(pressed());
     }
 }
 
@@ -86,77 +84,31 @@ impl Declare for LimitedSlipSpec {
     const READINGS: &'static [Reading] =
         &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        let mut rows: Vec<Row<Parameter<Self>>> = vec![
-            row("limited_slip.preload", "Clutch torque on each side without load").tunable().real(
-                units::NEWTON_METRE,
-                (0.0, 1e6),
-                |p| &mut p.preload,
-            ),
-            row(
-                "limited_slip.torque_coefficient",
-                "Clutch torque on each side per mesh torque that presses the pack, in drive direction",
-            )
-            .tunable()
-            .real(units::ONE, (0.0, 10.0), |p| &mut p.torque_coefficient),
-            row("limited_slip.pressed_by", "Mesh torque that presses each clutch pack")
-                .when(BY_TORQUE)
-                .choice(|p: &mut Self| &mut p.pressed_by),
-            row(
-                "limited_slip.coast_ratio",
-                "Torque coefficient under negative mesh torque, relative to torque_coefficient; 0 = one-way",
-            )
-            .tunable()
-            .when(BY_TORQUE)
-            .real(units::ONE, (0.0, 10.0), |p| &mut p.coast_ratio),
-            row("limited_slip.viscous_torque", "Viscous torque of each clutch at the slip viscous_speed").real(
-                units::NEWTON_METRE,
-                (0.0, 1e6),
-                |p| &mut p.viscous_torque,
-            ),
-            row("limited_slip.viscous_speed", "Slip relative to the carrier at which viscous_torque applies")
-                .when("limited_slip.viscous_torque > 0")
-                .real((units::RAD_PER_S, RPM), (1e-3, 1e4), |p| &mut p.viscous_speed),
-            row("limited_slip.viscous_exponent", "Exponent of the slip in the viscous torque")
-                .when("limited_slip.viscous_torque > 0")
-                .real(units::ONE, (0.3, 2.0), |p| &mut p.viscous_exponent),
-            row("limited_slip.static_ratio", "Ratio of breakaway torque to sliding torque").when(PRESSED).real(
-                units::ONE,
-                (1.0, 10.0),
-                |p| &mut p.static_ratio,
-            ),
-            row("limited_slip.stiffness", "Stiffness of a sticking clutch").when(HOLDS).real(
-                units::NM_PER_RAD,
-                (1.0, 1e9),
-                |p| &mut p.stiffness,
-            ),
-            row("limited_slip.mean_radius", "Mean radius of the plates, for sliding speed")
-                .when("limited_slip.stribeck_speed > 0 or limited_slip.slip_slope != 0")
-                .real((units::METRE, MM), (1e-3, 1.0), |p| &mut p.mean_radius),
-            row("limited_slip.friction_area", "Total friction area of a clutch pack").when(PRESSED).real(
-                (units::SQUARE_METRE, CM2),
-                (1e-8, 10.0),
-                |p| &mut p.friction_area,
-            ),
-            row("limited_slip.plate_coefficient", "Coefficient of friction of the plates").when(PRESSED).real(
-                units::ONE,
-                (0.01, 1.0),
-                |p| &mut p.plate_coefficient,
-            ),
-        ];
-        rows.extend(slip_rows!("limited_slip", sliding).map(|row| Row { when: row.when.or(Some(PRESSED)), ..row }));
-        rows.extend(curve::rows());
-        rows
+    fn needs() -> Vec<(Need, Condition)> {
+        vec![(Need::Temperature, all([on!(Self), depends_on_temperature::<Self>()]))]
     }
 }
 
-/// Condition under which ramps have an effect.
-const BY_TORQUE: &str = "limited_slip.torque_coefficient > 0";
-/// Condition under which dry plates slide.
-const PRESSED: &str = "limited_slip.preload > 0 or limited_slip.torque_coefficient > 0";
-/// Condition under which the packs hold.
-const HOLDS: &str = "limited_slip.preload > 0 or limited_slip.torque_coefficient > 0 or limited_slip.curve[1].slip = 0 \
-                     and limited_slip.curve[1].torque > 0";
+/// Condition that ramps press the packs.
+fn by_torque() -> Condition {
+    above!(LimitedSlipSpec.torque_coefficient, 0.0)
+}
+
+/// Condition that dry plates slide.
+fn pressed() -> Condition {
+    any([above!(LimitedSlipSpec.preload, 0.0), by_torque()])
+}
+
+/// Condition that the packs hold.
+fn holds() -> Condition {
+    any([above!(LimitedSlipSpec.preload, 0.0), by_torque(), curve::holds()])
+}
+
+impl Slides for LimitedSlipSpec {
+    fn sliding(&mut self) -> &mut SlipSpec {
+        &mut self.sliding
+    }
+}
 
 impl LimitedSlipSpec {
     /// True if preload or mesh torque presses the plates.
@@ -248,8 +200,8 @@ impl Effect for LimitedSlipSpec {
             pressed: pressed.times(per_torque),
             ..SideFriction::default()
         };
-        let Self { static_ratio, sliding, .. } = *self;
+        let Self { sliding, .. } = *self;
         let temperature = SurfaceTemperature::Node(CLUTCH);
-        Some(FrictionSource { side, static_ratio, sliding, temperature, ..FrictionSource::new(setting.heat_index) })
+        Some(FrictionSource { side, sliding, temperature, ..FrictionSource::new(setting.heat_index) })
     }
 }

@@ -1,9 +1,7 @@
 //! Declaration of the effect: its readings. It has no parameters.
 
-use serde::{Deserialize, Serialize};
-
+use crate::declaration::Condition;
 use crate::declaration::units::{self, DEG_PER_S, MM};
-use crate::declaration::{Parameter, Row};
 use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
 use crate::model::scene::GearContact;
 
@@ -24,12 +22,12 @@ macro_rules! peaks {
     };
 }
 
-/// Peak-to-peak values over mesh cycles.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct MeshHistorySpec;
+parameters! {
+    /// Peak-to-peak values over mesh cycles.
+    pub struct MeshHistorySpec in "mesh_history" {}
+}
 
 impl Declare for MeshHistorySpec {
-    const WHEN: Option<&'static str> = Some("co-simulation");
     const DESCRIPTION: &'static str =
         "Peak-to-peak side speeds and transmission errors over the last whole mesh cycle; co-simulation only";
     const NEEDS: Option<Needs> = Some(Needs {
@@ -49,8 +47,8 @@ impl Declare for MeshHistorySpec {
         peaks!("planet[4].right_transmission_error", "transmission error to the right side gear", METRE, MM),
     ];
 
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        Vec::new()
+    fn when() -> Option<Condition> {
+        Some(Condition::OwnSteps)
     }
 }
 

@@ -1,38 +1,43 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use crate::declaration::units::{self, DEG_C, DisplayUnit, MPA, Unit};
-use crate::declaration::{Parameter, Row, row};
+use crate::declaration::units::*;
+use crate::declaration::{Condition, Need, any, when};
+use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
+use crate::model::effects::warm_up::WarmUpSpec;
 use crate::model::scene::GearContact;
 use crate::strength::{SnCurve, ToothStrength};
 
-spec! {
+parameters! {
     /// Strength of the gears.
-    pub struct StrengthSpec {
-        /// Tip radius of the tool that cuts the roots, in modules.
-        pub tool_radius: f64 = 0.25,
-        /// Application factor K_A: load on the teeth over the simulated load.
-        pub application_factor: f64 = 1.0,
-        /// Bending strength of the roots at the knee under pulsating load σ_FE [Pa].
-        pub bending_strength: f64 = 1e9,
-        /// Cycles at the knee of bending.
-        pub bending_cycles: f64 = 3e6,
-        /// Life factor of bending at 10³ cycles Y_NT.
-        pub bending_life_factor: f64 = 2.5,
-        /// Idler factor Y_M: fraction of the bending strength of teeth that are loaded on alternate flanks.
-        pub idler_factor: f64 = 0.7,
-        /// Contact strength of the flanks at the knee σ_Hlim [Pa].
-        pub contact_strength: f64 = 1.5e9,
-        /// Cycles at the knee of pitting.
-        pub contact_cycles: f64 = 5e7,
-        /// Life factor of pitting at 10⁵ cycles Z_NT.
-        pub contact_life_factor: f64 = 1.6,
-        /// Thermal contact coefficient B_M of the flanks [W·√s/(m²·K)].
-        pub thermal_contact_coefficient: f64 = 13_800.0,
-        /// Contact temperature at which flanks scuff in the oil [K].
-        pub scuffing_temperature: f64 = 673.15,
-        /// Time after the start of the run from which safety and damage count [s].
-        pub rate_from: f64 = 0.0,
+    pub struct StrengthSpec in "strength" {
+        /// Tip radius per module of the tool that cuts the tooth roots
+        tool_radius: f64 = 0.25, ONE, 0.0..=0.6;
+        /// Bending strength of the tooth roots under pulsating load at the knee of the S-N curve (carburised MQ, 2 x 500
+        /// MPa in ISO 6336-5)
+        bending_strength: f64 = 1e9, PASCAL | MPA, 1e6..=1e11;
+        /// Number of cycles at the knee of the S-N curve for bending
+        bending_cycles: f64 = 3e6, ONE, 1e4..=1e12;
+        /// Life factor of bending at 1e3 cycles (ISO 6336-3)
+        bending_life_factor: f64 = 2.5, ONE, 1.05..=10.0;
+        /// Factor on the bending strength of teeth loaded on alternate flanks
+        idler_factor: f64 = 0.7, ONE, 0.5..=1.0;
+        /// Contact strength of the flanks at the knee of the S-N curve (carburised MQ, 1500 MPa in ISO 6336-5)
+        contact_strength: f64 = 1.5e9, PASCAL | MPA, 1e6..=1e11;
+        /// Number of cycles at the knee of the S-N curve for pitting
+        contact_cycles: f64 = 5e7, ONE, 1e6..=1e12;
+        /// Life factor of pitting at 1e5 cycles (ISO 6336-2)
+        contact_life_factor: f64 = 1.6, ONE, 1.05..=10.0;
+        /// Application factor, the ratio of real to simulated tooth load: covers loads that the scene leaves out
+        application_factor: f64 = 1.0, ONE, 0.1..=10.0;
+        /// Thermal contact coefficient of the flanks (steel)
+        thermal_contact_coefficient: f64 = 13_800.0, EFFUSIVITY, 100.0..=1e5, when(on!(ToothFrictionSpec));
+        /// Contact temperature at which flanks scuff, from an oil test (FZG; ISO/TS 10300-20)
+        scuffing_temperature: f64 = 673.15, KELVIN | DEG_C, 300.0..=2000.0,
+            when(any([on!(ToothFrictionSpec), on!(WarmUpSpec)]));
+        /// Time after the start of the run from which safety and damage are evaluated: excludes the settling of a start
+        /// outside equilibrium
+        rate_from: f64 = 0.0, SECOND, 0.0..=1e9;
     }
 }
 
@@ -53,6 +58,12 @@ impl Declare for StrengthSpec {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
         why: "it follows from the forces of the meshes",
     });
+
+    fn needs() -> Vec<(Need, Condition)> {
+        // flash temperatures are added to it
+        vec![(Need::Temperature, on!(Self))]
+    }
+
     const READINGS: &'static [Reading] = &[
         stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs at their contact positions"),
         stress(
@@ -77,18 +88,18 @@ impl Declare for StrengthSpec {
         ),
         temperature(
             "temperature.flash",
-            (units::KELVIN_DIFFERENCE, None),
+            (KELVIN_DIFFERENCE, None),
             "Largest flash temperature of the flanks over the whole face (Blok); 0 without effects.tooth_friction",
         ),
         temperature(
             "temperature.contact",
-            (units::KELVIN, Some(DEG_C)),
+            (KELVIN, Some(DEG_C)),
             "Largest contact temperature of the flanks: temperature.gears, plus temperature.flash with \
              effects.strength",
         ),
         Reading {
             name: "safety.scuffing",
-            unit: units::ONE,
+            unit: ONE,
             display: None,
             changes: Changes::Always,
             description: "Instantaneous safety factor S_B against scuffing: strength.scuffing_temperature minus \
@@ -110,73 +121,6 @@ impl Declare for StrengthSpec {
              stress.contact_rated; at most 1000, and 1000 before the first evaluated step",
         ),
     ];
-
-    fn parameters() -> Vec<Row<Parameter<Self>>> {
-        vec![
-            row("strength.tool_radius", "Tip radius per module of the tool that cuts the tooth roots").real(
-                units::ONE,
-                (0.0, 0.6),
-                |p| &mut p.tool_radius,
-            ),
-            row(
-                "strength.bending_strength",
-                "Bending strength of the tooth roots under pulsating load at the knee of the S-N curve (carburised \
-                 MQ, 2 x 500 MPa in ISO 6336-5)",
-            )
-            .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.bending_strength),
-            row("strength.bending_cycles", "Number of cycles at the knee of the S-N curve for bending").real(
-                units::ONE,
-                (1e4, 1e12),
-                |p| &mut p.bending_cycles,
-            ),
-            row("strength.bending_life_factor", "Life factor of bending at 1e3 cycles (ISO 6336-3)").real(
-                units::ONE,
-                (1.05, 10.0),
-                |p| &mut p.bending_life_factor,
-            ),
-            row("strength.idler_factor", "Factor on the bending strength of teeth loaded on alternate flanks").real(
-                units::ONE,
-                (0.5, 1.0),
-                |p| &mut p.idler_factor,
-            ),
-            row(
-                "strength.contact_strength",
-                "Contact strength of the flanks at the knee of the S-N curve (carburised MQ, 1500 MPa in ISO 6336-5)",
-            )
-            .real((units::PASCAL, MPA), (1e6, 1e11), |p| &mut p.contact_strength),
-            row("strength.contact_cycles", "Number of cycles at the knee of the S-N curve for pitting").real(
-                units::ONE,
-                (1e6, 1e12),
-                |p| &mut p.contact_cycles,
-            ),
-            row("strength.contact_life_factor", "Life factor of pitting at 1e5 cycles (ISO 6336-2)").real(
-                units::ONE,
-                (1.05, 10.0),
-                |p| &mut p.contact_life_factor,
-            ),
-            row(
-                "strength.application_factor",
-                "Application factor, the ratio of real to simulated tooth load: covers loads that the scene leaves \
-                 out",
-            )
-            .real(units::ONE, (0.1, 10.0), |p| &mut p.application_factor),
-            row("strength.thermal_contact_coefficient", "Thermal contact coefficient of the flanks (steel)")
-                .when("effects.tooth_friction = true")
-                .real(units::EFFUSIVITY, (100.0, 1e5), |p| &mut p.thermal_contact_coefficient),
-            row(
-                "strength.scuffing_temperature",
-                "Contact temperature at which flanks scuff, from an oil test (FZG; ISO/TS 10300-20)",
-            )
-            .when("effects.tooth_friction = true or effects.warm_up = true")
-            .real((units::KELVIN, DEG_C), (300.0, 2000.0), |p| &mut p.scuffing_temperature),
-            row(
-                "strength.rate_from",
-                "Time after the start of the run from which safety and damage are evaluated: excludes the settling \
-                 of a start outside equilibrium",
-            )
-            .real(units::SECOND, (0.0, 1e9), |p| &mut p.rate_from),
-        ]
-    }
 }
 
 impl Effect for StrengthSpec {}
@@ -190,13 +134,13 @@ const fn temperature(
 }
 
 const fn stress(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: units::PASCAL, display: Some(MPA), changes: Changes::Always, description }
+    Reading { name, unit: PASCAL, display: Some(MPA), changes: Changes::Always, description }
 }
 
 const fn damage(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: units::ONE, display: None, changes: Changes::ByStep, description }
+    Reading { name, unit: ONE, display: None, changes: Changes::ByStep, description }
 }
 
 const fn safety(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: units::ONE, display: None, changes: Changes::ByStep, description }
+    Reading { name, unit: ONE, display: None, changes: Changes::ByStep, description }
 }

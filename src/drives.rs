@@ -52,20 +52,20 @@ impl Start {
     }
 }
 
-spec! {
+parameters! {
     /// Drives, planet spin, tooth contact and start of a scene.
-    pub struct Scene {
-        /// Carrier drive.
-        pub carrier_drive: CarrierDrive = CarrierDrive::Speed,
-        /// Drive of the left half-shaft.
-        pub left_drive: SideDrive = SideDrive::Torque,
-        /// Drive of the right half-shaft.
-        pub right_drive: SideDrive = SideDrive::Torque,
-        /// Planet spin.
-        pub planet_spin: PlanetSpin = PlanetSpin::Free,
-        /// Representation of tooth contact.
-        pub gear_contact: GearContact = GearContact::Tooth,
-        /// State at the start time.
-        pub start: Start = Start::Equilibrium,
+    pub struct Scene in "scene" {
+        /// Drive of the carrier
+        carrier_drive: CarrierDrive = CarrierDrive::Speed;
+        /// Drive of the left half-shaft
+        left_drive: SideDrive = SideDrive::Torque;
+        /// Drive of the right half-shaft
+        right_drive: SideDrive = SideDrive::Torque;
+        /// Spin of the planets on their pins
+        planet_spin: PlanetSpin = PlanetSpin::Free;
+        /// Representation of tooth contact
+        gear_contact: GearContact = GearContact::Tooth;
+        /// State at the start time
+        start: Start = Start::Equilibrium;
     }
 }
