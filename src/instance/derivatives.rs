@@ -207,11 +207,7 @@ impl Instance {
             let row = row(reference)?;
             let source = output_source(row)?;
             let slope = match source {
-                OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger_rates())),
-                OutputSource::LedgerReading(place) => {
-                    ledger.get_or_insert_with(|| simulation.ledger_rates()).readings[place]
-                }
-                OutputSource::Heat(place) => ledger.get_or_insert_with(|| simulation.ledger_rates()).heat[place],
+                OutputSource::Ledger(i, of) => of(ledger.get_or_insert_with(|| simulation.ledger_rates()), i),
                 _ => slopes.of(source),
             };
             value.write(finite_slope(row, slope)?);

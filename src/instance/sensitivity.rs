@@ -153,9 +153,12 @@ impl<'a> Slopes<'a> {
     pub fn of(&mut self, source: OutputSource) -> f64 {
         let Self { simulation, direction, .. } = *self;
         match source {
-            OutputSource::Motion(of) => of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction))),
-            OutputSource::Forces(of) | OutputSource::Components(of) => {
-                self.forces.get_or_insert_with(|| simulation.forces_along(direction)).slope(of)
+            OutputSource::Motion(i, of) => {
+                of(self.motion.get_or_insert_with(|| simulation.motion_slopes(direction)), i)
+            }
+            OutputSource::Forces(i, of) | OutputSource::Components(i, of) => {
+                let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
+                along.slope(|forces| of(forces, i))
             }
             OutputSource::Reading(place) => {
                 let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
@@ -165,9 +168,8 @@ impl<'a> Slopes<'a> {
                 let along = self.pairs.get_or_insert_with(|| simulation.pair_lines_along(direction));
                 along.slope(|lines| of(&lines[k]))
             }
-            OutputSource::Constant(_) => 0.0,
             // the ledger changes only with time
-            OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_) => 0.0,
+            OutputSource::Constant(_) | OutputSource::Ledger(..) => 0.0,
             OutputSource::State(k) => {
                 self.states.get_or_insert_with(|| simulation.states_of(|i| direction.q[i], &direction.v))[k]
             }

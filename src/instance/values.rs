@@ -107,16 +107,12 @@ impl Instance {
                         .map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })?;
                     match source {
                         OutputSource::Constant(of) => of(simulation),
-                        OutputSource::Motion(of) => of(motion.get_or_insert_with(|| simulation.motion())),
-                        OutputSource::Forces(of) => of(simulation.forces_without_components()),
-                        OutputSource::Components(of) => of(simulation.forces()),
+                        OutputSource::Motion(i, of) => of(motion.get_or_insert_with(|| simulation.motion()), i),
+                        OutputSource::Forces(i, of) => of(simulation.forces_without_components(), i),
+                        OutputSource::Components(i, of) => of(simulation.forces(), i),
                         OutputSource::Pair(k, of) => of(&pairs.get_or_insert_with(|| simulation.pair_lines())[k]),
                         OutputSource::Reading(place) => simulation.forces_without_components().readings[place],
-                        OutputSource::Ledger(of) => of(ledger.get_or_insert_with(|| simulation.ledger())),
-                        OutputSource::LedgerReading(place) => {
-                            ledger.get_or_insert_with(|| simulation.ledger()).readings[place]
-                        }
-                        OutputSource::Heat(place) => ledger.get_or_insert_with(|| simulation.ledger()).heat[place],
+                        OutputSource::Ledger(i, of) => of(ledger.get_or_insert_with(|| simulation.ledger()), i),
                         OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],
                         OutputSource::Rate(k) => rates.get_or_insert_with(|| simulation.state_rates())[k],
                     }

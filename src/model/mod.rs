@@ -41,7 +41,7 @@ pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::LedgerReadings;
 pub use outputs::motion::Motion;
-pub use outputs::pairs::{PairLine, PairLines};
+pub use outputs::pairs::{PAIRS, PairLine, PairLines};
 pub use readings::{CostClass, Reported};
 pub use run::{Accepted, HostInputs, Simulation, StepFailure, Watched, six_digits};
 pub use scene::ATTACHED;

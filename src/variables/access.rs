@@ -8,22 +8,18 @@ use crate::model::{Forces, InputField, LedgerReadings, Motion, PairLine, Paramet
 pub enum OutputSource {
     /// Constants of a simulation, which do not change after initialisation.
     Constant(fn(&Simulation) -> f64),
-    /// Angles and speeds.
-    Motion(fn(&Motion) -> f64),
-    /// Forces, which need one evaluation of the teeth.
-    Forces(fn(&Forces) -> f64),
-    /// Components of normal forces along axes and across pins, which also need an evaluation of the teeth.
-    Components(fn(&Forces) -> f64),
+    /// Angles and speeds, by an index.
+    Motion(usize, fn(&Motion, usize) -> f64),
+    /// Forces by an index, which need one evaluation of the teeth.
+    Forces(usize, fn(&Forces, usize) -> f64),
+    /// Components of normal forces along axes and across pins, which also need an evaluation of the teeth, by an index.
+    Components(usize, fn(&Forces, usize) -> f64),
     /// Loaded tooth pair of planet 1 with the left side gear, by its number.
     Pair(usize, fn(&PairLine) -> f64),
-    /// Ledger and statistics of the solver.
-    Ledger(fn(&LedgerReadings) -> f64),
+    /// Ledger and statistics of the solver, by an index.
+    Ledger(usize, fn(&LedgerReadings, usize) -> f64),
     /// Reading of an effect that may change at any instant, by its index among such readings.
     Reading(usize),
-    /// Reading of an effect that changes only with accepted steps, by its index among such readings.
-    LedgerReading(usize),
-    /// Heat, by its index in the ledger.
-    Heat(usize),
     /// Continuous state, by its number.
     State(usize),
     /// Time derivative of a continuous state, by the number of the state.
@@ -35,13 +31,11 @@ impl OutputSource {
     pub fn read(self, simulation: &mut Simulation) -> f64 {
         match self {
             Self::Constant(of) => of(simulation),
-            Self::Motion(of) => of(&simulation.motion()),
-            Self::Forces(of) | Self::Components(of) => of(simulation.forces()),
+            Self::Motion(i, of) => of(&simulation.motion(), i),
+            Self::Forces(i, of) | Self::Components(i, of) => of(simulation.forces(), i),
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
             Self::Reading(place) => simulation.forces().readings[place],
-            Self::Ledger(of) => of(&simulation.ledger()),
-            Self::LedgerReading(place) => simulation.ledger().readings[place],
-            Self::Heat(place) => simulation.ledger().heat[place],
+            Self::Ledger(i, of) => of(&simulation.ledger(), i),
             Self::State(k) => simulation.states()[k],
             Self::Rate(k) => simulation.state_rates()[k],
         }

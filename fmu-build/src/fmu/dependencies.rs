@@ -37,9 +37,7 @@ pub fn is_speed(input: &Variable) -> bool {
 
 /// True if the output changes only with accepted steps.
 pub fn is_of_ledger(row: &Variable) -> bool {
-    let by_step =
-        |source| matches!(source, OutputSource::Ledger(_) | OutputSource::LedgerReading(_) | OutputSource::Heat(_));
-    matches!(row.access, Access::Output(source) if by_step(source))
+    matches!(row.access, Access::Output(OutputSource::Ledger(..)))
 }
 
 /// Indices of the inputs that are `wanted`.
@@ -57,13 +55,13 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];
     let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
     match row.access {
-        Access::Output(OutputSource::Motion(_)) => inputs_where(table, |input| {
+        Access::Output(OutputSource::Motion(..)) => inputs_where(table, |input| {
             let own_side = input.name.strip_suffix(OF_END.0).zip(row.name.strip_suffix(OF_END.1));
             let follows = FOLLOWERS.iter().any(|end| row.name.ends_with(end));
             own_side.is_some_and(|(of, side)| of == side) || follows && is_followed(input)
         }),
         Access::Output(OutputSource::Pair(..)) => inputs_where(table, is_followed),
-        Access::Output(OutputSource::Forces(_) | OutputSource::Components(_) | OutputSource::Reading(_))
+        Access::Output(OutputSource::Forces(..) | OutputSource::Components(..) | OutputSource::Reading(_))
             if !named(&BY_POSITION) =>
         {
             if let Some(side) = row.name.strip_suffix(BY_OWN_LOAD) {

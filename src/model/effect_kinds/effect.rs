@@ -1,5 +1,6 @@
 //! Declaration of an effect: its parameters, interface rows, heat and readings, and its actions in a scene.
 
+use std::any::Any;
 use std::fmt::Debug;
 
 use serde::Serialize;
@@ -8,7 +9,6 @@ use serde::de::DeserializeOwned;
 use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
-use crate::declaration::units::{W_PER_M2, W_PER_MM2};
 use crate::declaration::{Condition, DisplayUnit, Group, Need, Row, Rows, Unit};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
@@ -51,14 +51,33 @@ pub struct Reading {
     pub display: Option<DisplayUnit>,
     /// Times at which the reading changes.
     pub changes: Changes,
+    /// Value at an instant, from the parameters of the effect; `None` if the program computes it together with others.
+    pub read: Option<fn(&dyn Any, &Instant) -> f64>,
     /// Description in the interface.
     pub description: &'static str,
 }
 
-/// Output for the p·v of rubbing surfaces.
-pub const fn pv_reading(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: W_PER_M2, display: Some(W_PER_MM2), changes: Changes::Always, description }
+/// Readings of an effect. The doc comment is the description; the unit, the display unit and the changes follow. A
+/// reading with `Always(|effect, at| …)` has the value of this function of the effect and the instant.
+macro_rules! readings {
+    (@option) => { None };
+    (@option $value:expr) => { Some($value) };
+    ($($(#[doc = $line:literal])+ $name:literal: $unit:ident $(| $display:ident)?, $changes:ident $(($read:expr))?;)+) => {
+        &[$($crate::model::effect_kinds::Reading {
+            name: $name,
+            unit: $unit,
+            display: readings!(@option $($display)?),
+            changes: $crate::model::effect_kinds::Changes::$changes,
+            read: readings!(@option $(|effect, at| {
+                let read: fn(&Self, &$crate::model::effect_kinds::Instant) -> f64 = $read;
+                effect.downcast_ref().map_or(0.0, |effect| read(effect, at))
+            })?),
+            description: concat!($($line),+).split_at(1).1,
+        }),+]
+    };
 }
+
+pub(in crate::model) use readings;
 
 /// Representations of tooth contact that an effect needs.
 #[derive(Clone, Copy, Debug)]
@@ -139,7 +158,7 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
 }
 
 /// Actions of an effect in a scene.
-pub trait Effect {
+pub trait Effect: Any {
     /// Adds the problems of its parameters to `found`.
     fn check(&self, _setting: &Setting, _found: &mut Vec<Problem>) {}
 
@@ -177,7 +196,4 @@ pub trait Effect {
     fn friction(&self, _setting: &Setting) -> Option<FrictionSource> {
         None
     }
-
-    /// Sets its readings that change at any instant.
-    fn read(&self, _at: &Instant, _out: &mut [f64]) {}
 }

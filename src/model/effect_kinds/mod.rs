@@ -20,7 +20,8 @@ pub mod teeth;
 pub mod torque_curve;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
-pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting, pv_reading};
+pub(super) use effect::readings;
+pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use friction::Friction;
 pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
 pub use friction_source::{

@@ -2,10 +2,10 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_t / L.
 
-use crate::declaration::units::{self, DEG, NM_PER_RAD, NMS_PER_RAD};
+use crate::declaration::units::*;
 use crate::declaration::{Condition, all, any, when_each};
 use crate::model::effect_kinds::{
-    Action, BodyEffect, BodyMotion, Changes, Declare, Effect, Heat, Instant, Reading, Setting, Slopes,
+    Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Instant, Reading, Setting, Slopes, readings,
 };
 use crate::model::scene::{InertiaSpec, Plan, Requests, Scene, SideDrive};
 use crate::problem::Problem;
@@ -42,7 +42,12 @@ impl Declare for HalfShaftSpec {
         description: "Heat of damping in the half-shafts since the start",
         at_wheels: false,
     });
-    const READINGS: &'static [Reading] = &[twist("left.twist"), twist("right.twist")];
+    const READINGS: &'static [Reading] = readings! {
+        /// Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid half-shaft
+        "left.twist": RADIAN | DEG, Always(|shafts, at| shafts.twist(0, at));
+        /// Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid half-shaft
+        "right.twist": RADIAN | DEG, Always(|shafts, at| shafts.twist(1, at));
+    };
     /// A speed-driven side acts through its half-shaft.
     const MAY_ACT_UNSWITCHED: bool = true;
     const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
@@ -80,27 +85,19 @@ impl Effect for HalfShaftSpec {
             .has_ends()
             .then(|| Box::new(ShaftTorques { shafts, heat_index: setting.heat_index }) as Box<dyn BodyEffect>)
     }
-
-    fn read(&self, at: &Instant, out: &mut [f64]) {
-        for s in 0..2 {
-            if at.plan.shafts[s] {
-                out[s] = at.motion.q[at.motion.layout.end(s)];
-            } else if at.on && self.stiffness[s] > 0.0 {
-                // the end has no degree of freedom, so the twist is static
-                out[s] = at.shaft_torque[s] / self.stiffness[s];
-            }
-        }
-    }
 }
 
-const fn twist(name: &'static str) -> Reading {
-    Reading {
-        name,
-        unit: units::RADIAN,
-        display: Some(DEG),
-        changes: Changes::Always,
-        description: "Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid \
-                      half-shaft",
+impl HalfShaftSpec {
+    /// Twist of the half-shaft of side `s` [rad].
+    fn twist(&self, s: usize, at: &Instant) -> f64 {
+        if at.plan.shafts[s] {
+            at.motion.q[at.motion.layout.end(s)]
+        } else if at.on && self.stiffness[s] > 0.0 {
+            // the end has no degree of freedom, so the twist is static
+            at.shaft_torque[s] / self.stiffness[s]
+        } else {
+            0.0
+        }
     }
 }
 

@@ -16,7 +16,7 @@ use crate::declaration::{Condition, Need, TUNABLE, all, when};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
     Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, Slides,
-    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, pv_reading,
+    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::GearContact;
 use crate::model::thermal::WASHERS;
@@ -68,8 +68,10 @@ impl Declare for ThrustFrictionSpec {
         description: "Heat of thrust washers and pins since the start",
         at_wheels: false,
     });
-    const READINGS: &'static [Reading] =
-        &[pv_reading("pv.washers", "Pressure times sliding speed of washers and pins; largest of all")];
+    const READINGS: &'static [Reading] = readings! {
+        /// Pressure times sliding speed of washers and pins; largest of all
+        "pv.washers": W_PER_M2 | W_PER_MM2, Always;
+    };
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
         why: "it follows from the thrusts of the meshes",

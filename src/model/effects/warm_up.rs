@@ -7,7 +7,7 @@
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::units::*;
 use crate::declaration::{Condition, Need, Range, Row, TUNABLE, any, row, when};
-use crate::model::effect_kinds::{BUILT, Changes, Declare, Effect, InputField, Reading, Setting};
+use crate::model::effect_kinds::{BUILT, Declare, Effect, InputField, Reading, Setting, readings};
 use crate::model::scene::{Scene, Start};
 use crate::model::thermal::network::{Around, Conductance};
 use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
@@ -66,44 +66,25 @@ const CONDUCTANCES: Range = Range { min: 0.0, max: 1e6 };
 /// Differences of temperatures at the start [K].
 const DIFFERENCES: Range = Range { min: -400.0, max: 400.0 };
 
-/// Reading of a temperature.
-macro_rules! temperature {
-    ($name:literal, $of:literal) => {
-        Reading {
-            name: concat!("temperature.", $name),
-            unit: KELVIN,
-            display: Some(DEG_C),
-            changes: Changes::ByStep,
-            description: concat!("Temperature of ", $of, "; oil.temperature without effects.warm_up"),
-        }
-    };
-}
-
-/// Reading of a heat of the network.
-macro_rules! heat {
-    ($name:literal, $of:literal) => {
-        Reading {
-            name: concat!("warm_up.", $name),
-            unit: JOULE,
-            display: None,
-            changes: Changes::ByStep,
-            description: $of,
-        }
-    };
-}
-
 impl Declare for WarmUpSpec {
     const DESCRIPTION: &'static str =
         "Temperatures of oil, gears, clutch packs, washers and case, from the friction heat";
-    const READINGS: &'static [Reading] = &[
-        temperature!("oil", "the oil"),
-        temperature!("gears", "the gears"),
-        temperature!("clutch", "the clutch packs"),
-        temperature!("washers", "the washers and pins"),
-        temperature!("case", "the case"),
-        heat!("stored", "Heat stored in oil, gears, clutch packs, washers and case since the start"),
-        heat!("given_off", "Heat given off to the surroundings and to a given sump since the start"),
-    ];
+    const READINGS: &'static [Reading] = readings! {
+        /// Temperature of the oil; oil.temperature without effects.warm_up
+        "temperature.oil": KELVIN | DEG_C, ByStep;
+        /// Temperature of the gears; oil.temperature without effects.warm_up
+        "temperature.gears": KELVIN | DEG_C, ByStep;
+        /// Temperature of the clutch packs; oil.temperature without effects.warm_up
+        "temperature.clutch": KELVIN | DEG_C, ByStep;
+        /// Temperature of the washers and pins; oil.temperature without effects.warm_up
+        "temperature.washers": KELVIN | DEG_C, ByStep;
+        /// Temperature of the case; oil.temperature without effects.warm_up
+        "temperature.case": KELVIN | DEG_C, ByStep;
+        /// Heat stored in oil, gears, clutch packs, washers and case since the start
+        "warm_up.stored": JOULE, ByStep;
+        /// Heat given off to the surroundings and to a given sump since the start
+        "warm_up.given_off": JOULE, ByStep;
+    };
 
     fn needs() -> Vec<(Need, Condition)> {
         vec![

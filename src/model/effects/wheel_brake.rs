@@ -14,7 +14,7 @@ use crate::declaration::{Row, TUNABLE, any, row, when};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
     BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, Slides, SlipSpec,
-    SurfaceTemperature, WheelFriction, check_slip, depends_on_temperature, pv_reading,
+    SurfaceTemperature, WheelFriction, check_slip, depends_on_temperature, readings,
 };
 use crate::numeric::sqrt;
 use crate::problem::Problem;
@@ -51,8 +51,10 @@ impl Declare for WheelBrakeSpec {
     const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
-    const READINGS: &'static [Reading] =
-        &[pv_reading("pv.brake", "Pressure times sliding speed of the linings; larger of both")];
+    const READINGS: &'static [Reading] = readings! {
+        /// Pressure times sliding speed of the linings; larger of both
+        "pv.brake": W_PER_M2 | W_PER_MM2, Always;
+    };
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn inputs() -> Vec<Row<InputField>> {

@@ -17,7 +17,7 @@ use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::strength::LineContact;
 
 /// Number of pairs that are reported. With a contact ratio below 3, no mesh has more pairs on its path.
-const PAIRS: usize = 3;
+pub const PAIRS: usize = 3;
 /// Maximum number of sections of a pair of solid teeth.
 const SECTIONS: usize = 8;
 /// Share of the face above which a load represents the whole face.

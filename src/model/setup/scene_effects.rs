@@ -109,13 +109,13 @@ impl<'a> SceneEffects<'a> {
 }
 
 /// Sets the readings of all effects that change at any instant.
-pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, mut out: &mut [f64]) {
+pub fn read(effects: &Effects, parameters: &EffectParameters, at: &Instant, out: &mut [f64]) {
+    let mut out = out.iter_mut();
     for (entry, on, effect) in configured(effects, parameters) {
-        let count = entry.readings.iter().filter(|reading| reading.changes == Changes::Always).count();
-        let (its, others) = out.split_at_mut(count);
-        if count > 0 {
-            effect.read(&Instant { on, ..*at }, its);
+        for reading in entry.readings.iter().filter(|reading| reading.changes == Changes::Always) {
+            if let (Some(out), Some(read)) = (out.next(), reading.read) {
+                *out = read(effect, &Instant { on, ..*at });
+            }
         }
-        out = others;
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::declaration::Condition;
 use crate::declaration::units::*;
-use crate::model::effect_kinds::{Changes, Declare, Effect, Reading};
+use crate::model::effect_kinds::{Declare, Effect, Reading, readings};
 
 parameters! {
     /// Advice about the communication step.
@@ -15,55 +15,29 @@ parameters! {
     }
 }
 
-/// Reading of the energy that the cut at a port has created.
-macro_rules! energy {
-    ($name:literal, $of:literal) => {
-        Reading {
-            name: concat!("coupling.", $name, ".energy_error"),
-            unit: JOULE,
-            display: None,
-            changes: Changes::ByStep,
-            description: concat!(
-                "Energy that the cut between host and unit has created (+) or destroyed (-) ",
-                $of,
-                " since the start; 0 in model exchange"
-            ),
-        }
-    };
-}
-
 impl Declare for CouplingAdviceSpec {
     const DESCRIPTION: &'static str =
         "Advice about the communication step, from the energy error of the cut; co-simulation only";
-    const READINGS: &'static [Reading] = &[
-        energy!("carrier", "at a carrier driven by torque"),
-        energy!("left", "at the left wheel"),
-        energy!("right", "at the right wheel"),
-        Reading {
-            name: "coupling.energy_ratio",
-            unit: ONE,
-            display: None,
-            changes: Changes::ByStep,
-            description: "Largest ratio of a port: magnitude of the energy errors of its cut divided by the energy through it, as \
-                          sums that decay over about two periods of the motion",
-        },
-        Reading {
-            name: "coupling.step_advice",
-            unit: SECOND,
-            display: None,
-            changes: Changes::ByStep,
-            description: "Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the longest \
-                          stable step; coupling.advice_state says what 0 means",
-        },
-        Reading {
-            name: "coupling.advice_state",
-            unit: ONE,
-            display: None,
-            changes: Changes::ByStep,
-            description: "Meaning of coupling.step_advice: 1 = given, 2 = nothing moves, 3 = no host reacts, 4 = not possible for \
-                          this master, 5 = unstable cut",
-        },
-    ];
+    const READINGS: &'static [Reading] = readings! {
+        /// Energy that the cut between host and unit has created (+) or destroyed (-) at a carrier driven by torque
+        /// since the start; 0 in model exchange
+        "coupling.carrier.energy_error": JOULE, ByStep;
+        /// Energy that the cut between host and unit has created (+) or destroyed (-) at the left wheel since the
+        /// start; 0 in model exchange
+        "coupling.left.energy_error": JOULE, ByStep;
+        /// Energy that the cut between host and unit has created (+) or destroyed (-) at the right wheel since the
+        /// start; 0 in model exchange
+        "coupling.right.energy_error": JOULE, ByStep;
+        /// Largest ratio of a port: magnitude of the energy errors of its cut divided by the energy through it, as
+        /// sums that decay over about two periods of the motion
+        "coupling.energy_ratio": ONE, ByStep;
+        /// Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the longest
+        /// stable step; coupling.advice_state says what 0 means
+        "coupling.step_advice": SECOND, ByStep;
+        /// Meaning of coupling.step_advice: 1 = given, 2 = nothing moves, 3 = no host reacts, 4 = not possible for
+        /// this master, 5 = unstable cut
+        "coupling.advice_state": ONE, ByStep;
+    };
 
     fn when() -> Option<Condition> {
         Some(Condition::OwnSteps)

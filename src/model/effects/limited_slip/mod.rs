@@ -21,7 +21,7 @@ use crate::declaration::{Condition, Need, TUNABLE, all, any, when};
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
     BodyEffect, Declare, Effect, FrictionSource, Heat, Pressed, Ramps, Reading, Setting, SideFriction, Slides,
-    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, pv_reading,
+    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::{GearContact, Plan};
 use crate::model::thermal::CLUTCH;
@@ -81,8 +81,10 @@ impl Declare for LimitedSlipSpec {
         "Clutch packs on the side gears: preload, ramps, viscous torque, or a measured curve; with stiction";
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
     const EXAMPLE: &'static [(&'static str, f64)] = &[("limited_slip.preload", 50.0)];
-    const READINGS: &'static [Reading] =
-        &[pv_reading("pv.clutch", "Pressure times sliding speed of the clutch packs; larger of both")];
+    const READINGS: &'static [Reading] = readings! {
+        /// Pressure times sliding speed of the clutch packs; larger of both
+        "pv.clutch": W_PER_M2 | W_PER_MM2, Always;
+    };
 
     fn needs() -> Vec<(Need, Condition)> {
         vec![(Need::Temperature, all([on!(Self), depends_on_temperature::<Self>()]))]

@@ -3,7 +3,7 @@
 use crate::declaration::units::*;
 use crate::declaration::{Condition, Need, any, when};
 use crate::friction::ToothFrictionSpec;
-use crate::model::effect_kinds::{Changes, Declare, Effect, Needs, Reading};
+use crate::model::effect_kinds::{Declare, Effect, Needs, Reading, readings};
 use crate::model::effects::warm_up::WarmUpSpec;
 use crate::model::scene::GearContact;
 use crate::strength::{SnCurve, ToothStrength};
@@ -64,83 +64,44 @@ impl Declare for StrengthSpec {
         vec![(Need::Temperature, on!(Self))]
     }
 
-    const READINGS: &'static [Reading] = &[
-        stress("stress.contact_max", "Largest Hertz pressure of all tooth pairs at their contact positions"),
-        stress(
-            "stress.contact_pitch",
-            "Largest Hertz pressure at the pitch point of all meshes, at the mean section: one tooth pair transmits \
-             the whole mesh load",
-        ),
-        stress(
-            "stress.root_planet_max",
-            "Largest root stress of the planets, from the force and the height of each tooth pair (ISO 6336-3 method B); \
-             for lumped gears from the mesh force (ISO 10300 method B1)",
-        ),
-        stress(
-            "stress.root_side_max",
-            "Largest root stress of the side gears, from the force and the height of each tooth pair (ISO 6336-3 method \
-             B); for lumped gears from the mesh force (ISO 10300 method B1)",
-        ),
-        stress(
-            "stress.contact_rated",
-            "Largest contact pressure for the flank rating, used by safety.flank_min and damage: one tooth pair \
-             transmits the mesh load at the worse inner point of single contact, with the face load factor",
-        ),
-        temperature(
-            "temperature.flash",
-            (KELVIN_DIFFERENCE, None),
-            "Largest flash temperature of the flanks over the whole face (Blok); 0 without effects.tooth_friction",
-        ),
-        temperature(
-            "temperature.contact",
-            (KELVIN, Some(DEG_C)),
-            "Largest contact temperature of the flanks: temperature.gears, plus temperature.flash with \
-             effects.strength",
-        ),
-        Reading {
-            name: "safety.scuffing",
-            unit: ONE,
-            display: None,
-            changes: Changes::Always,
-            description: "Instantaneous safety factor S_B against scuffing: strength.scuffing_temperature minus \
-                          temperature.oil, divided by temperature.contact minus temperature.oil; at most 1000",
-        },
-        damage("damage.planet", "Miner sum of root bending of the most damaged tooth of the planets"),
-        damage("damage.side", "Miner sum of root bending of the most damaged tooth of the side gears"),
-        damage("damage.planet_flank", "Miner sum of pitting of the most damaged flank of the planets"),
-        damage("damage.side_flank", "Miner sum of pitting of the most damaged flank of the side gears"),
-        safety(
-            "safety.root_min",
-            "Smallest safety factor S_F of all tooth roots so far: bending strength at the knee over the stress of the \
-             pulsating cycle with the same damage, for all load cycles so far; at most 1000, and 1000 before the first \
-             evaluated step",
-        ),
-        safety(
-            "safety.flank_min",
-            "Smallest safety factor S_H of all flanks so far: contact strength at the knee over \
-             stress.contact_rated; at most 1000, and 1000 before the first evaluated step",
-        ),
-    ];
+    const READINGS: &'static [Reading] = readings! {
+        /// Largest Hertz pressure of all tooth pairs at their contact positions
+        "stress.contact_max": PASCAL | MPA, Always;
+        /// Largest Hertz pressure at the pitch point of all meshes, at the mean section: one tooth pair transmits the
+        /// whole mesh load
+        "stress.contact_pitch": PASCAL | MPA, Always;
+        /// Largest root stress of the planets, from the force and the height of each tooth pair (ISO 6336-3 method B);
+        /// for lumped gears from the mesh force (ISO 10300 method B1)
+        "stress.root_planet_max": PASCAL | MPA, Always;
+        /// Largest root stress of the side gears, from the force and the height of each tooth pair (ISO 6336-3 method
+        /// B); for lumped gears from the mesh force (ISO 10300 method B1)
+        "stress.root_side_max": PASCAL | MPA, Always;
+        /// Largest contact pressure for the flank rating, used by safety.flank_min and damage: one tooth pair
+        /// transmits the mesh load at the worse inner point of single contact, with the face load factor
+        "stress.contact_rated": PASCAL | MPA, Always;
+        /// Largest flash temperature of the flanks over the whole face (Blok); 0 without effects.tooth_friction
+        "temperature.flash": KELVIN_DIFFERENCE, Always;
+        /// Largest contact temperature of the flanks: temperature.gears, plus temperature.flash with effects.strength
+        "temperature.contact": KELVIN | DEG_C, Always;
+        /// Instantaneous safety factor S_B against scuffing: strength.scuffing_temperature minus temperature.oil,
+        /// divided by temperature.contact minus temperature.oil; at most 1000
+        "safety.scuffing": ONE, Always;
+        /// Miner sum of root bending of the most damaged tooth of the planets
+        "damage.planet": ONE, ByStep;
+        /// Miner sum of root bending of the most damaged tooth of the side gears
+        "damage.side": ONE, ByStep;
+        /// Miner sum of pitting of the most damaged flank of the planets
+        "damage.planet_flank": ONE, ByStep;
+        /// Miner sum of pitting of the most damaged flank of the side gears
+        "damage.side_flank": ONE, ByStep;
+        /// Smallest safety factor S_F of all tooth roots so far: bending strength at the knee over the stress of the
+        /// pulsating cycle with the same damage, for all load cycles so far; at most 1000, and 1000 before the first
+        /// evaluated step
+        "safety.root_min": ONE, ByStep;
+        /// Smallest safety factor S_H of all flanks so far: contact strength at the knee over stress.contact_rated; at
+        /// most 1000, and 1000 before the first evaluated step
+        "safety.flank_min": ONE, ByStep;
+    };
 }
 
 impl Effect for StrengthSpec {}
-
-const fn temperature(
-    name: &'static str,
-    (unit, display): (Unit, Option<DisplayUnit>),
-    description: &'static str,
-) -> Reading {
-    Reading { name, unit, display, changes: Changes::Always, description }
-}
-
-const fn stress(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: PASCAL, display: Some(MPA), changes: Changes::Always, description }
-}
-
-const fn damage(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: ONE, display: None, changes: Changes::ByStep, description }
-}
-
-const fn safety(name: &'static str, description: &'static str) -> Reading {
-    Reading { name, unit: ONE, display: None, changes: Changes::ByStep, description }
-}
