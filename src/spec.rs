@@ -48,25 +48,17 @@ macro_rules! parameters {
         $($(#[doc = $line:literal])+ $field:ident: $type:ty = $start:expr $(, $detail:expr)*;)*
         $(..$nested:ident: $nested_type:ty $(, $default:expr)*;)*
     }) => {
-        $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-        pub struct $name {
-            $($(#[doc = $line])+ pub $field: $type,)*
-            $(#[allow(missing_docs)] pub $nested: $nested_type,)*
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self { $($field: $start,)* $($nested: Default::default(),)* }
-            }
-        }
+        $crate::parameters! { @define $(#[$about])* $name {
+            $($(#[doc = $line])+ $field: $type = $start;)*
+            $(#[allow(missing_docs)] $nested: $nested_type = Default::default();)*
+        } }
 
         impl $crate::declaration::Group for $name {
             const NAME: &'static str = $group;
         }
 
         impl $crate::declaration::Rows for $name {
-            fn rows() -> Vec<$crate::declaration::Row<$crate::declaration::Parameter<Self>>> {
+            fn rows() -> $crate::declaration::RowsOf<Self> {
                 #[allow(unused_mut)]
                 let mut rows = Vec::new();
                 $($crate::declaration::add(
@@ -86,21 +78,11 @@ macro_rules! parameters {
     ($(#[$about:meta])* pub struct $name:ident of $owner:ident: $bound:path, by $access:ident {
         $($(#[doc = $line:literal])+ $field:ident: $type:ty = $start:expr $(, $detail:expr)*;)*
     }) => {
-        $(#[$about])*
-        #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-        pub struct $name {
-            $($(#[doc = $line])+ pub $field: $type,)*
-        }
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self { $($field: $start,)* }
-            }
-        }
+        $crate::parameters! { @define $(#[$about])* $name { $($(#[doc = $line])+ $field: $type = $start;)* } }
 
         impl $name {
-            /// Rows of the parameters in the group `$owner`.
-            pub fn rows_of<$owner: $bound>() -> Vec<$crate::declaration::Row<$crate::declaration::Parameter<$owner>>> {
+            /// Rows of the parameters in the group that contains these.
+            pub fn rows_of<$owner: $bound>() -> $crate::declaration::RowsOf<$owner> {
                 let mut rows = Vec::new();
                 $($crate::declaration::add(
                     &mut rows,
@@ -108,6 +90,19 @@ macro_rules! parameters {
                     &[$(&$detail),*],
                 );)*
                 rows
+            }
+        }
+    };
+    (@define $(#[$about:meta])* $name:ident { $($(#[$doc:meta])+ $field:ident: $type:ty = $start:expr;)* }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+        pub struct $name {
+            $($(#[$doc])+ pub $field: $type,)*
+        }
+
+        impl Default for $name {
+            fn default() -> Self {
+                Self { $($field: $start,)* }
             }
         }
     };

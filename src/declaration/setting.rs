@@ -15,31 +15,24 @@ pub trait Setting: Copy + PartialEq + 'static {
     fn parameter<P: Copy + 'static>(at: Field<P, Self>) -> Parameter<P>;
 }
 
-impl Setting for f64 {
-    fn number(self) -> f64 {
-        self
-    }
-    fn parameter<P>(at: Field<P, Self>) -> Parameter<P> {
-        Parameter::Real(at)
-    }
+macro_rules! settings {
+    ($($type:ty: $kind:ident, |$value:ident| $number:expr;)+) => {
+        $(impl Setting for $type {
+            fn number(self) -> f64 {
+                let $value = self;
+                $number
+            }
+            fn parameter<P>(at: Field<P, Self>) -> Parameter<P> {
+                Parameter::$kind(at)
+            }
+        })+
+    };
 }
 
-impl Setting for i32 {
-    fn number(self) -> f64 {
-        f64::from(self)
-    }
-    fn parameter<P>(at: Field<P, Self>) -> Parameter<P> {
-        Parameter::Integer(at)
-    }
-}
-
-impl Setting for bool {
-    fn number(self) -> f64 {
-        f64::from(u8::from(self))
-    }
-    fn parameter<P>(at: Field<P, Self>) -> Parameter<P> {
-        Parameter::Boolean(at)
-    }
+settings! {
+    f64: Real, |value| value;
+    i32: Integer, |value| f64::from(value);
+    bool: Boolean, |value| f64::from(u8::from(value));
 }
 
 impl<E: Choices + PartialEq> Setting for E {
@@ -57,10 +50,13 @@ impl<E: Choices + PartialEq> Setting for E {
     }
 }
 
+/// Rows of parameters in the group, or groups, `P`.
+pub type RowsOf<P> = Vec<Row<Parameter<P>>>;
+
 /// Group, or groups, with rows of their parameters.
 pub trait Rows: Sized {
     /// Rows of the parameters.
-    fn rows() -> Vec<Row<Parameter<Self>>>;
+    fn rows() -> RowsOf<Self>;
     /// Group of the type `kind`; `None` if there is no such group.
     fn find(&self, kind: TypeId) -> Option<&dyn Any>;
 }
@@ -77,21 +73,11 @@ pub fn add<A>(rows: &mut Vec<Row<A>>, mut of_field: Vec<Row<A>>, details: &[&dyn
 /// Type of a field of a group of parameters `P`: one parameter, or a pair.
 pub trait Declared: Sized {
     /// Rows of the field `name` of the group `group`.
-    fn rows<P: Copy + 'static>(
-        group: &str,
-        name: &str,
-        description: &'static str,
-        at: Field<P, Self>,
-    ) -> Vec<Row<Parameter<P>>>;
+    fn rows<P: Copy + 'static>(group: &str, name: &str, description: &'static str, at: Field<P, Self>) -> RowsOf<P>;
 }
 
 impl<T: Setting> Declared for T {
-    fn rows<P: Copy + 'static>(
-        group: &str,
-        name: &str,
-        description: &'static str,
-        at: Field<P, Self>,
-    ) -> Vec<Row<Parameter<P>>> {
+    fn rows<P: Copy + 'static>(group: &str, name: &str, description: &'static str, at: Field<P, Self>) -> RowsOf<P> {
         vec![row(name_within(group, name), description.trim_start()).map(|()| T::parameter(at))]
     }
 }
@@ -101,12 +87,7 @@ const SIDES: [&str; 2] = ["left", "right"];
 
 /// One parameter for each side. Its description contains `{side}`.
 impl<T: Setting> Declared for [T; 2] {
-    fn rows<P: Copy + 'static>(
-        group: &str,
-        name: &str,
-        description: &'static str,
-        at: Field<P, Self>,
-    ) -> Vec<Row<Parameter<P>>> {
+    fn rows<P: Copy + 'static>(group: &str, name: &str, description: &'static str, at: Field<P, Self>) -> RowsOf<P> {
         let of = |s: usize| {
             let description = store_text(&description.replace("{side}", SIDES[s]));
             T::rows(group, &format!("{}_{name}", SIDES[s]), description, store(move |p| &mut at(p)[s]))

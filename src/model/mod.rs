@@ -52,4 +52,4 @@ pub use scene::{
 };
 pub use setup::Parameters;
 pub use setup::advice::turned_backward;
-pub use setup::effect_outputs::{CONTACT_HEAT, heats, readings};
+pub use setup::effect_outputs::{ALL_HEATS, CONTACT_HEAT, readings};

@@ -3,7 +3,7 @@
 use super::access::OutputSource::{self, Reading};
 use crate::declaration::units::*;
 use crate::declaration::{Row, Shown, row};
-use crate::model::{CONTACT_HEAT, Changes, MAX_PLANETS, PAIRS, efficiency, heats, readings};
+use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, PAIRS, efficiency, readings};
 use crate::static_memory::store_text;
 
 /// Placeholder for a side.
@@ -48,8 +48,8 @@ fn add(
 pub fn rows() -> Vec<Row<OutputSource>> {
     let mut rows = Vec::new();
     add_own(&mut rows);
-    for (place, heat) in heats().enumerate() {
-        let source = OutputSource::Ledger(CONTACT_HEAT + 1 + place, |ledger, place| ledger.heat[place]);
+    for (place, heat) in ALL_HEATS.iter().enumerate() {
+        let source = OutputSource::Ledger(place, |ledger, place| ledger.heat[place]);
         rows.push(row(heat.output, heat.description).output(JOULE, source));
     }
     let (mut at_instants, mut by_steps) = (0.., 0..);
@@ -146,8 +146,6 @@ fn add_own(rows: &mut Vec<Row<OutputSource>>) {
         /// Difference over sum of half-shaft torques, averaged over the last whole mesh cycle if shafts twist; 0 if
         /// the sum is below 1e-3 N.m; at most 1e6
         "locking_value": ONE, Forces(|f, _| f.locking_value);
-        /// Heat of contact damping since the start
-        "heat.contact": JOULE, Ledger(|l, _| l.heat[CONTACT_HEAT]);
         /// Number of side gears that dry friction holds to the carrier
         "held.sides": ONE, Ledger(|l, _| l.held[0]);
         /// Number of planet groups that dry friction holds on their pins

@@ -7,6 +7,7 @@ mod commands;
 #[path = "../common/mod.rs"]
 mod common;
 mod communication;
+mod declaration;
 mod differential;
 mod effective;
 mod gear_cache;

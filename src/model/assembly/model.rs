@@ -14,7 +14,7 @@ use crate::model::effect_kinds::body_friction::PARTS;
 use crate::model::effect_kinds::{BUILT, Friction, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
-use crate::model::setup::{CONTACT_HEAT, HEAT_OUTPUTS, HEATS, Parameters, SceneEffects, advice, validation};
+use crate::model::setup::{ALL_HEATS, CONTACT_HEAT, HEATS, Parameters, SceneEffects, advice, validation};
 use crate::model::thermal::Network;
 use crate::problem::Problem;
 
@@ -183,7 +183,7 @@ impl Model {
 fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
     let [planet, side] = masses.map(|gear| gear.mass);
     let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
-    p.specs.warm_up.network(gears, p.oil.temperature, HEAT_OUTPUTS)
+    p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.output))
 }
 
 /// Influence of effects on single teeth. Solid teeth include their errors directly.

@@ -24,7 +24,7 @@ use std::any::{Any, TypeId};
 use serde::{Deserialize, Serialize};
 
 use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
-use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, Setting, row};
+use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, RowsOf, Setting, row};
 use crate::friction::ToothFrictionSpec;
 use crate::geometry::PlainTeeth;
 use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Reading};
@@ -141,7 +141,7 @@ macro_rules! effects {
         }
 
         impl Rows for Effects {
-            fn rows() -> Vec<Row<Parameter<Self>>> {
+            fn rows() -> RowsOf<Self> {
                 let teeth = PlainTeeth::rows().into_iter().map(|row| row.map(|at| at.within(|e: &mut Self| &mut e.teeth)));
                 let effects = [$(switch::<$effect>(concat!("effects.", stringify!($name)), &|e| &mut e.$name)),+];
                 teeth.chain(effects).collect()
@@ -153,7 +153,7 @@ macro_rules! effects {
         }
 
         impl Rows for EffectParameters {
-            fn rows() -> Vec<Row<Parameter<Self>>> {
+            fn rows() -> RowsOf<Self> {
                 let mut rows = Vec::new();
                 $(rows.extend(within(Some(switched!($effect, stringify!($name), true)), |p| &mut p.$name));)+
                 $(rows.extend(within(None, |p| &mut p.$command));)+

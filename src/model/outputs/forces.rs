@@ -12,7 +12,7 @@ use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
-use crate::model::setup::effect_outputs::{HEATS_WITHIN, INSTANT_READINGS, places_of};
+use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, places_of};
 use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
 use crate::numeric::{sin, sqrt};
@@ -199,7 +199,7 @@ fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl Fri
 
 /// Power turned into heat within the differential [W].
 fn lost(heat: &[f64; HEATS]) -> f64 {
-    heat.iter().zip(HEATS_WITHIN).map(|(heat, within)| if within { *heat } else { 0.0 }).sum()
+    heat.iter().zip(&ALL_HEATS).map(|(heat, of)| if of.at_wheels { 0.0 } else { *heat }).sum()
 }
 
 /// Forces of the differential with teeth, to the requested `extent`.

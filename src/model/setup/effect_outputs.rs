@@ -64,46 +64,28 @@ const fn is_same(a: &str, b: &str) -> bool {
     i == a.len() && i == b.len()
 }
 
-/// Heats of the effects, in the order of the ledger.
-pub fn heats() -> impl Iterator<Item = Heat> {
-    (0..EFFECTS.len()).filter(|&i| is_first(i)).filter_map(|i| EFFECTS[i].heat)
-}
-
-/// Names of the outputs of all heats of the ledger.
-pub const HEAT_OUTPUTS: [&str; HEATS] = {
-    let (mut outputs, mut place, mut i) = (["heat.contact"; HEATS], CONTACT_HEAT, 0);
+/// Heats of the ledger, in its order.
+pub const ALL_HEATS: [Heat; HEATS] = {
+    let contact =
+        Heat { output: "heat.contact", description: "Heat of contact damping since the start", at_wheels: false };
+    let (mut heats, mut place, mut i) = ([contact; HEATS], CONTACT_HEAT, 0);
     while i < EFFECTS.len() {
         if is_first(i)
             && let Some(heat) = EFFECTS[i].heat
         {
             place += 1;
-            outputs[place] = heat.output;
+            heats[place] = heat;
         }
         i += 1;
     }
-    outputs
+    heats
 };
 
 /// Index of a heat in the ledger. Without a heat, it is the index of the contact heat.
 pub fn heat_index(heat: Option<Heat>) -> usize {
-    let place = heat.and_then(|heat| heats().position(|other| other.output == heat.output));
-    place.map_or(CONTACT_HEAT, |place| CONTACT_HEAT + 1 + place)
+    let is_its = |other: &Heat| heat.is_some_and(|heat| heat.output == other.output);
+    ALL_HEATS.iter().position(is_its).unwrap_or(CONTACT_HEAT)
 }
-
-/// True for each heat of the ledger that arises within the differential, not at the wheels.
-pub const HEATS_WITHIN: [bool; HEATS] = {
-    let (mut within, mut place, mut i) = ([true; HEATS], CONTACT_HEAT, 0);
-    while i < EFFECTS.len() {
-        if is_first(i)
-            && let Some(heat) = EFFECTS[i].heat
-        {
-            place += 1;
-            within[place] = !heat.at_wheels;
-        }
-        i += 1;
-    }
-    within
-};
 
 /// Readings of all effects, in their order.
 pub fn readings() -> impl Iterator<Item = &'static Reading> {

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::SceneEffects;
 use crate::contact::ContactSpec;
-use crate::declaration::{Groups, Parameter, Row, Rows};
+use crate::declaration::{Groups, Rows, RowsOf};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::Setting;
 use crate::model::effects::{EffectParameters, Effects};
@@ -27,7 +27,7 @@ macro_rules! groups {
         }
 
         impl Rows for Parameters {
-            fn rows() -> Vec<Row<Parameter<Self>>> {
+            fn rows() -> RowsOf<Self> {
                 let mut rows = Vec::new();
                 $(rows.extend(<$type>::rows().into_iter().map(|row| row.map(|at| at.within(|p: &mut Self| &mut p.$name))));)+
                 rows

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::declaration::units::{NEWTON_METRE, RAD_PER_S, RPM};
-use crate::declaration::{Condition, Declared, Field, Parameter, Row, add, all, any, when};
+use crate::declaration::{Condition, Declared, Field, RowsOf, add, all, any, when};
 use crate::model::effect_kinds::TorqueCurve;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::problem::Problem;
@@ -51,7 +51,7 @@ pub fn holds() -> Condition {
 }
 
 impl Declared for [CurvePoint; POINTS] {
-    fn rows<P: Copy + 'static>(group: &str, _: &str, _: &'static str, at: Field<P, Self>) -> Vec<Row<Parameter<P>>> {
+    fn rows<P: Copy + 'static>(group: &str, _: &str, _: &'static str, at: Field<P, Self>) -> RowsOf<P> {
         let has_torque = has_torque();
         let mut rows = Vec::new();
         for i in 0..POINTS {

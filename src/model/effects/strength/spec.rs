@@ -59,11 +59,6 @@ impl Declare for StrengthSpec {
         why: "it follows from the forces of the meshes",
     });
 
-    fn needs() -> Vec<(Need, Condition)> {
-        // flash temperatures are added to it
-        vec![(Need::Temperature, on!(Self))]
-    }
-
     const READINGS: &'static [Reading] = readings! {
         /// Largest Hertz pressure of all tooth pairs at their contact positions
         "stress.contact_max": PASCAL | MPA, Always;
@@ -102,6 +97,11 @@ impl Declare for StrengthSpec {
         /// most 1000, and 1000 before the first evaluated step
         "safety.flank_min": ONE, ByStep;
     };
+
+    fn needs() -> Vec<(Need, Condition)> {
+        // flash temperatures are added to it
+        vec![(Need::Temperature, on!(Self))]
+    }
 }
 
 impl Effect for StrengthSpec {}
