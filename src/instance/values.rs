@@ -3,7 +3,7 @@
 use super::exchange::check_state;
 use super::instance::is_tolerance;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase};
-use crate::model::{LedgerReadings, Motion, STATES, removed_method};
+use crate::model::{LedgerReadings, Motion, STATES};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
 /// FMI type of a variable, as used in the names of FMI functions.
@@ -71,8 +71,7 @@ fn output_error(reference: u32, row: &Variable) -> CallError {
 
 fn choice_error(row: &Variable, kind: &EnumType, value: i32) -> CallError {
     let choices: Vec<_> = kind.choices.iter().map(|c| format!("{} = {}", c.value, c.name)).collect();
-    let removed = removed_method(&value.to_string(), kind.choices.iter().map(|c| c.name));
-    CallError::error(format!("{}: {value} is not one of {}{removed}", row.name, choices.join(", ")))
+    CallError::error(format!("{}: {value} is not one of {}", row.name, choices.join(", ")))
 }
 
 /// Adds to an error of a call with `count` values that none of them was set.

@@ -48,7 +48,7 @@ pub use scene::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,
-    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start, removed_method,
+    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use setup::Parameters;
 pub use setup::advice::turned_backward;

@@ -82,6 +82,13 @@ fn a_tunable_parameter_takes_effect_in_a_running_simulation() {
 }
 
 #[test]
+fn the_number_of_an_unknown_choice_is_refused_with_the_choices() {
+    let host = Host::new();
+    assert_eq!(host.set_integer("solver.method", 4), Status::Error);
+    assert_contains(&host.last_message(), &["solver.method: 4 is not one of 1 = adaptive, 2 = fixed_step, 3 = radau"]);
+}
+
+#[test]
 fn wrong_types_and_unknown_references_are_named() {
     let host = Host::new();
     let unknown = table().rows.len() as u32;

@@ -225,17 +225,17 @@ fn a_state_saved_within_a_cycle_continues_with_the_same_bits() {
 }
 
 #[test]
-fn states_of_the_previous_format_are_refused_by_name() {
+fn states_of_another_format_are_refused_by_name() {
     let host = turn(1.0, &[], &[]);
     let state = host.get_state();
     let mut bytes = host.serialize(state);
     host.free_state(state);
     let own = bytes[8];
-    bytes[8] -= 1;
+    bytes[8] += 1;
     assert_eq!(host.deserialize(&bytes).0, Status::Error);
     crate::common::assert_contains(
         &host.last_message(),
-        &[&format!("format {}", own - 1), &format!("reads format {own}")],
+        &[&format!("format {}", own + 1), &format!("reads format {own}")],
     );
 }
 

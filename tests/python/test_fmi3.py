@@ -216,6 +216,7 @@ def test_states_go_back_and_are_refused_by_the_other_version(fmu3, fmu, plain_ou
 @pytest.mark.parametrize("act, words", [
     (lambda unit: unit.set({"geometry.planet_count": 3}), "set it between fmi3EnterConfigurationMode"),
     (lambda unit: unit.set({"left.speed": 3.0}), "left.speed is an output and cannot be set"),
+    (lambda unit: unit.set({"solver.method": 4}), "solver.method: 4 is not one of 1 = adaptive, 2 = fixed_step, 3 = radau"),
     (lambda unit: unit.step(0.0, 0.1), "not legal in the state \"instantiated\"; legal in \"step complete\""),
     (lambda unit: unit.raw.enterEventMode(), "not legal in the state"),
     (lambda unit: unit.raw.fmi3GetFloat64(unit.raw.component, (ctypes.c_uint * 1)(99999), 1, (ctypes.c_double * 1)(), 1),

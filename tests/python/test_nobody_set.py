@@ -206,7 +206,7 @@ def test_the_plan_and_the_report_list_unset_values_by_effect(fmu_file, tmp_path)
     # the loads are set, and change later
     assert "drives and loads" not in groups and "lock" not in groups
     page = tmp_path / "page.html"
-    assert main(["report", "--scene", "limited_slip", "--fmu", fmu_file, "--quick", "--out", str(page)]) == 0
+    assert main(["report", "limited_slip", "--fmu", fmu_file, "--quick", "--out", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
     assert "Values that act and that nobody set" in text and groups["half_shaft"] in text
 

@@ -154,7 +154,7 @@ def test_the_commands_and_the_report_warn_once(fmu_file, tmp_path, capsys):
         printed = capsys.readouterr()
         assert printed.err.count(said) == 1 and said not in printed.out
         page = tmp_path / "hil.html"
-        assert main(["report", "--scene", "hil", *scene[1:], "--quick", "--out", str(page)]) == 0
+        assert main(["report", "hil", *scene[1:], "--quick", "--out", str(page)]) == 0
         assert page.read_text(encoding="utf-8").count(said) == 1
 
 

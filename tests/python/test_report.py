@@ -69,7 +69,7 @@ def test_every_scene_has_a_report_whose_figures_show_something(name, fmu_file):
 
 def test_a_quick_report_omits_the_parts_that_need_other_runs(monkeypatch):
     in_haste(monkeypatch)
-    assert main(["report", "--scene", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
+    assert main(["report", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
     page = ReportPage(Path("report-study_turning.html").read_text(encoding="utf-8"))
     assert set(page.figures) == ALL - {"inputs", "waterfall", "worth"}
     assert "700 N·m" in page.sections["setup"]
@@ -103,11 +103,11 @@ def test_report_and_accuracy_agree_on_the_kinds_of_effects():
 
 
 @pytest.mark.parametrize("arguments, said", [
-    ([], "name a scene"),
+    ([], "required: scene"),
     (["study_turnin"], "did you mean study_turning"),
     (["study_turning", "--out", "nowhere/report.html"], "there is no folder"),
-    (["--scene", "study_turning", "--set", "left.load_torque"], "write NAME=VALUE"),
-    (["--scene", "study_turning", "--set", "geometry.module=0"], "geometry.module"),
+    (["study_turning", "--set", "left.load_torque"], "write NAME=VALUE"),
+    (["study_turning", "--set", "geometry.module=0"], "geometry.module"),
 ])
 def test_wrong_use_is_reported_in_one_line(arguments, said, capsys):
     assert main(["report", *arguments]) == 2

@@ -61,7 +61,7 @@ RUNS = {
     "run": (["{}/scene.toml", "--csv", "{}/a.csv", "--plot", "{}/a.png"], [WIDE, UNFELT, STIFFNESS]),
     "plan": (["{}/scene.toml"], [WIDE, UNFELT, STIFFNESS]),
     "accuracy": (["{}/scene.toml", "--within", "20%", "--want", "left.speed:mean", "--set", "scene.gear_contact=lumped"], [WIDE, UNFELT]),
-    "report": (["--scene", "{}/scene.toml", "--quick", "--out", "{}/report.html"], [WIDE, UNFELT, STIFFNESS]),
+    "report": (["{}/scene.toml", "--quick", "--out", "{}/report.html"], [WIDE, UNFELT, STIFFNESS]),
     "loads": (["{}/scene.toml", "--out", "{}/loads.csv"], [WIDE, UNFELT, STIFFNESS]),
     "geometry": (["--set", "geometry.face_width=22 mm", "--out", "{}/geometry"], [WIDE]),
     "pattern": (["{}/scene.toml", "--out", "{}/pattern"], [WIDE, UNFELT, STIFFNESS]),

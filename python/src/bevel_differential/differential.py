@@ -75,13 +75,14 @@ class Runner(Closing):
         """Initialises an instance, steps from point to point, and records. A jump of inputs has two rows, before and after it."""
         if isinstance(outputs, str) or not any(name in QUANTITIES for name in outputs):
             return self._recorded_outputs(steps, signals, outputs, values)
-        shown = [self.fmu.output(name) for name in outputs]
+        for name in outputs:
+            self.fmu.output(name)
         names = dict.fromkeys(other for name in outputs for other in outputs_of(name)) or ["geometry.planet_count"]
         record = self._recorded_outputs(steps, signals, list(names), values)
         parameters = {**self.fmu.starts(), **self.values, **{variable.name: value for variable, value in self.fmu.numbers(values)}}
         columns = [series(name, parameters, record) if name in QUANTITIES else record[name] for name in outputs]
-        found = np.empty(len(record), [("time", np.float64), *(field(*each) for each in zip(shown, outputs, (one.dtype for one in columns)))])
-        for name, column in zip(["time", *(each.name for each in shown)], [record["time"], *columns]):
+        found = np.empty(len(record), [("time", np.float64), *((name, column.dtype) for name, column in zip(outputs, columns))])
+        for name, column in zip(["time", *outputs], [record["time"], *columns]):
             found[name] = column
         return found
 
@@ -100,7 +101,7 @@ class Runner(Closing):
         batches, times = Batches.of(variables), times_of_rows(steps)
         record = batches.record(len(times))
         _advance(instance, batches, record, steps, signals)
-        return _structured(times, variables, outputs, batches, record)
+        return _structured(times, variables, batches, record)
 
     def _initialise(self, instance, values):
         instance.initialise({**self.values, **(values or {})})
@@ -224,14 +225,9 @@ def _advance(instance, batches, record, steps, signals):
             read(end)
 
 
-def field(variable: Variable, asked: str, kind: Any) -> tuple:
-    """Field of a variable in a structured array. If the former name was requested, the field has both names."""
-    return (variable.name if asked == variable.name else (asked, variable.name), kind)
-
-
-def _structured(points, variables, outputs, batches, record):
+def _structured(points, variables, batches, record):
     kinds = {"Real": np.float64, "Integer": np.int32, "Enumeration": np.int32, "Boolean": np.bool_}
-    fields = [("time", np.float64)] + [field(variable, asked, kinds[variable.kind]) for variable, asked in zip(variables, outputs)]
+    fields = [("time", np.float64)] + [(variable.name, kinds[variable.kind]) for variable in variables]
     result = np.empty(len(points), fields)
     result["time"] = points
     for (_, places, _, _), block in zip(batches.groups, record):

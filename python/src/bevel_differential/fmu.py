@@ -16,7 +16,6 @@ from fmpy import extract, read_model_description
 
 from .answers import about, ask
 from .curve import expanded
-from .former_names import present
 from .instance import Instance
 from .quantities import QUANTITIES
 from .quantities import variable as quantity
@@ -30,19 +29,6 @@ _lock = threading.Lock()
 
 SETTABLE = ("parameter", "input")
 NO_FMU = "{}: not an FMU ({}); name a file that ends with .fmu"
-
-
-class _ByName(dict[str, Variable]):
-    """Variables by name; former names also find them."""
-
-    def __missing__(self, name: str) -> Variable:
-        now = present(name)
-        if now == name:
-            raise KeyError(name)
-        return self[now]
-
-    def __contains__(self, name: object) -> bool:
-        return super().__contains__(name) or isinstance(name, str) and super().__contains__(present(name))
 
 
 class Fmu:
@@ -62,7 +48,7 @@ class Fmu:
             _extracted.append((os.getpid(), self.folder))
         self.description = read_model_description(self.folder)
         units = {unit.name: unit for unit in self.description.unitDefinitions}
-        self.variables = _ByName((each.name, Variable(each, units)) for each in self.description.modelVariables)
+        self.variables = {each.name: Variable(each, units) for each in self.description.modelVariables}
         self.display_units: dict[str, str] = {}
         self._displaying: dict[tuple[str, ...], "Fmu"] = {}
 
@@ -109,8 +95,8 @@ class Fmu:
         if key not in self._displaying:
             # `copy.copy` would use `__reduce__`
             other = object.__new__(type(self))
-            other.__dict__.update(self.__dict__, display_units=preferred, variables=_ByName(
-                (name, each.shown_in(preferred.get(each.unit or ""))) for name, each in self.variables.items()))
+            other.__dict__.update(self.__dict__, display_units=preferred, variables={
+                name: each.shown_in(preferred.get(each.unit or "")) for name, each in self.variables.items()})
             self._displaying[key] = other
         return self._displaying[key]
 
@@ -185,14 +171,8 @@ class Fmu:
     def numbers(self, values: Mapping[str, Value] | None = None, **keywords: Value) -> list[tuple[Variable, Number]]:
         """Pairs (variable, number) of parameters and inputs in the form of the FMU; values as in `Differential.set`."""
         named = {name.replace("__", "."): value for name, value in keywords.items()}
-        pairs = []
-        for name, value in expanded({**(values or {}), **named}).items():
-            variable = self.settable(name)
-            number = variable.checked(value)
-            if any(variable is known for known, _ in pairs):
-                raise DifferentialError(f"{variable.name}: it is given twice, once by its former name; leave one of them out")
-            pairs.append((variable, number))
-        return pairs
+        variables = ((self.settable(name), value) for name, value in expanded({**(values or {}), **named}).items())
+        return [(variable, variable.checked(value)) for variable, value in variables]
 
     def open(self, kind: str = "CoSimulation", name: str = "differential") -> Instance:
         """New instance for single calls; `kind` is "CoSimulation" or "ModelExchange", `name` appears in logs.

@@ -92,8 +92,6 @@ class Signals:
         constants, tables = [], []
         for name, given in _pairs(inputs):
             variable = changing_variable(fmu, name)
-            if any(variable is known for known in [*(table.variable for table in tables), *(other for other, _ in constants)]):
-                raise DifferentialError(f"{variable.name}: it is given twice, once by its former name; leave one of them out")
             if isinstance(given, tuple) and len(given) == 2 and np.ndim(given[0]) == 1:
                 tables.append(Table(variable, *given))
             else:

@@ -9,7 +9,6 @@ import numpy as np
 from .differential import Runner, as_frame
 from .extras import needed, require
 from .fmu import Fmu
-from .former_names import by_present_names, present
 from .inputs import Signals, Table, Values, input_variable
 from .off_outputs import OffOutputs, largest
 from .output_file import checked
@@ -50,8 +49,8 @@ class Scene(Runner):
         if self.step > self.stop > 0.0:
             raise DifferentialError(f"step = {self.step:g} s is longer than stop_time = {self.stop:g} s")
         self.outputs = [self.fmu.output(output).name for output in outputs]
-        self.changes = [(seconds("time", time), by_present_names(values)) for time, values in changes]
-        self.tables = [(present(name), times, values, period) for name, times, values, period in tables]
+        self.changes = [(seconds("time", time), dict(values)) for time, values in changes]
+        self.tables = list(tables)
         self.input_slopes = input_slopes
         super().set(set)
         self._signals = self._checked_signals()
@@ -79,7 +78,7 @@ class Scene(Runner):
     def check_settable(self, names: Iterable[str]) -> None:
         """Refuses names of inputs that follow a table, because a value for them would have no effect."""
         driven = {table.variable.name for table in self._signals.tables}
-        for name in map(present, names):
+        for name in names:
             if name in driven:
                 raise DifferentialError(f"{name} follows a table in the scene, which overrides a value; change the table")
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from .answers import about, ask, scenes
-from .former_names import by_present_names
 from .values import DifferentialError, FileName, suggestion
 
 
@@ -52,9 +51,9 @@ def read_toml(file: Path) -> dict[str, Any]:
 
 
 def flat(table: Mapping[str, Any], prefix: str = "", ends: Set[str] = frozenset()) -> dict[str, Any]:
-    """Values by dotted names; variables have their present names. A table with one of the keys `ends` is a value."""
+    """Values by dotted names. A table with one of the keys `ends` is a value."""
     values: dict[str, Any] = {}
     for key, value in table.items():
         name = f"{prefix}{key}"
         values.update(flat(value, f"{name}.", ends) if isinstance(value, dict) and not value.keys() & ends else {name: value})
-    return values if prefix else by_present_names(values)
+    return values

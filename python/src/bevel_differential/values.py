@@ -292,4 +292,4 @@ def _near(word, known):
         # the message is valid without a suggestion
         return "", ""
     near = f" (did you mean {' or '.join(found['near'])}?)" if found["near"] else ""
-    return found["removed"] or near, f"; {found['find']}"
+    return near, f"; {found['find']}"

@@ -18,4 +18,4 @@ pub use layout::{
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};
 pub use plan::{Group, Plan, Requests};
-pub use solver::{Method, SolidTeeth, SolverSpec, removed_method};
+pub use solver::{Method, SolidTeeth, SolverSpec};

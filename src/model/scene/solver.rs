@@ -13,17 +13,6 @@ choices! {
     }
 }
 
-/// Returns advice for messages if `given` is the value or the literal of a removed integration method, and an empty
-/// string otherwise. `names` are the literals of the enumeration in question.
-pub fn removed_method<'a>(given: &str, mut names: impl Iterator<Item = &'a str>) -> &'static str {
-    match given {
-        "4" | "rodas4" | "5" | "dormand_prince" if names.any(|name| name == Method::Radau.literal()) => {
-            "; this method was removed, use adaptive"
-        }
-        _ => "",
-    }
-}
-
 parameters! {
     /// Accuracy and method of integration.
     pub struct SolverSpec in "solver" {

@@ -15,7 +15,7 @@ use super::words::{percent, setting};
 use crate::scene::acting::{acting, acts};
 use crate::scene::curve::{self, CURVE};
 use crate::scene::set::{Setting, SettingValue};
-use crate::scene::{Scene, former_names, load};
+use crate::scene::{Scene, load};
 use crate::text::shown;
 
 /// Returns the text of the scene file with the chosen setting, to be saved at `to`.
@@ -50,8 +50,7 @@ pub fn text(answer: &Answer, original: &str) -> Result<String> {
     }
     let set = document.entry("set").or_insert_with(|| Item::Table(Table::new()));
     for (row, value) in differing(&written, &wanted) {
-        let former = former_names::of(row.name).filter(|former| contains(set, former));
-        put(set, former.as_deref().unwrap_or(row.name), value)?;
+        put(set, row.name, value)?;
     }
     let head = format!(
         "# Made from scene {}: {}.\n# Error {} relative to the richest model; {} % is allowed.\n\n",
@@ -141,13 +140,6 @@ fn value(row: &'static Variable, p: &Parameters, i: &Inputs) -> Option<Value> {
         SettingValue::Boolean(truth) => truth.into(),
         SettingValue::Literal(_) => setting.text().into(),
     })
-}
-
-/// True if `set` contains this variable.
-fn contains(set: &Item, name: &str) -> bool {
-    let has =
-        |item: Option<&Item>, key| item.and_then(Item::as_table_like).is_some_and(|table| table.contains_key(key));
-    has(Some(set), name) || name.split_once('.').is_some_and(|(group, last)| has(set.get(group), last))
 }
 
 /// Sets a variable in its existing entry, or adds an entry.

@@ -55,7 +55,7 @@ pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), Stri
 }
 
 /// Name of the output in `OUTPUT:STATISTIC`.
-pub fn name(text: &str) -> &str {
+fn name(text: &str) -> &str {
     text.split_once(':').map_or(text, |(name, _)| name).trim()
 }
 

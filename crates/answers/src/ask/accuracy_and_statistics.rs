@@ -14,11 +14,11 @@ use crate::accuracy::record::Record;
 use crate::accuracy::statistic::{Rotation, Statistic};
 use crate::accuracy::switches::Switch;
 use crate::accuracy::words::difference;
-use crate::accuracy::{Question, chosen, report, table, want};
+use crate::accuracy::{Question, chosen, report, table};
 use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
 use crate::scene::acting::acting;
-use crate::scene::{former_names, script, ssv};
+use crate::scene::{script, ssv};
 
 /// Request for the cheapest model of a scene that gives the wanted quantities within an accuracy.
 #[derive(Deserialize)]
@@ -81,7 +81,6 @@ impl StatisticNameQuestion {
 impl AccuracyQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
-        progress.warn(former_names::notes(self.want.iter().map(|want| want::name(want))));
         let question = Question {
             wants: self.want.clone(),
             within: fraction(&self.within)?,

@@ -28,8 +28,6 @@ use crate::progress::{Progress, Stopped};
 pub enum Question {
     /// All scenes of a folder, with their descriptions.
     Scenes(scenes::ScenesQuestion),
-    /// The former names of variables.
-    FormerNames,
     /// Settings of clutch packs from their dimensions.
     Clutch(scenes::ClutchQuestion),
     /// Settings of all points of a measured clutch curve.
@@ -77,7 +75,6 @@ pub enum Question {
 pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Result<Value> {
     let answer = match question {
         Question::Scenes(question) => question.answer(),
-        Question::FormerNames => Ok(scenes::former_names()),
         Question::Clutch(question) => question.answer(),
         Question::Curve(question) => question.answer(),
         Question::Scene(question) => question.values(progress),

@@ -1,4 +1,4 @@
-//! Questions about scenes: values, plans, runs, exports, tooth loads, contact patterns, and former names of variables.
+//! Questions about scenes: values, plans, runs, exports, tooth loads, and contact patterns.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -16,7 +16,7 @@ use crate::progress::Progress;
 use crate::scene::run::{SceneRun, run};
 use crate::scene::set::{Setting, changed_values};
 use crate::scene::value::of_text;
-use crate::scene::{self, InputTable, Scene, acting, clutch, curve, former_names, loads, off, plan, script, ssv};
+use crate::scene::{self, InputTable, Scene, acting, clutch, curve, loads, off, plan, script, ssv};
 use crate::text::{shown, whole_file};
 
 /// Request for all scenes of a folder.
@@ -223,15 +223,6 @@ impl PatternQuestion {
         }
         Ok(json!({"text": text, "document": findings::markdown(&patterns.findings), "files": files}))
     }
-}
-
-/// Former names of variables, each with the present name and the message for users of the former name.
-pub(super) fn former_names() -> Value {
-    let names = former_names::all().map(|(once, now)| {
-        let says = former_names::note(&once);
-        (once, json!({"name": now.name, "says": says}))
-    });
-    json!({"names": names.collect::<Map<String, Value>>()})
 }
 
 /// Values by name.

@@ -37,7 +37,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// Returns the scene. Warns about former names of variables.
+    /// Returns the scene. Warns about unused columns of its input files.
     pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
         let mut scene = match &self.given {
             Some(file) => load::given(&self.name, Path::new(&self.name), file, &self.contents)?,

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
-use bevel_differential::model::removed_method;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -137,11 +136,9 @@ impl TableQuestion {
 }
 
 impl NearQuestion {
-    /// Returns the most similar names, a hint on how to find an unknown variable, and advice on a removed choice.
+    /// Returns the most similar names, and a hint on how to find an unknown variable.
     pub(super) fn answer(&self) -> Value {
-        let known = || self.known.iter().map(String::as_str);
-        let removed = removed_method(&self.word, known());
-        json!({"near": near(&self.word, known()), "find": how_to_find(&self.word), "removed": removed})
+        json!({"near": near(&self.word, self.known.iter().map(String::as_str)), "find": how_to_find(&self.word)})
     }
 }
 

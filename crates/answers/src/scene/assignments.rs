@@ -5,7 +5,7 @@ use std::path::Path;
 use super::set::variable;
 use super::times::{check_step, duration, span};
 use super::value::of_text;
-use super::{Scene, curve, former_names};
+use super::{Scene, curve};
 use crate::problem::{Problem, Problems};
 use crate::text::near;
 
@@ -23,8 +23,6 @@ pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), 
             continue;
         };
         let (name, text) = (name.trim(), text.trim());
-        scene.notes.extend(former_names::notes([name]));
-        let name = former_names::present(name);
         if let Some(problem) = curve::set_twice(name, &named) {
             problems.push(problem);
             continue;

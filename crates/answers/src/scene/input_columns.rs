@@ -212,11 +212,6 @@ pub fn not_a_number() -> String {
 }
 
 impl Column {
-    /// Name of the input as written.
-    pub fn name(&self) -> &str {
-        split_header_cell(&self.header_cell).0
-    }
-
     /// Adds the value in a cell.
     pub fn take(&mut self, line: u64, cell: &str) {
         match self.value(cell) {

@@ -13,13 +13,12 @@ use std::path::Path;
 use schedule::Table;
 
 use super::input_columns::{Column, Found, Wanted, not_a_number};
-use super::{InputTable, former_names, units};
+use super::{InputTable, units};
 use crate::text;
 use crate::text::csv_input::{self, CsvInput};
 
-/// Returns the inputs in `file`, all repeated after `period` [s] if there is one, and messages about former names and
-/// columns that are not used. `content`: text of the file as CSV, if the caller has read it. Fails with all problems of
-/// the file.
+/// Returns the inputs in `file`, all repeated after `period` [s] if there is one, and messages about columns that are
+/// not used. `content`: text of the file as CSV, if the caller has read it. Fails with all problems of the file.
 pub fn read(
     file: &Path,
     content: Option<&str>,
@@ -37,17 +36,18 @@ pub fn read(
         Err(problem) if content.is_some() || file.is_file() => Err(vec![problem]),
         Err(problem) => Err(vec![format!("{problem}; the path in file = is relative to the scene's own file")]),
     };
-    let (tables, notes, outputs) =
+    let (tables, outputs) =
         found.map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect::<Vec<_>>())?;
     let unused = |head: String| format!("{shown}, column {head}: it is an output, so no input follows it");
-    Ok((tables, notes.into_iter().chain(outputs.into_iter().map(unused)).collect()))
+    Ok((tables, outputs.into_iter().map(unused).collect()))
 }
 
-/// Inputs in a file, messages about former names, and headers of outputs.
-type Tables = (Vec<InputTable>, Vec<String>, Vec<String>);
-
-/// Returns the inputs in a file. Problems begin with their position in the file.
-fn tables(found: CsvInput, period: Option<f64>, wanted: &Wanted) -> Result<Tables, Vec<String>> {
+/// Returns the inputs in a file and the headers of outputs. Problems begin with their position in the file.
+fn tables(
+    found: CsvInput,
+    period: Option<f64>,
+    wanted: &Wanted,
+) -> Result<(Vec<InputTable>, Vec<String>), Vec<String>> {
     let header = found.header;
     let Found { time: (time_place, time_unit), mut columns, outputs } = wanted.find(&header)?;
     let mut times = Vec::new();
@@ -72,8 +72,7 @@ fn tables(found: CsvInput, period: Option<f64>, wanted: &Wanted) -> Result<Table
         return Err(problems);
     }
     let of = |Column { row, values, .. }| InputTable { row, table: Table::straight(times.clone(), values, period) };
-    let notes = former_names::notes(columns.iter().map(Column::name));
-    Ok((columns.into_iter().map(of).collect(), notes, outputs))
+    Ok((columns.into_iter().map(of).collect(), outputs))
 }
 
 fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {

@@ -51,7 +51,7 @@ use super::set::{Setting, output, real, variable};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::value::{self, written};
-use super::{Event, InputTable, Scene, clutch, former_names, input_file};
+use super::{Event, InputTable, Scene, clutch, input_file};
 use crate::problem::{Problem, Problems, question_error};
 use crate::text::{not_text, shown};
 
@@ -161,7 +161,7 @@ pub fn given(name: &str, file: &Path, entry: &File, contents: &Contents) -> Resu
     events.sort_by(|a, b| a.time.total_cmp(&b.time));
     let mut input_tables: Vec<InputTable> =
         entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
-    let mut notes = notes(entry);
+    let mut notes = Vec::new();
     for input_file in &entry.inputs {
         let content = contents.get(&input_file.file).map(String::as_str);
         notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
@@ -216,15 +216,6 @@ fn display_units(names: &[String], problems: &mut Problems) -> DisplayUnits {
     })
 }
 
-/// Messages about former names of variables.
-fn notes(entry: &File) -> Vec<String> {
-    let mut set = Vec::new();
-    std::iter::once(&entry.set).chain(&entry.at).for_each(|table| flatten("", table, &mut set));
-    let set = set.iter().map(|(name, _)| name.as_str());
-    let others = entry.table.iter().map(|table| &table.input).chain(entry.outputs());
-    former_names::notes(set.chain(others.map(String::as_str)))
-}
-
 /// Stop time and communication step [s]; NaN for an invalid or missing one.
 fn times(entry: &File, problems: &mut Problems) -> (f64, f64) {
     let mut checked = |length: Result<f64, String>| length.map_err(|problem| problems.push(problem)).ok();
@@ -261,12 +252,11 @@ fn settings(place: &str, table: &Table, folder: Option<&Path>, problems: &mut Pr
     flatten("", table, &mut flat);
     let mut names: Vec<&str> = Vec::new();
     for (name, value) in &flat {
-        let present = former_names::present(name);
-        if let Some(problem) = curve::set_twice(present, &names) {
+        if let Some(problem) = curve::set_twice(name, &names) {
             problems.push(format!("{place} {problem}"));
             continue;
         }
-        names.push(present);
+        names.push(name);
         let read = match folder {
             None if name == CURVE => Err(Problem::from(format!("{CURVE} {FIXED}")).into()),
             folder => curve::settings(name, value, folder.unwrap_or(Path::new(""))),
@@ -384,7 +374,7 @@ fn wanted(entry: &InputFileEntry) -> Result<Wanted, String> {
 }
 
 /// Adds the tables of a CSV file, whose path is relative to the folder of the scene file `scene`; `content`: its text,
-/// if the caller has read it. Returns messages about former names and unused columns in the file.
+/// if the caller has read it. Returns messages about unused columns in the file.
 fn add_input_file(
     entry: &InputFileEntry,
     (scene, content): (&Path, Option<&str>),

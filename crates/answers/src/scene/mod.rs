@@ -6,7 +6,6 @@ pub mod assignments;
 pub mod clutch;
 pub mod curve;
 pub mod display_units;
-pub mod former_names;
 pub mod input_columns;
 pub mod input_file;
 pub mod load;
@@ -64,7 +63,7 @@ pub struct Scene {
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
-    /// Messages about former names in the scene.
+    /// Messages about unused columns of input files.
     pub notes: Vec<String>,
     /// Units for displayed values, instead of the usual ones.
     pub display_units: DisplayUnits,

@@ -6,7 +6,7 @@ use toml::Value;
 
 use super::display_units::DisplayUnits;
 use super::value::{self, written};
-use super::{Scene, former_names, units};
+use super::{Scene, units};
 use crate::problem::Problem;
 use crate::text::near;
 
@@ -100,18 +100,15 @@ impl Setting {
     }
 }
 
-/// Returns the row of variable `name`, which may be a former name. The error suggests similar names.
+/// Returns the row of variable `name`. The error suggests similar names.
 pub fn variable(name: &str) -> Result<&'static Variable, String> {
-    let name = former_names::present(name);
     let rows = &table().rows;
     let found = rows.iter().find(|row| row.name == name);
     found.ok_or_else(|| format!("there is no variable \"{name}\"{}", hint(name, rows.iter())))
 }
 
-/// Returns the row of the output or input `name`, which can be recorded. It may be a former name. The error suggests
-/// similar names.
+/// Returns the row of the output or input `name`, which can be recorded. The error suggests similar names.
 pub fn output(name: &str) -> Result<&'static Variable, String> {
-    let name = former_names::present(name);
     let is_output = |row: &&Variable| matches!(row.access, Access::Output(_) | Access::Input(_));
     let rows = &table().rows;
     match rows.iter().find(|row| row.name == name) {

@@ -6,7 +6,6 @@ use toml::Value;
 
 use super::units;
 use crate::text::near;
-use bevel_differential::model::removed_method;
 
 /// Parses `text` from a command line into the value that a file would contain.
 pub fn of_text(text: &str) -> Value {
@@ -84,9 +83,7 @@ pub fn literal(value: &Value, choices: &[(&str, i32)]) -> Result<i32, String> {
         Value::String(name) => name.clone(),
         other => written(other),
     };
-    let removed = removed_method(&given, names());
-    let rest = if removed.is_empty() { near::hint(&given, names()) } else { removed.to_owned() };
-    Err(format!("is not one of {}{rest}", names().collect::<Vec<_>>().join(", ")))
+    Err(format!("is not one of {}{}", names().collect::<Vec<_>>().join(", "), near::hint(&given, names())))
 }
 
 #[cfg(test)]

@@ -144,6 +144,10 @@ fn wrong_files_are_reported_with_key_value_unit_range_and_the_nearest_name() {
         ("[set]\ngeometry.planet_teeth = 10.5", vec!["whole number"]),
         ("[set]\nscene.start = \"roling\"", vec!["equilibrium, rolling, rest", "did you mean rolling?"]),
         ("[set]\neffects.backlash = 1", vec!["true or false"]),
+        (
+            "[set]\n\"left.load_torque\" = 1\nleft.load_torque = 2",
+            vec!["[set] left.load_torque is set twice; leave one out"],
+        ),
         ("[set]\nleft.speed = 1.0", vec!["left.speed", "output"]),
         ("[set]\ncarrier.speed_command = nan", vec!["not a finite number"]),
         ("[[at]]\ntime = 0.05\ngeometry.module = \"4 mm\"", vec!["time = 0.05", "geometry.module is fixed"]),

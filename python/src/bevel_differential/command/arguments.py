@@ -5,7 +5,6 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..former_names import present
 from ..output_file import ENDINGS, checked
 from ..values import DifferentialError
 
@@ -24,7 +23,7 @@ def assignment(text: str) -> tuple[str, str]:
 def once(option: str, pairs: Iterable[tuple[str, str]]) -> dict[str, str]:
     """Values by name. Fails if a name is given twice, because one of its values would be lost silently."""
     values: dict[str, str] = {}
-    for name, value in ((present(name), value) for name, value in pairs):
+    for name, value in pairs:
         if name in values:
             raise DifferentialError(f"{option} {name}: it is given twice; leave one of them out")
         values[name] = value
@@ -49,8 +48,7 @@ class _File(argparse.Action):
 
 def add_file(parser: argparse.ArgumentParser, option: str, kind: str, what: str, **more: Any) -> None:
     """Adds an option with a file to write, of a kind in `output_file.ENDINGS`."""
-    help = what if what == argparse.SUPPRESS else f"{what} ({', '.join(ENDINGS[kind])})"
-    parser.add_argument(option, metavar="FILE", action=_File, kind=kind, help=help, **more)
+    parser.add_argument(option, metavar="FILE", action=_File, kind=kind, help=f"{what} ({', '.join(ENDINGS[kind])})", **more)
     if ".csv" in ENDINGS[kind] and parser.get_default(DECIMAL) is None:
         add_decimal(parser)
 
@@ -61,12 +59,10 @@ def add_decimal(parser: argparse.ArgumentParser) -> None:
                         help="decimal sign in CSV files (default: point); with commas, semicolons separate the columns")
 
 
-def add_files(parser: argparse.ArgumentParser, table: str, picture: str, **before: str) -> None:
-    """Adds options with a table and a picture to write. `before`: former names of the options `csv` and `plot`, which still work."""
+def add_files(parser: argparse.ArgumentParser, table: str, picture: str) -> None:
+    """Adds options with a table and a picture to write."""
     add_file(parser, "--csv", "table", f"write {table}")
     add_file(parser, "--plot", "picture", f"draw {picture}")
-    for option, name in before.items():
-        add_file(parser, name, {"csv": "table", "plot": "picture"}[option], argparse.SUPPRESS, dest=option)
 
 
 def add_fmu(parser: argparse.ArgumentParser) -> None:

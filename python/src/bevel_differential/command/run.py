@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 
 from . import DONE
-from .arguments import add_file, add_files, add_fmu, add_set, add_stop, add_units, once
+from .arguments import add_files, add_fmu, add_set, add_stop, add_units, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -17,7 +17,6 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                         help="a variable to record instead of the scene's outputs; may be repeated")
     add_units(parser)
     add_files(parser, "the record, in SI without --unit", "the record")
-    add_file(parser, "--parquet", "Parquet file", argparse.SUPPRESS)
     add_fmu(parser)
 
 
@@ -37,8 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         scene.fmu.check_shown(arguments.unit, (record.dtype.names or ())[1:])
         print(scene.summary(record))
         writers: list[tuple[Callable[..., object], str | None]] = [
-            (scene.to_parquet if is_parquet(arguments.csv) else scene.to_csv, arguments.csv), (scene.to_parquet, arguments.parquet),
-            (scene.plot, arguments.plot)]
+            (scene.to_parquet if is_parquet(arguments.csv) else scene.to_csv, arguments.csv), (scene.plot, arguments.plot)]
         for write, file in writers:
             if file:
                 write(record, file)
@@ -62,7 +60,7 @@ def _compare(arguments):
                     display_units=arguments.unit, fmu=arguments.fmu)
     found.fmu.check_shown(arguments.unit, found.outputs)
     print(found)
-    for write, file in ((found.to_csv, arguments.csv), (found.to_csv, arguments.parquet), (found.plot, arguments.plot)):
+    for write, file in ((found.to_csv, arguments.csv), (found.plot, arguments.plot)):
         if file:
             write(file)
             print(f"written: {file}")

@@ -10,7 +10,6 @@ import numpy as np
 
 from ..extras import require
 from ..fmu import Fmu
-from ..former_names import by_present_names
 from ..values import DifferentialError, Number, Value, Variable
 
 # values in the form that users write: text such as "4 mm..5 mm:11", a sequence of values, or one value
@@ -174,7 +173,7 @@ class Space:
         """Reads a mapping of names to values; `Dimension.parse` describes the values."""
         if not given:
             raise DifferentialError("nothing varies: name a variable and its values")
-        return cls(tuple(Dimension.parse(fmu, name, values) for name, values in by_present_names(given).items()))
+        return cls(tuple(Dimension.parse(fmu, name, values) for name, values in given.items()))
 
     @property
     def names(self) -> list[str]:

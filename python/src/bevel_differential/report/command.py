@@ -3,7 +3,7 @@
 import argparse
 
 from ..command import DONE
-from ..command.arguments import add_file, add_fmu, add_progress, add_quick, add_set, add_stop, add_units, once
+from ..command.arguments import add_file, add_fmu, add_progress, add_quick, add_scene, add_units, once
 
 # parts of a report that need other runs
 LEFT_OUT = "without the run-up, and without the effects that are off"
@@ -11,13 +11,9 @@ LEFT_OUT = "without the run-up, and without the effects that are off"
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
-    parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene")
-    # former name of the argument
-    parser.add_argument("--scene", metavar="FILE|NAME", dest="named", help=argparse.SUPPRESS)
-    add_set(parser)
+    add_scene(parser)
     add_units(parser)
     add_file(parser, "--out", "page", "the page to write; default: report-NAME.html")
-    add_stop(parser)
     add_quick(parser, LEFT_OUT)
     add_fmu(parser)
     add_progress(parser)
@@ -27,13 +23,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Writes the report and prints its path."""
     from ..progress import shown
     from ..scene import Scene
-    from ..values import DifferentialError
     from .write import write
 
-    name = arguments.scene or arguments.named
-    if name is None:
-        raise DifferentialError("name a scene: a file, or one of those that bevel-differential plan lists", kind="use")
-    with Scene.load(name, arguments.fmu, arguments.stop, arguments.unit) as scene:
+    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit) as scene:
         scene.set(once("--set", arguments.set))
         file = arguments.out or f"report-{scene.name}.html"
         with shown(arguments.progress) as progress:

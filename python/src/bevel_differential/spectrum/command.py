@@ -16,7 +16,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
                              "may be repeated")
     parser.add_argument("--order", choices=ORDERS, default=ORDERS[0],
                         help="order of the events: unknown assumes the worst one, written is that of the file (default: %(default)s)")
-    add_files(parser, "the damage by event", "damage by event and the load spectrum", csv="--table", plot="--picture")
+    add_files(parser, "the damage by event", "damage by event and the load spectrum")
     add_fmu(parser)
 
 

@@ -12,7 +12,6 @@ from ..curve import expanded
 from ..differential import Differential
 from ..extras import needed
 from ..fmu import Fmu
-from ..former_names import by_present_names
 from ..records import write
 from ..scene import Scene
 from ..text import aligned
@@ -220,7 +219,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     if order not in ORDERS:
         raise DifferentialError(f"order = {order!r}: it is one of {', '.join(ORDERS)}")
     needed("rainflow", "design")
-    parameters = expanded(by_present_names(parameters or {}))
+    parameters = expanded(parameters or {})
     # events start in their steady state, unlike the scene
     of_scene = Scene.load(scene, fmu).values if scene is not None else {}
     of_scene.pop("scene.start", None)

@@ -19,7 +19,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-indices", action="store_true", help="only spread and yield, with a fraction of the runs")
     add_farm(parser)
     add_units(parser)
-    add_files(parser, "all runs", "spread, yield and indices", plot="--picture")
+    add_files(parser, "all runs", "spread, yield and indices")
     add_fmu(parser)
 
 
