@@ -1,6 +1,6 @@
-//! Table of the C functions that are called on an instance: name, arguments, states in which the call is legal, and what
-//! the call does. The states are those of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation). The other
-//! functions are in `special`.
+//! Table of the C functions that are called on an instance: name, arguments, states in which the call is legal, and
+//! what the call does. The states are those of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation). The
+//! other functions are in `special`.
 //!
 //! # Safety
 //! These rules apply to all functions. A component comes from `fmi2Instantiate` and was not freed. Every pointer that

@@ -1,6 +1,6 @@
-//! Table of the C functions that are called on an instance: name, arguments, states in which the call is legal, and what
-//! the call does. The states are those of FMI 3.0.2, sections 3.2 (model exchange) and 4.2 (co-simulation). The other
-//! functions are in `special`, with fmi3DoStep, which is more than one call.
+//! Table of the C functions that are called on an instance: name, arguments, states in which the call is legal, and
+//! what the call does. The states are those of FMI 3.0.2, sections 3.2 (model exchange) and 4.2 (co-simulation). The
+//! other functions are in `special`, with fmi3DoStep, which may be several calls.
 //!
 //! # Safety
 //! These rules apply to all functions. An instance comes from `fmi3Instantiate…` and was not freed. Every pointer that

@@ -1,13 +1,14 @@
 //! Macros that define the C functions of both versions of FMI from their tables of calls.
 
-/// Defines the C functions that are called on an instance, and the list `CALLS` of all of them. The names of the instance
-/// and of the host's memory are followed by groups of rows, each with the builds that have it. A row is
+/// Defines the C functions that are called on an instance, and the list `CALLS` of their calls. Before the rows are the
+/// version of FMI, the names of the instance and of the host's memory in the rows, and calls of functions written by
+/// hand. Each group of rows begins with the condition of the builds that have it. A row is
 ///
-/// `function (arguments) states, "name in messages" => result;`
+/// `function(arguments) states, "name in messages" => result;`
 ///
-/// An argument with `as check[count]` is the value that the method `check` of [`HostMemory`](super::HostMemory) returns
-/// for its pointer. Messages have the name of the function, unless the row has another one. If arguments follow the name
-/// of a macro, this macro passes the row with its arguments and its result to `export`.
+/// An argument with `as check[count]` is what the method `check` of [`HostMemory`](super::HostMemory) returns for the
+/// pointer. Without a name in messages, messages name the function. In a row `function shape!(…) …`, the macro `shape`
+/// gives the signature: it passes the row on to `export`.
 macro_rules! calls {
     ($version:literal |$instance:ident, $host:ident| [$($other:expr),*] $($builds:tt {$(
         $(#[$doc:meta])* $function:ident $($shape:ident !)? ($($arguments:tt)*) $phases:expr $(, $name:expr)? => $result:expr;
