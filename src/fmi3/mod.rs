@@ -5,12 +5,12 @@
 //! binary variables are not provided.
 
 mod calls;
-mod exports;
 mod logger;
+mod special;
 mod types;
 mod values;
 pub mod variables;
 
-pub use calls::{Call, INTERFACE};
-pub use exports::*;
+pub use calls::*;
+pub use special::*;
 pub use types::*;

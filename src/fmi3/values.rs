@@ -1,10 +1,8 @@
 //! Values by FMI 3.0 types: rows of the table, arrays of rows, and the additional variables of FMI 3.0.
 
-use std::ffi::CStr;
-
 use super::variables::{HAPPENINGS, Item, held, item, planet_count};
 use crate::instance::values::{row, wrong_type};
-use crate::instance::{CallError, CallResult, InputArray, Instance, Output, OutputArray, Phase};
+use crate::instance::{CallError, CallResult, InputArray, Instance, Output, OutputArray, Phase, Text};
 use crate::variables::{Access, table};
 
 /// Returns the variable of a value reference.
@@ -13,7 +11,7 @@ fn known(reference: u32) -> CallResult<Item> {
 }
 
 /// Fails if the number of values differs from that of the variables.
-pub fn check_count(needed: usize, given: usize) -> CallResult {
+fn check_count(needed: usize, given: usize) -> CallResult {
     if needed == given {
         return Ok(());
     }
@@ -106,15 +104,12 @@ fn settable(reference: u32, wanted: &str) -> CallResult {
 /// fmi3GetInt32.
 pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
     check_count(references.len(), values.len())?;
-    for (reference, value) in references.iter().zip(values.iter()) {
-        value.write(match known(reference)? {
-            Item::EventPlace => instance.discrete()?.event.number(),
-            Item::EventCount => i32::try_from(instance.discrete()?.event.count).unwrap_or(i32::MAX),
-            Item::Row(_) if is_int32(reference)? => instance.get_integer(reference)?,
-            _ => return Err(other_type(reference, "Int32")),
-        });
-    }
-    Ok(())
+    values.write_each(references, |reference| match known(reference)? {
+        Item::EventPlace => Ok(instance.discrete()?.event.number()),
+        Item::EventCount => Ok(i32::try_from(instance.discrete()?.event.count).unwrap_or(i32::MAX)),
+        Item::Row(_) if is_int32(reference)? => instance.get_integer(reference),
+        _ => Err(other_type(reference, "Int32")),
+    })
 }
 
 /// True if a row is an Int32, that is, an integer that no array size depends on.
@@ -137,14 +132,11 @@ pub fn set_int32(instance: &mut Instance, references: InputArray<u32>, values: I
 /// fmi3GetInt64, for enumerations.
 pub fn get_int64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i64>) -> CallResult {
     check_count(references.len(), values.len())?;
-    for (reference, value) in references.iter().zip(values.iter()) {
-        value.write(match known(reference)? {
-            Item::EventKind => i64::from(instance.discrete()?.event.what as u8),
-            Item::Row(_) if is_enumeration(reference)? => i64::from(instance.get_integer(reference)?),
-            _ => return Err(other_type(reference, "enumeration")),
-        });
-    }
-    Ok(())
+    values.write_each(references, |reference| match known(reference)? {
+        Item::EventKind => Ok(i64::from(instance.discrete()?.event.what as u8)),
+        Item::Row(_) if is_enumeration(reference)? => instance.get_integer(reference).map(i64::from),
+        _ => Err(other_type(reference, "enumeration")),
+    })
 }
 
 fn is_enumeration(reference: u32) -> CallResult<bool> {
@@ -168,11 +160,10 @@ pub fn set_int64(instance: &mut Instance, references: InputArray<u32>, values: I
 /// fmi3GetUInt64, for the number of planets.
 pub fn get_uint64(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u64>) -> CallResult {
     check_count(references.len(), values.len())?;
-    for (reference, value) in references.iter().zip(values.iter()) {
+    values.write_each(references, |reference| {
         check_structural(reference)?;
-        value.write(u64::try_from(instance.get_integer(reference)?).unwrap_or(0));
-    }
-    Ok(())
+        Ok(u64::try_from(instance.get_integer(reference)?).unwrap_or(0))
+    })
 }
 
 /// fmi3SetUInt64, for the number of planets. Sizes of arrays depend on it, so it can be set only in configuration mode.
@@ -199,13 +190,10 @@ fn check_structural(reference: u32) -> CallResult {
 /// fmi3GetBoolean.
 pub fn get_boolean(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<u8>) -> CallResult {
     check_count(references.len(), values.len())?;
-    for (reference, value) in references.iter().zip(values.iter()) {
-        match known(reference)? {
-            Item::Row(_) => value.write(u8::from(instance.get_boolean(reference)?)),
-            _ => return Err(other_type(reference, "Boolean")),
-        }
-    }
-    Ok(())
+    values.write_each(references, |reference| match known(reference)? {
+        Item::Row(_) => instance.get_boolean(reference).map(u8::from),
+        _ => Err(other_type(reference, "Boolean")),
+    })
 }
 
 /// fmi3SetBoolean.
@@ -217,12 +205,13 @@ pub fn set_boolean(instance: &mut Instance, references: InputArray<u32>, values:
     instance.set_boolean(references.iter().zip(values.iter().map(|value| value != 0)))
 }
 
-/// Returns the text of the last event.
-pub fn event_text(instance: &mut Instance, reference: u32) -> CallResult<&'static CStr> {
-    match known(reference)? {
-        Item::EventText => Ok(HAPPENINGS[instance.discrete()?.event.what as usize].1),
+/// fmi3GetString, for the text of the last event.
+pub fn get_string(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<Text>) -> CallResult {
+    check_count(references.len(), values.len())?;
+    values.write_each(references, |reference| match known(reference)? {
+        Item::EventText => Ok(HAPPENINGS[instance.discrete()?.event.what as usize].1.as_ptr()),
         _ => Err(other_type(reference, "String")),
-    }
+    })
 }
 
 /// Refuses every reference, because there are no variables of the type `wanted`.

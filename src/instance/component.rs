@@ -2,10 +2,10 @@
 //! in a legal state, and without panics.
 
 use std::cell::UnsafeCell;
+use std::ptr;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::phase::LegalCall;
-use super::{CallError, CallResult, ComponentPointer, HostMemory, Instance, Status, panic_guard};
+use super::{Call, CallError, CallResult, ComponentPointer, HostMemory, Instance, Status, panic_guard};
 
 /// Memory behind a host's pointer to an instance.
 pub struct Component {
@@ -35,14 +35,20 @@ impl Component {
     }
 }
 
+/// Returns a pointer to the instance that `make` creates; NULL if it creates none.
+pub fn create(make: impl FnOnce(&HostMemory) -> Option<Instance>) -> ComponentPointer {
+    let instance = panic_guard::catch(|| HostMemory::during_call(make));
+    instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
+}
+
 /// Runs `body` for `call` on the instance behind `component` if the instance's state allows the call. Logs an error and
 /// returns the status. A NULL pointer, or a call during another call, gives an error without a message.
 ///
 /// # Safety
 /// `component` is NULL or comes from [`Component::into_pointer`] and was not freed.
-pub unsafe fn run<C: LegalCall>(
+pub unsafe fn run(
     component: ComponentPointer,
-    call: C,
+    call: &Call,
     body: impl FnOnce(&mut Instance, &HostMemory) -> CallResult,
 ) -> Status {
     if component.is_null() || !component.cast::<Component>().is_aligned() {
@@ -54,7 +60,7 @@ pub unsafe fn run<C: LegalCall>(
     // SAFETY: `busy` was clear and is set until `_release` is dropped, so no other reference to the instance exists
     let instance = unsafe { &mut *component.instance.get() };
     let outcome = panic_guard::catch(|| {
-        if instance.interface.version != C::INTERFACE.version {
+        if instance.interface.version != call.version {
             return Err(other_interface(instance.interface.version));
         }
         call.check(instance.now.phase)?;
@@ -68,7 +74,7 @@ pub unsafe fn run<C: LegalCall>(
 
 /// Logs the error of a call and returns its status.
 #[cold]
-fn report(instance: &mut Instance, call: impl LegalCall, outcome: Result<CallResult, String>) -> Status {
+fn report(instance: &mut Instance, call: &Call, outcome: Result<CallResult, String>) -> Status {
     let error = match outcome {
         Ok(Ok(())) => return Status::Ok,
         Ok(Err(error)) => error,

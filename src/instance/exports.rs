@@ -1,105 +1,86 @@
-//! Macros that define the C functions of both versions of FMI. Each version has its own table `Call` and its own type
-//! `Boolean`.
+//! Macros that define the C functions of both versions of FMI from their tables of calls.
 
-/// Carries out a call. `body` checks its pointers and passes them on.
-macro_rules! call {
-    ($c:expr, $call:ident, |$instance:pat_param, $host:pat_param| $body:expr) => {{
-        let body = |$instance: &mut $crate::instance::Instance, $host: &$crate::instance::HostMemory| $body;
-        // SAFETY: the host's promise, see the module
-        unsafe { $crate::instance::run($c, Call::$call, body) }
-    }};
-}
+/// Defines the C functions that are called on an instance, and the list `CALLS` of their calls. Before the rows are the
+/// version of FMI, the names of the instance and of the host's memory in the rows, and calls of functions written by
+/// hand. Each group of rows begins with the condition of the builds that have it. A row is
+///
+/// `function(arguments) states, "name in messages" => result;`
+///
+/// An argument with `as check[count]` is what the method `check` of [`HostMemory`](super::HostMemory) returns for the
+/// pointer. Without a name in messages, messages name the function. In a row `function shape!(…) …`, the macro `shape`
+/// gives the signature: it passes the row on to `export`.
+macro_rules! calls {
+    ($version:literal |$instance:ident, $host:ident| [$($other:expr),*] $($builds:tt {$(
+        $(#[$doc:meta])* $function:ident $($shape:ident !)? ($($arguments:tt)*) $phases:expr $(, $name:expr)? => $result:expr;
+    )+})+) => {
+        /// All calls.
+        pub const CALLS: &[$crate::instance::Call] = &[$($other,)* $($(
+            #[cfg $builds]
+            $crate::instance::Call { version: $version, names: &[stringify!($function) $(, $name)?], phases: $phases },
+        )+)+];
 
-/// Defines functions whose only argument is an instance.
-macro_rules! plain {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer) -> Status {
-            call!(c, $call, |instance, _| instance.$method())
-        }
-    )+};
-}
-
-/// Defines functions that fill an array of numbers.
-#[cfg(feature = "full")]
-macro_rules! getters {
-    ($($function:ident $call:ident $method:ident;)+) => {$(
-        #[doc = concat!(stringify!($function), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $function(c: ComponentPointer, values: *mut f64, count: usize) -> Status {
-            call!(c, $call, |instance, host| {
-                // SAFETY: the host's promise, see the module
-                let values = unsafe { host.output("the array", values, count) }?;
-                instance.$method(values)
-            })
-        }
-    )+};
-}
-
-/// Defines the functions with which the host's solver proceeds: a completed step, the time, and the states.
-#[cfg(feature = "full")]
-macro_rules! host_solver {
-    ($completed:ident $time:ident $states:ident $argument:literal) => {
-        #[doc = concat!(stringify!($completed), ". The flag is ignored, because snapshots are complete.")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $completed(
-            c: ComponentPointer,
-            _never_back: Boolean,
-            enter_event_mode: *mut Boolean,
-            terminate: *mut Boolean,
-        ) -> Status {
-            call!(c, CompletedIntegratorStep, |instance, host| {
-                // SAFETY: the host's promise, see the module
-                let (event, end) = unsafe {
-                    (
-                        host.output_value("enterEventMode", enter_event_mode)?,
-                        host.output_value("terminateSimulation", terminate)?,
-                    )
-                };
-                event.write(Boolean::from(instance.completed_integrator_step()?));
-                end.write(0);
-                Ok(())
-            })
-        }
-
-        #[doc = concat!(stringify!($time), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $time(c: ComponentPointer, time: f64) -> Status {
-            call!(c, SetTime, |instance, _| instance.set_time(time))
-        }
-
-        #[doc = concat!(stringify!($states), ".")]
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $states(c: ComponentPointer, states: *const f64, count: usize) -> Status {
-            call!(c, SetContinuousStates, |instance, host| {
-                // SAFETY: the host's promise, see the module
-                let states = unsafe { host.input($argument, states, count) }?;
-                instance.set_continuous_states(states)
-            })
-        }
+        $($(
+            #[cfg $builds]
+            $crate::instance::export! {
+                [$($shape)?] ($($arguments)*) (
+                    #[doc = concat!(stringify!($function), ".")]
+                    $(#[$doc])*
+                    $function
+                    $crate::instance::Call {
+                        version: $version,
+                        names: &[stringify!($function) $(, $name)?],
+                        phases: $phases,
+                    }
+                )
+                |$instance, $host| $result
+            }
+        )+)+
     };
 }
 
-/// Defines the function that sets which messages are logged. An empty list of categories means all.
-macro_rules! debug_logging {
-    ($function:ident) => {
-        #[doc = concat!(stringify!($function), ". An empty list of categories means all.")]
+/// Defines a C function, which carries out a call.
+macro_rules! export {
+    (
+        [] ($($argument:ident: $type:ty $(as $check:ident $([$count:ident])?)?),*)
+        ($(#[$attribute:meta])* $function:ident $call:expr) |$instance:ident, $host:ident| $result:expr
+    ) => {
+        $(#[$attribute])*
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $function(
-            c: ComponentPointer,
-            logging: Boolean,
-            count: usize,
-            categories: *const Text,
-        ) -> Status {
-            call!(c, SetDebugLogging, |instance, host| {
+            c: $crate::instance::ComponentPointer,
+            $($argument: $type),*
+        ) -> $crate::instance::Status {
+            let body = |$instance: &mut $crate::instance::Instance, $host: &$crate::instance::HostMemory| {
+                let _ = (&$instance, $host);
+                $($(
+                    // SAFETY: the host's promise, see the module
+                    let $argument = unsafe { $host.$check(stringify!($argument), $argument $(, $count)?) }?;
+                )?)*
+                $result
+            };
+            // SAFETY: as above
+            unsafe { $crate::instance::run(c, &$call, body) }
+        }
+    };
+    ([$shape:ident] $arguments:tt $row:tt |$instance:ident, $host:ident| $result:expr) => {
+        $shape! { $arguments $row $result }
+    };
+}
+
+/// Defines a function that fills an array of numbers with a method.
+#[cfg(feature = "full")]
+macro_rules! filled {
+    (() $row:tt $method:expr) => {
+        $crate::instance::export! {
+            [] (values: *mut f64, count: usize) $row |instance, host| {
                 // SAFETY: the host's promise, see the module
-                unsafe { instance.configure_log(host, logging != 0, categories, count) }
-            })
+                let values = unsafe { host.output("the array", values, count) }?;
+                $method(instance, values)
+            }
         }
     };
 }
 
-pub(crate) use {call, debug_logging, plain};
 #[cfg(feature = "full")]
-pub(crate) use {getters, host_solver};
+pub(crate) use filled;
+pub(crate) use {calls, export};

@@ -66,6 +66,16 @@ impl<'a, T> OutputArray<'a, T> {
     }
 }
 
+impl<T> OutputArray<'_, T> {
+    /// Writes the value of each key, in order. Stops at the first error.
+    pub fn write_each<K: Copy>(self, keys: InputArray<K>, mut value: impl FnMut(K) -> CallResult<T>) -> CallResult {
+        for (key, place) in keys.iter().zip(self.iter()) {
+            place.write(value(key)?);
+        }
+        Ok(())
+    }
+}
+
 impl<'a, T> Output<'a, T> {
     /// Wraps a value of this library.
     pub fn of(cell: &'a Cell<T>) -> Self {

@@ -36,17 +36,17 @@ pub(crate) mod values;
 
 pub use basic::*;
 pub use call_error::{CallError, CallResult};
-pub use component::{Component, free, run};
+pub use component::{Component, create, free, run};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
-pub(crate) use exports::{call, debug_logging, plain};
 #[cfg(feature = "full")]
-pub(crate) use exports::{getters, host_solver};
+pub(crate) use exports::filled;
+pub(crate) use exports::{calls, export};
 pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
 pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};
 pub use panic_guard::catch;
-pub(crate) use phase::calls;
-pub use phase::{LegalCall, Phase};
+pub(crate) use phase::states;
+pub use phase::{Call, Phase};
 pub use snapshot::Snapshot;
 pub use steps::{Allowed, Discrete, Ended, Iteration};

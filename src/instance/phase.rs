@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{CallError, CallResult, Interface};
+use super::{CallError, CallResult};
 
 /// State of an instance in FMI's state machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -79,28 +79,31 @@ impl Phase {
     }
 }
 
-/// A function of FMI that is legal in certain states only.
-pub trait LegalCall: Copy {
+/// A C function that is called on an instance.
+#[derive(Clone, Copy, Debug)]
+pub struct Call {
     /// Version of FMI that has the function.
-    const INTERFACE: &'static Interface;
+    pub version: u32,
+    /// Name of the function, and the name of its family if messages have that instead.
+    pub names: &'static [&'static str],
+    /// States in which the call is legal, as a bit mask.
+    pub phases: u16,
+}
 
-    /// Returns the name of the C function.
-    fn name(self) -> &'static str;
-
-    /// Returns the states in which the call is legal, as a bit mask.
-    fn phases(self) -> u16;
+impl Call {
+    /// Returns the name in messages.
+    pub fn name(&self) -> &'static str {
+        self.names.last().copied().unwrap_or_default()
+    }
 
     /// True if the call is legal in `phase`.
-    fn legal(self, phase: Phase) -> bool {
-        self.phases() & phase.bit() != 0
+    pub fn is_legal(&self, phase: Phase) -> bool {
+        self.phases & phase.bit() != 0
     }
 
     /// Refuses a call that is not legal in `phase`.
-    fn check(self, phase: Phase) -> CallResult {
-        if self.legal(phase) {
-            return Ok(());
-        }
-        Err(illegal(self.phases(), phase))
+    pub fn check(&self, phase: Phase) -> CallResult {
+        if self.is_legal(phase) { Ok(()) } else { Err(illegal(self.phases, phase)) }
     }
 }
 
@@ -111,32 +114,19 @@ fn illegal(phases: u16, phase: Phase) -> CallError {
     CallError::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name()))
 }
 
-/// Defines the table of calls of a version of FMI: an enum `Call` of rows `Name "function" states;`.
-macro_rules! calls {
-    ($interface:expr; $($call:ident $name:literal $phases:expr;)+) => {
-        /// A function of FMI that is legal in certain states only.
-        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-        #[allow(missing_docs)]
-        pub enum Call { $($call),+ }
+/// States as bits, for the tables of calls.
+pub mod states {
+    use super::Phase;
 
-        impl Call {
-            /// All calls.
-            #[cfg(test)]
-            pub const ALL: &[Self] = &[$(Self::$call),+];
-        }
-
-        impl $crate::instance::LegalCall for Call {
-            const INTERFACE: &'static $crate::instance::Interface = $interface;
-
-            fn name(self) -> &'static str {
-                match self { $(Self::$call => $name),+ }
-            }
-
-            fn phases(self) -> u16 {
-                match self { $(Self::$call => $phases),+ }
-            }
-        }
-    };
+    pub const INSTANTIATED: u16 = Phase::Instantiated.bit();
+    pub const CONFIGURATION: u16 = Phase::Configuration.bit();
+    pub const INITIALIZATION: u16 = Phase::Initialization.bit();
+    pub const COMPLETE: u16 = Phase::StepComplete.bit();
+    pub const INTERMEDIATE: u16 = Phase::IntermediateUpdate.bit();
+    pub const FAILED: u16 = Phase::StepFailed.bit();
+    pub const EVENT: u16 = Phase::Event.bit();
+    pub const CONTINUOUS: u16 = Phase::ContinuousTime.bit();
+    pub const TERMINATED: u16 = Phase::Terminated.bit();
+    pub const ERROR: u16 = Phase::Error.bit();
+    pub const ALWAYS: u16 = (1 << Phase::ALL.len()) - 1;
 }
-
-pub(crate) use calls;

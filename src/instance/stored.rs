@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ptr;
 
-use super::{CallError, CallResult, FmuState, HostMemory, Instance, Snapshot, Text};
+use super::{CallError, CallResult, FmuState, HostMemory, InputArray, Instance, Snapshot, Text};
 
 /// Returns the snapshot behind `state`, for as long as the call lasts.
 unsafe fn snapshot(_call: &HostMemory, state: FmuState) -> CallResult<&Snapshot> {
@@ -98,17 +98,9 @@ impl Instance {
     }
 
     /// Sets which messages are logged. An empty list of categories means all.
-    pub unsafe fn configure_log(
-        &mut self,
-        host: &HostMemory,
-        is_on: bool,
-        categories: *const Text,
-        count: usize,
-    ) -> CallResult {
+    pub unsafe fn configure_log(&mut self, host: &HostMemory, is_on: bool, categories: InputArray<Text>) -> CallResult {
         // SAFETY: the caller's promise
-        let texts = unsafe { host.input("categories", categories, count) }?;
-        // SAFETY: as above
-        let names: Vec<_> = texts.iter().map(|text| unsafe { host.string(text) }.unwrap_or(c"NULL")).collect();
+        let names: Vec<_> = categories.iter().map(|text| unsafe { host.string(text) }.unwrap_or(c"NULL")).collect();
         let unknown = self.log.configure(is_on, names.into_iter());
         if unknown.is_empty() {
             Ok(())

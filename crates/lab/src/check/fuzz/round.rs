@@ -2,7 +2,7 @@
 
 use std::ptr;
 
-use bevel_differential::instance::{Kind, Phase, Status};
+use bevel_differential::instance::{Call, Kind, Phase, Status};
 use cpu_time::ThreadTime;
 use fastrand::Rng;
 
@@ -156,11 +156,12 @@ fn check(
     if matches!(status, Status::Fatal | Status::Pending) {
         return Err(format!("answered {status:?}"));
     }
-    if function.has_component() && (is_foreign || is_other) && status != Status::Error {
+    let row = function.row();
+    if row.is_some() && (is_foreign || is_other) && status != Status::Error {
         let instance = if is_foreign { "no instance" } else { "an instance of another version of FMI" };
         return Err(format!("{status:?} for {instance}"));
     }
-    if function.has_component() && is_foreign {
+    if row.is_some() && is_foreign {
         return Ok(());
     }
     if outcome.must_fail && status != Status::Error {
@@ -170,8 +171,8 @@ fn check(
         let bad = outcome.numbers.iter().position(|x| !x.is_finite());
         return bad.map_or(Ok(()), |i| Err(format!("OK, but number {i} is {}", outcome.numbers[i])));
     }
-    let is_reported =
-        lines.iter().any(|line| line.status == status && line.message.starts_with(function.message_prefix));
+    let prefix = row.map_or(function.name, Call::name);
+    let is_reported = lines.iter().any(|line| line.status == status && line.message.starts_with(prefix));
     if is_reported || is_filtered { Ok(()) } else { Err(format!("{status:?} without a message: {lines:?}")) }
 }
 

@@ -1,6 +1,7 @@
 //! A version of FMI: the table of its functions, each with a random call.
 
-use bevel_differential::instance::Kind;
+use bevel_differential::instance::{Call, Kind};
+use bevel_differential::{fmi2, fmi3};
 
 use super::arguments::CallResult;
 use super::interface::Interface;
@@ -14,8 +15,6 @@ pub struct Function {
     pub weight: usize,
     /// Kind of instance for this function; `None` for both kinds.
     pub kind: Option<Kind>,
-    /// Prefix of its messages: its name, or the name of a family of functions.
-    pub message_prefix: &'static str,
     /// Calls the function with random arguments.
     pub call: fn(&mut Site) -> CallResult,
 }
@@ -28,20 +27,11 @@ pub struct Version {
     pub functions: &'static [Function],
 }
 
-/// Creates a table of functions: name, weight, kind of instance, call, and the prefix of messages if it is not the
-/// name.
+/// Creates a table of functions: name, weight, kind of instance, call.
 macro_rules! functions {
-    ($($name:ident $weight:literal $kind:expr, $call:expr $(, $prefix:expr)?;)+) => {
-        &[$(Function {
-            name: stringify!($name),
-            weight: $weight,
-            kind: $kind,
-            message_prefix: functions!(@prefix $name $($prefix)?),
-            call: $call,
-        }),+]
+    ($($name:ident $weight:literal $kind:expr, $call:expr;)+) => {
+        &[$(Function { name: stringify!($name), weight: $weight, kind: $kind, call: $call }),+]
     };
-    (@prefix $name:ident) => { stringify!($name) };
-    (@prefix $name:ident $prefix:expr) => { $prefix };
 }
 
 pub(super) use functions;
@@ -71,9 +61,8 @@ impl Function {
         halfway.contains(&&self.name["fmi2".len()..])
     }
 
-    /// True if the function is called on an instance.
-    pub fn has_component(&self) -> bool {
-        let name = &self.name["fmi2".len()..];
-        !name.starts_with("Instantiate") && !["GetTypesPlatform", "GetVersion", "FreeInstance"].contains(&name)
+    /// Row of the function in the library's table of calls; `None` if it is not called on an instance.
+    pub fn row(&self) -> Option<&'static Call> {
+        fmi2::CALLS.iter().chain(fmi3::CALLS).find(|call| call.names[0] == self.name)
     }
 }

@@ -1,13 +1,26 @@
-//! Versions, instances, logging, and the calls from instantiation to termination.
+//! The C functions that are not called on an instance: versions, and the creation and the end of instances.
+
+#![allow(clippy::missing_safety_doc)] // the rules of `calls` apply to all
+#![allow(non_snake_case)] // FMI's names
 
 use std::ffi::{CStr, CString};
 use std::ptr;
 
-use super::super::logger::HostLogger;
-use super::*;
+use super::logger::HostLogger;
+use super::types::*;
 use crate::FULL;
-use crate::instance::{Component, Experiment, Instance, Log, catch, free};
+use crate::instance::c_types::c_int;
+use crate::instance::{Instance, Interface, Log, create, free};
 use crate::variables::{MODEL_NAME, guid};
+
+/// FMI 2.0.
+pub static INTERFACE: Interface = Interface {
+    version: 2,
+    setup: "fmi2SetupExperiment",
+    set_state: "fmi2SetFMUstate",
+    reset: "fmi2Reset",
+    exit_initialization: "fmi2ExitInitializationMode",
+};
 
 /// fmi2GetTypesPlatform.
 #[unsafe(no_mangle)]
@@ -36,16 +49,13 @@ pub unsafe extern "C" fn fmi2Instantiate(
     if !callbacks.is_aligned() {
         return ptr::null_mut();
     }
-    let instance = catch(|| {
-        HostMemory::during_call(|host| {
-            // SAFETY: the host's promise, see the module
-            let (name, guid) = unsafe { (host.string(name), host.string(guid)) };
-            // SAFETY: as above; aligned, and `as_ref` returns None for NULL
-            let callbacks = unsafe { callbacks.as_ref() }.copied();
-            instantiate(name, kind, guid, callbacks, logging != 0)
-        })
-    });
-    instance.ok().flatten().map_or(ptr::null_mut(), Component::into_pointer)
+    create(|host| {
+        // SAFETY: the host's promise, see `calls`
+        let (name, guid) = unsafe { (host.string(name), host.string(guid)) };
+        // SAFETY: as above; aligned, and `as_ref` returns None for NULL
+        let callbacks = unsafe { callbacks.as_ref() }.copied();
+        instantiate(name, kind, guid, callbacks, logging != 0)
+    })
 }
 
 /// Creates an instance. Logs an error and returns `None` if the arguments are for another FMU or of an unknown kind.
@@ -83,33 +93,6 @@ fn instantiate(
 /// fmi2FreeInstance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: ComponentPointer) {
-    // SAFETY: the host's promise, see the module
+    // SAFETY: the host's promise, see `calls`
     unsafe { free(c) }
-}
-
-debug_logging!(fmi2SetDebugLogging);
-
-/// fmi2SetupExperiment.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetupExperiment(
-    c: ComponentPointer,
-    tolerance_defined: Boolean,
-    tolerance: f64,
-    start: f64,
-    stop_defined: Boolean,
-    stop: f64,
-) -> Status {
-    let experiment = Experiment {
-        tolerance: (tolerance_defined != 0).then_some(tolerance),
-        start,
-        stop: (stop_defined != 0).then_some(stop),
-    };
-    call!(c, SetupExperiment, |instance, _| instance.setup_experiment(&experiment))
-}
-
-plain! {
-    fmi2EnterInitializationMode EnterInitializationMode enter_initialization;
-    fmi2ExitInitializationMode ExitInitializationMode exit_initialization;
-    fmi2Terminate Terminate terminate;
-    fmi2Reset Reset reset;
 }
