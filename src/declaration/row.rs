@@ -148,12 +148,6 @@ impl Row<()> {
         self.of(Causality::Output).number(unit.into(), None).map(|()| of)
     }
 
-    /// A parameter calculated from others.
-    #[inline(never)]
-    pub fn calculated<A>(self, unit: impl Into<Shown>, of: A) -> Row<A> {
-        Row { causality: Causality::CalculatedParameter, ..self.number(unit.into(), None).map(|()| of) }
-    }
-
     const fn of(self, causality: Causality) -> Self {
         Row { causality, variability: Variability::Continuous, ..self }
     }

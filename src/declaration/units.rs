@@ -81,12 +81,6 @@ impl From<Unit> for Shown {
     }
 }
 
-impl From<(Unit, DisplayUnit)> for Shown {
-    fn from((unit, display): (Unit, DisplayUnit)) -> Self {
-        Self(unit, Some(display))
-    }
-}
-
 const fn base(kg: i32, m: i32, s: i32, rad: i32) -> Option<Base> {
     Some(Base { kg, m, s, rad, k: 0 })
 }

@@ -105,7 +105,7 @@ impl Instance {
                         .simulation()
                         .map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })?;
                     match source {
-                        OutputSource::Constant(of) => of(simulation),
+                        OutputSource::Constant(i, of) => of(simulation, i),
                         OutputSource::Motion(i, of) => of(motion.get_or_insert_with(|| simulation.motion()), i),
                         OutputSource::Forces(i, of) => of(simulation.forces_without_components(), i),
                         OutputSource::Components(i, of) => of(simulation.forces(), i),

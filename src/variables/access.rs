@@ -6,8 +6,8 @@ use crate::model::{Forces, InputField, LedgerReadings, Motion, PairLine, Paramet
 /// Source of the value of an output.
 #[derive(Clone, Copy)]
 pub enum OutputSource {
-    /// Constants of a simulation, which do not change after initialisation.
-    Constant(fn(&Simulation) -> f64),
+    /// Constants of a simulation, which do not change after initialisation, by an index.
+    Constant(usize, fn(&Simulation, usize) -> f64),
     /// Angles and speeds, by an index.
     Motion(usize, fn(&Motion, usize) -> f64),
     /// Forces by an index, which need one evaluation of the teeth.
@@ -30,7 +30,7 @@ impl OutputSource {
     /// Returns the value of the output.
     pub fn read(self, simulation: &mut Simulation) -> f64 {
         match self {
-            Self::Constant(of) => of(simulation),
+            Self::Constant(i, of) => of(simulation, i),
             Self::Motion(i, of) => of(&simulation.motion(), i),
             Self::Forces(i, of) | Self::Components(i, of) => of(simulation.forces(), i),
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),

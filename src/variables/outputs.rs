@@ -6,48 +6,52 @@ use crate::declaration::{Row, Shown, row};
 use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, PAIRS, efficiency, readings};
 use crate::static_memory::store_text;
 
-/// Placeholder for a side.
-const SIDE: &str = "{side}";
+/// Placeholders that stand for one of two: in names, and in descriptions.
+const EITHER: [(&str, [&str; 2], [&str; 2]); 2] =
+    [("{side}", ["left", "right"], ["left", "right"]), ("{gear}", ["planet", "side"], ["planet", "side gear"])];
 /// Placeholder for a number, counted from 1.
 const NUMBER: &str = "{i}";
 
 /// Adds outputs to `$rows`. The doc comment is the description; the unit, the display unit and the source follow. An
-/// output whose name contains `{side}` exists for each side, and one whose name contains `planet[{i}]` or `pair[{i}]` for
-/// each planet or pair. Its source reads the value by an index: the side, the planet, the pair, or twice the planet plus
-/// the side.
+/// output whose name contains `{side}` or `{gear}` exists for both of them, and one whose name contains `planet[{i}]` or
+/// `pair[{i}]` for each planet or pair. Its source reads the value by an index: the side or gear, the planet, the pair, or
+/// twice the planet plus the side.
 macro_rules! outputs {
     ($rows:ident: $($(#[doc = $line:literal])+ $name:literal: $unit:expr, $source:ident($of:expr);)+) => {
-        $(add($rows, $name, concat!($($line),+).trim_start(), $unit.into(), |index| OutputSource::$source(index, $of));)+
+        $(add(&mut $rows, $name, concat!($($line),+).trim_start(), $unit.into(), |i| OutputSource::$source(i, $of));)+
     };
 }
 
+pub(super) use outputs;
+
 /// Adds the rows of the output `name`.
-fn add(
+pub fn add(
     rows: &mut Vec<Row<OutputSource>>,
     name: &'static str,
     description: &'static str,
     shown: Shown,
     source: fn(usize) -> OutputSource,
 ) {
-    let sides = if name.contains(SIDE) { 2 } else { 1 };
+    let either = EITHER.iter().find(|(placeholder, ..)| name.contains(placeholder));
+    let two = if either.is_some() { 2 } else { 1 };
     let count = match name {
         _ if !name.contains(NUMBER) => 1,
         _ if name.starts_with("planet") => MAX_PLANETS,
         _ => PAIRS,
     };
-    for index in 0..count * sides {
-        let text = |text: &'static str| {
-            let text = text.replace(SIDE, ["left", "right"][index % sides]);
-            store_text(&text.replace(NUMBER, &(index / sides + 1).to_string()))
+    for index in 0..count * two {
+        let [name, description] = [name, description].map(|text| text.replace(NUMBER, &(index / two + 1).to_string()));
+        let [name, description] = match either {
+            Some((of, names, texts)) => [name.replace(of, names[index % 2]), description.replace(of, texts[index % 2])],
+            None => [name, description],
         };
-        rows.push(row(text(name), text(description)).output(shown, source(index)));
+        rows.push(row(store_text(&name), store_text(&description)).output(shown, source(index)));
     }
 }
 
 /// Rows of all outputs.
 pub fn rows() -> Vec<Row<OutputSource>> {
-    let mut rows = Vec::new();
-    add_own(&mut rows);
+    let mut rows = own();
     for (place, heat) in ALL_HEATS.iter().enumerate() {
         let source = OutputSource::Ledger(place, |ledger, place| ledger.heat[place]);
         rows.push(row(heat.output, heat.description).output(JOULE, source));
@@ -65,8 +69,9 @@ pub fn rows() -> Vec<Row<OutputSource>> {
     rows
 }
 
-/// Adds the rows of outputs that belong to no effect.
-fn add_own(rows: &mut Vec<Row<OutputSource>>) {
+/// Rows of the outputs that belong to no effect.
+fn own() -> Vec<Row<OutputSource>> {
+    let mut rows = Vec::new();
     outputs! { rows:
         /// Carrier angle since the start
         "carrier.angle": RADIAN | DEG, Motion(|m, _| m.carrier_angle);
@@ -163,4 +168,5 @@ fn add_own(rows: &mut Vec<Row<OutputSource>>) {
         /// Stored energy minus work of the inputs plus heat; 0 for an exact solution
         "solver.energy_residual": JOULE, Ledger(|l, _| l.energy_residual);
     }
+    rows
 }
