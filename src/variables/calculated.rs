@@ -3,7 +3,7 @@
 use super::access::OutputSource;
 use super::outputs::{add, outputs};
 use crate::declaration::units::*;
-use crate::declaration::{Causality, Row};
+use crate::declaration::{Causality, Row, Variability};
 
 /// Rows of all calculated parameters.
 pub fn rows() -> Vec<Row<OutputSource>> {
@@ -29,6 +29,8 @@ pub fn rows() -> Vec<Row<OutputSource>> {
         /// meshes in series; 0 without effects.backlash
         "geometry.wheel_lash": RADIAN | DEG, Constant(|s, _| s.pair().wheel_lash());
     }
-    rows.iter_mut().for_each(|row| row.causality = Causality::CalculatedParameter);
+    for row in &mut rows {
+        (row.causality, row.variability) = (Causality::CalculatedParameter, Variability::Fixed);
+    }
     rows
 }
