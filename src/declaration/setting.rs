@@ -89,7 +89,7 @@ const SIDES: [&str; 2] = ["left", "right"];
 impl<T: Setting> Declared for [T; 2] {
     fn rows<P: Copy + 'static>(group: &str, name: &str, description: &'static str, at: Field<P, Self>) -> RowsOf<P> {
         let of = |s: usize| {
-            let description = store_text(&description.replace("{side}", SIDES[s]));
+            let description = filled(description, |_| SIDES[s]);
             T::rows(group, &format!("{}_{name}", SIDES[s]), description, store(move |p| &mut at(p)[s]))
         };
         [of(0), of(1)].concat()
@@ -100,6 +100,19 @@ impl<T: Setting> Declared for [T; 2] {
 #[inline(never)]
 pub fn name_within(group: &str, name: &str) -> &'static str {
     store_text(&[group, ".", name].concat())
+}
+
+/// Returns `text` with the value of each placeholder `{…}`.
+pub fn filled<'a>(text: &'static str, value: impl Fn(&str) -> &'a str) -> &'static str {
+    let Some((before, mut rest)) = text.split_once('{') else { return text };
+    let mut found = String::from(before);
+    while let Some((placeholder, behind)) = rest.split_once('}') {
+        found += value(placeholder);
+        let (plain, next) = behind.split_once('{').unwrap_or((behind, ""));
+        found += plain;
+        rest = next;
+    }
+    store_text(&found)
 }
 
 /// Property of a parameter, as written behind its start value.

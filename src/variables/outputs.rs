@@ -2,9 +2,8 @@
 
 use super::access::OutputSource::{self, Reading};
 use crate::declaration::units::*;
-use crate::declaration::{Row, Shown, row};
+use crate::declaration::{Row, Shown, filled, row};
 use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, PAIRS, efficiency, readings};
-use crate::static_memory::store_text;
 
 /// Placeholders that stand for one of two: in names, and in descriptions.
 const EITHER: [(&str, [&str; 2], [&str; 2]); 2] =
@@ -40,12 +39,11 @@ pub fn add(
         _ => PAIRS,
     };
     for index in 0..count * two {
-        let [name, description] = [name, description].map(|text| text.replace(NUMBER, &(index / two + 1).to_string()));
-        let [name, description] = match either {
-            Some((of, names, texts)) => [name.replace(of, names[index % 2]), description.replace(of, texts[index % 2])],
-            None => [name, description],
-        };
-        rows.push(row(store_text(&name), store_text(&description)).output(shown, source(index)));
+        let number = (index / two + 1).to_string();
+        let [in_name, in_text] = either.map_or(["", ""], |(_, names, texts)| [names[index % two], texts[index % two]]);
+        let name = filled(name, |placeholder| if placeholder == "i" { &number } else { in_name });
+        let description = filled(description, |_| in_text);
+        rows.push(row(name, description).output(shown, source(index)));
     }
 }
 

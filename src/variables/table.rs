@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::sync::OnceLock;
 
 use super::{Access, Variable};
-use crate::declaration::{Causality, Range, Rows, Variability};
+use crate::declaration::{Causality, Range, Row, Rows, Variability};
 use crate::model::{Inputs, Parameters, STATES};
 use crate::problem::Problem;
 use crate::static_memory::{store_all, store_text};
@@ -40,11 +40,10 @@ pub fn table() -> &'static Table {
     static TABLE: OnceLock<Table> = OnceLock::new();
     TABLE.get_or_init(|| {
         let mut rows: Vec<Variable> = Vec::new();
-        rows.extend(Parameters::rows().into_iter().map(|row| row.map(Access::from)));
-        rows.extend(super::inputs::rows().into_iter().map(|row| row.map(Access::Input)));
-        rows.extend(super::outputs::rows().into_iter().map(|row| row.map(Access::Output)));
-        rows.extend(super::calculated::rows().into_iter().map(|row| row.map(Access::Output)));
-        sort_by_group(&mut rows);
+        rows.extend(by_group(Parameters::rows()).into_iter().map(|row| row.map(Access::from)));
+        rows.extend(by_group(super::inputs::rows()).into_iter().map(|row| row.map(Access::Input)));
+        rows.extend(by_group(super::outputs::rows()).into_iter().map(|row| row.map(Access::Output)));
+        rows.extend(by_group(super::calculated::rows()).into_iter().map(|row| row.map(Access::Output)));
         let (states, derivatives) = super::states::complete(&mut rows);
         let of = |c| store_all(&(0..rows.len()).filter(|&i| rows[i].causality == c).collect::<Vec<_>>());
         let (inputs, outputs) = (of(Causality::Input), of(Causality::Output));
@@ -52,27 +51,20 @@ pub fn table() -> &'static Table {
     })
 }
 
-/// Sorts variables of the same causality by the first part of their names. Groups and variables keep their order.
-fn sort_by_group(rows: &mut [Variable]) {
-    let group = |row: &Variable| row.name.split('.').next().unwrap_or(row.name);
-    let causalities: Vec<Causality> = distinct(rows.iter().map(|row| row.causality));
-    let groups: Vec<&str> = distinct(rows.iter().map(group));
-    let place = |row: &Variable| {
-        let causality = causalities.iter().position(|&causality| causality == row.causality);
-        (causality, groups.iter().position(|&name| name == group(row)))
+/// Returns `rows` sorted by the first part of their names. Groups and variables keep their order.
+fn by_group<A: Copy>(rows: Vec<Row<A>>) -> Vec<Row<A>> {
+    let mut groups: Vec<&str> = Vec::new();
+    let mut place = |row: &Row<A>| {
+        let group = row.name.split('.').next().unwrap_or(row.name);
+        // most variables belong to the group of the one before
+        groups.iter().rposition(|name| *name == group).unwrap_or_else(|| {
+            groups.push(group);
+            groups.len() - 1
+        })
     };
-    rows.sort_by_cached_key(place);
-}
-
-/// Returns each value once, in the order of first appearance.
-fn distinct<T: PartialEq>(values: impl Iterator<Item = T>) -> Vec<T> {
-    let mut found = Vec::new();
-    for value in values {
-        if !found.contains(&value) {
-            found.push(value);
-        }
-    }
-    found
+    let mut places: Vec<(usize, usize)> = rows.iter().enumerate().map(|(i, row)| (place(row), i)).collect();
+    places.sort_unstable();
+    places.into_iter().map(|(_, i)| rows[i]).collect()
 }
 
 /// Returns the start value of a real parameter or input.
