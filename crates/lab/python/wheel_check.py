@@ -94,7 +94,7 @@ COMMANDS = [
     (["run", "reduced.toml", "--csv", "reduced.csv"], "torque_bias_ratio", ["reduced.csv"]),
     (["loads", "study_turning", "--every", "10 ms", "--out", "loads.csv"], "loads of tooth pairs", ["loads.csv"]),
     (["geometry", "--set", "geometry.module=4mm", "--out", "gears"], "no interference", ["gears/dimensions.json"]),
-    (["pattern", "study_turning", "--quick", "--set", "scene.gear_contact=solid", "--out", "marks"], "line load toe/heel",
+    (["pattern", "study_turning", "--set", "scene.gear_contact=solid", "--out", "marks"], "line load toe/heel",
      ["marks/contact_pattern.png"]),
     (["report", "--scene", "clunk", "--quick", "--out", "clunk.html"], "written", ["clunk.html"]),
     (["examples"], "tolerances.toml", ["examples/design/duty_cycle.csv"]),
