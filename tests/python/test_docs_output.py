@@ -28,7 +28,8 @@ GAP = re.compile(r"^ *\.\.\.\n", re.MULTILINE)
 # options that make a command quick, if no page shows its output
 QUICKER = {
     "optimise": ["--quick", "--population", "16", "--generations", "1"],
-    "tolerance": ["--runs", "8", "--no-indices"],
+    "tolerance": ["--runs", "8", "--no-indices", "--workers", "0"],
+    "pattern": ["--quick"],
     "sweep": ["--runs", "4"],
     "losses": ["--torque", "1000 N.m", "--speed", "10 rad/s", "--difference", "1 rad/s", "--temperature", "80 degC", "--unseen", "4"],
     "bench": ["breakaway"],

@@ -54,7 +54,8 @@ def main():
     wheel, folder = map(Path, sys.argv[1:])
     user = User(folder)
     say(0.1, "installing the wheel")
-    user.run("-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "--constraint",
+    # most modules of the packages are never imported
+    user.run("-m", "pip", "install", "--quiet", "--no-input", "--disable-pip-version-check", "--no-compile", "--constraint",
              WORKSPACE / "fmu-build" / "python" / "requirements.txt", f"{wheel}{EXTRAS}", PIP_CACHE_DIR=str(folder / "cache"),
              problem="the wheel cannot be installed (check the network)")
     say(0.4, "checking it")

@@ -124,7 +124,7 @@ class Fmu:
         """Variable `name`."""
         if not isinstance(name, str):
             raise DifferentialError(f"{name!r}: the name of a variable is text, such as \"left.speed\"")
-        return self._variable(name, [*self.variables, *QUANTITIES])
+        return self._variable(name, lambda _: True)
 
     def starts(self) -> dict[str, Number]:
         """Start values of all parameters by name, SI, as the FMU declares them."""
@@ -132,22 +132,23 @@ class Fmu:
 
     def output(self, name: str) -> Variable:
         """Variable or quantity `name` for a record. Suggestions for an unknown name are outputs, inputs and quantities."""
-        return self._variable(name, [*(each.name for each in self.variables.values() if each.causality != "parameter"), *QUANTITIES])
+        return self._variable(name, lambda each: each.causality != "parameter")
 
-    def _variable(self, name, similar):
-        """Variable `name`, or a quantity. `similar`: names that may be suggested."""
+    def _variable(self, name, similar, quantities=QUANTITIES):
+        """Variable `name`, or a quantity. `similar(variable)`: true for variables that may be suggested, beside these `quantities`."""
         try:
             return self.variables[name]
         except KeyError:
             if name in QUANTITIES:
                 return quantity(name, self.variables)
-            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, similar)}") from None
+            names = [*filter(lambda known: similar(self.variables[known]), self.variables), *quantities]
+            raise DifferentialError(f"{name}: there is no such variable{variable_suggestion(name, names)}") from None
 
     def settable(self, name: str) -> Variable:
         """Parameter or input `name`."""
         if not isinstance(name, str):
             return self.variable(name)
-        variable = self._variable(name, [each.name for each in self.variables.values() if each.causality in SETTABLE])
+        variable = self._variable(name, lambda each: each.causality in SETTABLE, ())
         if variable.causality not in SETTABLE:
             raise DifferentialError(f"{name}: it is calculated and cannot be set; parameters and inputs can")
         return variable

@@ -58,6 +58,11 @@ impl Tally {
         self.rows.values().flat_map(|row| row.statuses).sum()
     }
 
+    /// Processor time of the call that took longest.
+    pub fn longest(&self) -> Duration {
+        self.longest.took
+    }
+
     /// Number of successful calls of `function`.
     pub fn returned_ok(&self, function: &str) -> u64 {
         self.rows.get(function).map_or(0, |row| row.statuses[0])
