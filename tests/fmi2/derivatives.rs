@@ -1,8 +1,8 @@
 //! Tests that compare derivatives of inputs and outputs with steps and finite differences.
 
 use bevel_differential::fmi2::*;
-use bevel_differential::variables::units::{NEWTON, NEWTON_METRE, ONE, PASCAL, RAD_PER_S2, WATT};
 use bevel_differential::variables::table;
+use bevel_differential::variables::units::{NEWTON, NEWTON_METRE, ONE, PASCAL, RAD_PER_S2, WATT};
 
 use crate::common::{Host, assert_contains, reference};
 
