@@ -1,9 +1,6 @@
 //! User parameters of the contact law.
 
-use crate::declaration::units::{
-    M_PER_S, METRE, MM, N_PER_M, N_PER_M2, N_PER_M15, N_PER_MM, N_PER_MM_UM, N_PER_MM15, NS_PER_M, NS_PER_MM, ONE,
-};
-use crate::declaration::{Condition, TUNABLE, all, any, when};
+use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 
 choices! {

@@ -19,3 +19,9 @@ pub use setting::{
     Declared, Detail, Rows, RowsOf, Setting, TUNABLE, acts_when, add, filled, name_within, when, when_each,
 };
 pub use units::{DisplayUnit, Shown, Unit};
+
+/// What the lines of `parameters!` and `readings!` are written with.
+pub mod prelude {
+    pub use super::units::*;
+    pub use super::{Condition, Need, TUNABLE, acts_when, all, any, when, when_each};
+}

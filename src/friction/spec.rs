@@ -1,7 +1,6 @@
 //! User parameters of tooth friction.
 
-use crate::declaration::units::{M_PER_S, METRE, MILLI_PA_S, ONE, PA_S, UM};
-use crate::declaration::{TUNABLE, all, when};
+use crate::declaration::prelude::*;
 use crate::problem::Problem;
 
 /// Largest coefficient that a law may return; the coefficient of unlubricated steel is higher.

@@ -1,7 +1,6 @@
 //! User parameters of the gears, the inputs of all geometry formulas.
 
-use crate::declaration::units::{DEG, METRE, MM, ONE, RADIAN};
-use crate::declaration::when;
+use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 
 choices! {

@@ -1,8 +1,7 @@
 //! User parameters of tooth errors: deviations, modifications, misalignment, and a broken tooth.
 
 use crate::contact::{ContactLaw, ContactSpec};
-use crate::declaration::units::{DEG, METRE, MM, ONE, RADIAN, SECOND, UM};
-use crate::declaration::{Condition, all, any, when};
+use crate::declaration::prelude::*;
 use crate::problem::Problem;
 
 /// Largest deviation or modification of a flank [m]. First-order formulas are not valid beyond it.

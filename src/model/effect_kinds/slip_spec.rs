@@ -3,8 +3,8 @@
 //! A factor describes the dependence on temperature, relative to the friction at the reference temperature. It is
 //! linear between three temperatures and constant beyond them.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Group, any, when};
+use crate::declaration::Group;
+use crate::declaration::prelude::*;
 use crate::problem::Problem;
 
 /// Group of parameters of an effect with dry friction that slides.

@@ -21,8 +21,7 @@
 //!
 //! with the dip factor f_g = immersed depth / D: 0 if the disc runs dry, 1 if it is submerged.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need, all, any, when};
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
 use crate::model::scene::{OilSpec, Plan, Viscosity};
 use crate::problem::Problem;

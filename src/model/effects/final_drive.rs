@@ -1,8 +1,7 @@
 //! Excitation by the final drive. The carrier's torque or imposed speed varies at the mesh order z of the ring gear,
 //! T = T₀ (1 + ε sin zθ) or ω = ω₀ (1 + ε cos zθ): the first harmonic of a gear pair's mesh excitation.
 
-use crate::declaration::units::*;
-use crate::declaration::when;
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Setting, Slopes};
 use crate::model::scene::{CARRIER, Plan};
 use crate::numeric::{cos, sin};

@@ -2,8 +2,7 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_t / L.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, all, any, when_each};
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
     Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Instant, Reading, Setting, Slopes, readings,
 };

@@ -2,7 +2,7 @@
 //! each side is a spring and a damper in parallel: T = command × stiffness × (z + τ ω).
 
 use super::limited_slip::CLUTCH_HEAT;
-use crate::declaration::units::*;
+use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};

@@ -4,8 +4,7 @@
 //! the distance of its meshes from that axis. A side gear moves by w away from the apex under its thrust: F = k_c (w +
 //! τ ẇ). The springs are linear, with damping proportional to stiffness.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need};
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
     Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
 };

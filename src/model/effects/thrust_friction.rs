@@ -11,8 +11,7 @@
 //! uniform wear, p r = constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). For the study's
 //! gears, this rule gives 8.0, 13.5 and 22.8 mm; the start values are 8, 14 and 22 mm.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need, TUNABLE, all, when};
+use crate::declaration::prelude::*;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
     Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, Slides,

@@ -5,8 +5,8 @@
 //! effect, all nodes have the temperature `oil.temperature`.
 
 use super::limited_slip::CLUTCH_HEAT;
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need, Range, Row, TUNABLE, any, row, when};
+use crate::declaration::prelude::*;
+use crate::declaration::{Range, Row, row};
 use crate::model::effect_kinds::{BUILT, Declare, Effect, InputField, Reading, Setting, readings};
 use crate::model::scene::{Scene, Start};
 use crate::model::thermal::network::{Around, Conductance};

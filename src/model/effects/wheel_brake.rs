@@ -9,8 +9,8 @@
 //! Source: the brake of the Modelica Standard Library, Rotational.Components.Brake, with the spring of P. R. Dahl
 //! instead of a locked mode. Both wheels may therefore be braked while speeds are imposed.
 
-use crate::declaration::units::*;
-use crate::declaration::{Row, TUNABLE, any, row, when};
+use crate::declaration::prelude::*;
+use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
     BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, Slides, SlipSpec,

@@ -1,7 +1,6 @@
 //! Elastic and mass data, and moments of inertia of the bodies.
 
-use crate::declaration::units::{KG_M2, KG_PER_M3, KILOGRAM, MPA, ONE, PASCAL};
-use crate::declaration::{Condition, Need, all, when};
+use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 
 parameters! {

@@ -9,8 +9,7 @@
 //!
 //! Source: C. Walther; ASTM D341, without its corrections below 2 mm²/s.
 
-use crate::declaration::units::{DEG_C, KELVIN, KG_PER_M3, KG_PER_M3_K, M2_PER_S, MM2_PER_S, TEMPERATURES};
-use crate::declaration::{Condition, Need, TUNABLE, acts_when, any, when};
+use crate::declaration::prelude::*;
 use crate::problem::Problem;
 
 /// Temperatures at which the viscosity is given, 40 and 100 °C [K].

@@ -1,7 +1,6 @@
 //! Integration of a scene, and facets of solid teeth.
 
-use crate::declaration::units::{ONE, SECOND};
-use crate::declaration::{Condition, all, when};
+use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 
 choices! {

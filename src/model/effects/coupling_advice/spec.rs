@@ -1,7 +1,6 @@
 //! Declaration of the effect: its parameters and readings.
 
-use crate::declaration::Condition;
-use crate::declaration::units::*;
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Declare, Effect, Reading, readings};
 
 parameters! {

@@ -16,8 +16,7 @@
 mod curve;
 mod slip_torque;
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need, TUNABLE, all, any, when};
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
     BodyEffect, Declare, Effect, FrictionSource, Heat, Pressed, Ramps, Reading, Setting, SideFriction, Slides,

@@ -1,7 +1,6 @@
 //! Declaration of the effect: its readings. It has no parameters.
 
-use crate::declaration::Condition;
-use crate::declaration::units::*;
+use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Declare, Effect, Needs, Reading, readings};
 use crate::model::scene::GearContact;
 

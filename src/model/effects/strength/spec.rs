@@ -1,7 +1,6 @@
 //! Declaration of the effect: parameters, their rows, and the readings of stress and damage.
 
-use crate::declaration::units::*;
-use crate::declaration::{Condition, Need, any, when};
+use crate::declaration::prelude::*;
 use crate::friction::ToothFrictionSpec;
 use crate::model::effect_kinds::{Declare, Effect, Needs, Reading, readings};
 use crate::model::effects::warm_up::WarmUpSpec;
