@@ -28,13 +28,13 @@ pub trait Groups {
     fn is_on(&self, kind: TypeId) -> Option<bool>;
 }
 
-/// Influence for which a parameter is needed that several effects share. Each effect declares under which condition it
-/// has which influence.
+/// Influence of a parameter that several effects share. Each effect declares under which condition it needs the parameter
+/// for this influence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Need {
     /// The oil keeps the given temperature.
     GivenTemperature,
-    /// The temperature of the oil starts a computation of temperatures.
+    /// The oil warms up from its temperature at the start.
     TemperatureAtStart,
     /// Friction or stress depends on the temperature of the oil.
     Temperature,
@@ -46,11 +46,6 @@ pub enum Need {
     AxialMass,
 }
 
-impl Need {
-    /// Number of needs.
-    pub const COUNT: usize = Self::AxialMass as usize + 1;
-}
-
 /// Condition on parameters, and on the situation in which a value is set.
 #[derive(Clone, Copy, Debug)]
 pub enum Condition {
@@ -60,7 +55,7 @@ pub enum Condition {
     All(&'static [Self]),
     /// A test on one parameter holds.
     Test(Test),
-    /// An effect that is on has this need.
+    /// An effect has this need, under the condition that it declares.
     Need(Need),
     /// The FMU integrates, as in co-simulation.
     OwnSteps,

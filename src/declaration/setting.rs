@@ -83,7 +83,7 @@ impl<T: Setting> Declared for T {
 }
 
 /// Names of the sides.
-const SIDES: [&str; 2] = ["left", "right"];
+pub const SIDES: [&str; 2] = ["left", "right"];
 
 /// One parameter for each side. Its description contains `{side}`.
 impl<T: Setting> Declared for [T; 2] {

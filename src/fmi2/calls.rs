@@ -18,7 +18,7 @@ use crate::instance::states::{
 use crate::instance::values::{all_or_none, string_error};
 use crate::instance::{CallError, CallResult, Experiment, InputArray, Output, Phase, calls, states};
 #[cfg(feature = "full")]
-use crate::instance::{Instance, filled};
+use crate::instance::{Instance, completed_step, filled};
 use crate::model::Simulation;
 
 /// No state: fmi2CancelStep is never legal, because steps are synchronous.
@@ -133,14 +133,7 @@ calls! {
         };
         fmi2EnterContinuousTimeMode() EVENT => instance.enter_continuous_time_mode();
         /// The flag is ignored, because snapshots are complete.
-        fmi2CompletedIntegratorStep(
-            _noSetFMUStatePriorToCurrentPoint: Boolean,
-            enterEventMode: *mut Boolean as output_value, terminateSimulation: *mut Boolean as output_value
-        ) CONTINUOUS => {
-            enterEventMode.write(instance.completed_integrator_step()?.into());
-            terminateSimulation.write(0);
-            Ok(())
-        };
+        fmi2CompletedIntegratorStep completed_step!() CONTINUOUS => Instance::completed_integrator_step;
         fmi2SetTime(time: f64) EVENT | CONTINUOUS => instance.set_time(time);
         fmi2SetContinuousStates(x: *const f64 as input[nx], nx: usize) CONTINUOUS => instance.set_continuous_states(x);
         fmi2GetDerivatives filled!() HAS_STATES => Instance::get_derivatives;

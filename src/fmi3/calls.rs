@@ -19,7 +19,8 @@ use crate::instance::states::{
 };
 use crate::instance::values::all_or_none;
 use crate::instance::{
-    Call, CallError, CallResult, EVENT_INDICATORS, Experiment, Instance, Iteration, calls, export, filled,
+    Call, CallError, CallResult, EVENT_INDICATORS, Experiment, Instance, Iteration, calls, completed_step, export,
+    filled,
 };
 use crate::model::STATES;
 
@@ -221,14 +222,7 @@ calls! {
         };
         fmi3EnterContinuousTimeMode() EVENT => instance.enter_continuous_time_mode_of_exchange();
         /// The flag is ignored, because snapshots are complete.
-        fmi3CompletedIntegratorStep(
-            _noSetFMUStatePriorToCurrentPoint: Boolean,
-            enterEventMode: *mut Boolean as output_value, terminateSimulation: *mut Boolean as output_value
-        ) CONTINUOUS => {
-            enterEventMode.write(instance.completed_integrator_step()?.into());
-            terminateSimulation.write(0);
-            Ok(())
-        };
+        fmi3CompletedIntegratorStep completed_step!() CONTINUOUS => Instance::completed_integrator_step;
         fmi3SetTime(time: f64) EVENT | CONTINUOUS => instance.set_time(time);
         fmi3SetContinuousStates(
             continuousStates: *const f64 as input[nContinuousStates], nContinuousStates: usize

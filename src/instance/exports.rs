@@ -81,6 +81,24 @@ macro_rules! filled {
     };
 }
 
+/// Defines the function with which a host's solver reports a completed step to a method.
 #[cfg(feature = "full")]
-pub(crate) use filled;
+macro_rules! completed_step {
+    (() $row:tt $method:expr) => {
+        $crate::instance::export! {
+            [] (
+                _noSetFMUStatePriorToCurrentPoint: Boolean,
+                enterEventMode: *mut Boolean as output_value,
+                terminateSimulation: *mut Boolean as output_value
+            ) $row |instance, host| {
+                enterEventMode.write($method(instance)?.into());
+                terminateSimulation.write(0);
+                Ok(())
+            }
+        }
+    };
+}
+
 pub(crate) use {calls, export};
+#[cfg(feature = "full")]
+pub(crate) use {completed_step, filled};

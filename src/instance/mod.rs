@@ -39,9 +39,9 @@ pub use call_error::{CallError, CallResult};
 pub use component::{Component, create, free, run};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
-#[cfg(feature = "full")]
-pub(crate) use exports::filled;
 pub(crate) use exports::{calls, export};
+#[cfg(feature = "full")]
+pub(crate) use exports::{completed_step, filled};
 pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
 pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};

@@ -37,7 +37,7 @@ fn holds(condition: &Condition, parameters: &Parameters, situation: Situation) -
         Condition::Any(parts) => parts.iter().any(of),
         Condition::All(parts) => parts.iter().all(of),
         Condition::Test(test) => (test.holds)(parameters).unwrap_or(false),
-        Condition::Need(need) => needing(*need).iter().any(of),
+        Condition::Need(need) => needing(*need).any(of),
         Condition::OwnSteps => situation.own_steps,
         Condition::FromStart => situation.from_start,
     }
@@ -47,7 +47,7 @@ fn holds(condition: &Condition, parameters: &Parameters, situation: Situation) -
 fn add_alternatives(condition: &Condition, found: &mut Vec<Condition>) {
     match condition {
         Condition::Any(parts) => parts.iter().for_each(|part| add_alternatives(part, found)),
-        Condition::Need(need) => needing(*need).iter().for_each(|part| add_alternatives(part, found)),
+        Condition::Need(need) => needing(*need).for_each(|part| add_alternatives(part, found)),
         _ => found.push(*condition),
     }
 }
@@ -123,10 +123,11 @@ fn starts() -> &'static [Option<f64>] {
     })
 }
 
-/// Conditions under which an effect has `need`.
-fn needing(need: Need) -> &'static [Condition] {
-    static NEEDING: [OnceLock<&[Condition]>; Need::COUNT] = [const { OnceLock::new() }; Need::COUNT];
-    NEEDING[need as usize].get_or_init(|| store_all(&effects::needing(need)))
+/// Conditions under which effects have `need`.
+fn needing(need: Need) -> impl Iterator<Item = &'static Condition> {
+    static NEEDS: OnceLock<&[(Need, Condition)]> = OnceLock::new();
+    let needs = NEEDS.get_or_init(|| store_all(&effects::needs()));
+    needs.iter().filter(move |(of, _)| *of == need).map(|(_, condition)| condition)
 }
 
 /// Returns a warning if `value` differs from the start value of row `index` and has no effect in a scene of
@@ -228,8 +229,8 @@ mod tests {
             match condition {
                 Condition::Any(parts) | Condition::All(parts) => parts.iter().for_each(check),
                 Condition::Need(need) => {
-                    assert!(!needing(*need).is_empty(), "{need:?}");
-                    needing(*need).iter().for_each(check);
+                    assert!(needing(*need).next().is_some(), "{need:?}");
+                    needing(*need).for_each(check);
                 }
                 Condition::Test(test) => check_test(test),
                 Condition::OwnSteps | Condition::FromStart => {}

@@ -2,12 +2,12 @@
 
 use super::access::OutputSource::{self, Reading};
 use crate::declaration::units::*;
-use crate::declaration::{Row, Shown, filled, row};
+use crate::declaration::{Row, SIDES, Shown, filled, row};
 use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, PAIRS, efficiency, readings};
 
-/// Placeholders that stand for one of two: in names, and in descriptions.
+/// Placeholders with two values each, as written in names and in descriptions.
 const EITHER: [(&str, [&str; 2], [&str; 2]); 2] =
-    [("{side}", ["left", "right"], ["left", "right"]), ("{gear}", ["planet", "side"], ["planet", "side gear"])];
+    [("{side}", SIDES, SIDES), ("{gear}", ["planet", "side"], ["planet", "side gear"])];
 /// Placeholder for a number, counted from 1.
 const NUMBER: &str = "{i}";
 

@@ -5,7 +5,7 @@
 
 use super::{Access, OutputSource, Variable};
 use crate::declaration::units::{self, DEG, DEG_PER_S, MM};
-use crate::declaration::{Causality, DisplayUnit, Unit, row};
+use crate::declaration::{Causality, DisplayUnit, SIDES, Unit, row};
 use crate::model::{ATTACHED, BODIES, Body, STATES};
 use crate::static_memory::store_text;
 
@@ -51,7 +51,7 @@ const SEAT: [&str; 2] = ["seat_position", "seat_speed"];
 /// Returns the position and velocity states of a body.
 fn states(body: Body) -> [State; 2] {
     let of = match body {
-        Body::Side(s) | Body::Seat(s) => ["left", "right"][s].into(),
+        Body::Side(s) | Body::Seat(s) => SIDES[s].into(),
         Body::Carrier => "carrier".into(),
         Body::Planet(i) | Body::Pin(i) => format!("planet[{}]", i + 1),
         Body::Attached(k) => ATTACHED[k].of.into(),

@@ -135,7 +135,7 @@ class Fmu:
         return self._variable(name, lambda each: each.causality != "parameter")
 
     def _variable(self, name, similar, quantities=QUANTITIES):
-        """Variable `name`, or a quantity. `similar(variable)`: true for variables that may be suggested, beside these `quantities`."""
+        """Variable `name`, or a quantity. `similar(variable)`: true for variables that may be suggested, in addition to these `quantities`."""
         try:
             return self.variables[name]
         except KeyError:

@@ -86,7 +86,7 @@ fn every_export_catches_panics() {
     assert_eq!(exports.len(), mentions(&source), "no other file exports functions");
 }
 
-/// Number of functions that keep their names for C in the files of a folder, apart from this one.
+/// Number of functions with C names in the files of a folder, without this file.
 fn mentions(folder: &Path) -> usize {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let own = |path: &Path| path.ends_with("fmi2/tests/panics.rs");

@@ -165,10 +165,9 @@ macro_rules! effects {
             }
         }
 
-        /// Conditions under which an effect has `need`.
-        pub fn needing(need: Need) -> Vec<Condition> {
-            let all = [$(<$effect>::needs(),)+ $(<$commanded>::needs(),)+];
-            all.into_iter().flatten().filter(|(of, _)| *of == need).map(|(_, condition)| condition).collect()
+        /// Needs of all effects, each with its condition.
+        pub fn needs() -> Vec<(Need, Condition)> {
+            [$(<$effect>::needs(),)+ $(<$commanded>::needs(),)+].concat()
         }
 
         /// Rows of the inputs of the effect `name`.

@@ -1,7 +1,7 @@
 //! Conditions under which rows have an effect, as alternative lists of requirements.
 
 use bevel_differential::declaration::{Condition, Test};
-use bevel_differential::model::effects::needing;
+use bevel_differential::model::effects::needs;
 use bevel_differential::variables::{Variable, named};
 
 /// Requirement of a condition. The value of `row` must be one of `values` (sign `=`), none of them (`!`), or greater
@@ -34,7 +34,9 @@ fn both(a: Vec<Vec<Requirement>>, b: Vec<Vec<Requirement>>) -> Vec<Vec<Requireme
 fn read(condition: &Condition) -> Vec<Vec<Requirement>> {
     match condition {
         Condition::Any(parts) => parts.iter().flat_map(read).collect(),
-        Condition::Need(need) => needing(*need).iter().flat_map(read).collect(),
+        Condition::Need(need) => {
+            needs().iter().filter(|(of, _)| of == need).flat_map(|(_, condition)| read(condition)).collect()
+        }
         Condition::All(parts) => parts.iter().map(read).fold(vec![vec![]], both),
         Condition::Test(test) => vec![vec![test.into()]],
         Condition::OwnSteps | Condition::FromStart => vec![vec![]],

@@ -22,8 +22,8 @@ use fmu_build::tools::progress::Progress;
 
 /// Number of rounds of random calls, half of them for each version of FMI.
 const ROUNDS: usize = 20;
-/// Longest processor time of a random call. A few calls are steps of very stiff scenes: they take a hundred times as long as
-/// all others together, and reach no other memory.
+/// Longest processor time of a random call. A few calls are steps of very stiff scenes, and need more time than all other
+/// calls together.
 const LONGEST: Duration = Duration::from_millis(200);
 
 /// Value reference of `name`, as an argument.
@@ -90,7 +90,7 @@ impl MemcheckCommand {
     }
 }
 
-/// First seed of as many rounds as are checked, none of which has a call that takes longer than [`LONGEST`] without memcheck.
+/// Returns the first seed of [`ROUNDS`] successive rounds in which every call takes at most [`LONGEST`] without memcheck.
 fn seed_of_quick_rounds() -> Result<u64> {
     let mut first = 1;
     let mut seed = first;
