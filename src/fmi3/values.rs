@@ -140,7 +140,7 @@ pub fn get_int64(instance: &mut Instance, references: InputArray<u32>, values: O
 }
 
 fn is_enumeration(reference: u32) -> CallResult<bool> {
-    Ok(matches!(row(reference)?.access, Access::Enumeration(..)))
+    Ok(row(reference)?.access.enumeration().is_some())
 }
 
 /// fmi3SetInt64, for enumerations.

@@ -30,18 +30,6 @@ const PLANET_COUNTS: std::ops::RangeInclusive<i32> = 2..=4;
 /// Relative reduction of a fillet that is still attributed to rounding.
 const SHARE_OF_FILLET: f64 = 1e-9;
 
-/// Returns an error if the pair cannot form a differential. The geometry of a pair is valid for other shaft angles too.
-pub fn shaft_angle(spec: &GearSpec) -> Option<Problem> {
-    (!Pair::is_right_angle(spec.shaft_angle)).then(|| {
-        problem!(
-            "geometry.shaft_angle",
-            "{:.4} deg: two equal coaxial side gears can mesh with the same planet only at 90 deg; \
-             small assembly errors are not a nominal shaft angle",
-            spec.shaft_angle.to_degrees()
-        )
-    })
-}
-
 /// Reasons why the pair cannot be built; empty if it can.
 pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
     let mut found = Vec::new();
@@ -62,28 +50,36 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
                 gear.dedendum * MM
             ));
         }
-        let thinned = spec.backlash / (2.0 * spec.module * f64::from(gear.teeth));
-        if gear.half_pitch + thinned <= 0.0 {
+        let z = f64::from(gear.teeth);
+        let thinned = spec.backlash / (2.0 * spec.module * z);
+        let shifted = if i == 0 { -spec.thickness_shift } else { spec.thickness_shift } / z;
+        // the parameter without which half a tooth would have more than the angle `half`
+        let cause = |half: f64| match half + thinned {
+            unthinned if unthinned > 0.0 => "geometry.backlash",
+            unthinned if unthinned + shifted > 0.0 => "geometry.thickness_shift",
+            _ => addendum(i),
+        };
+        let (tooth, tip) = (gear.half_pitch, gear.half_angle(gear.tip));
+        if tooth <= 0.0 && tooth + thinned > 0.0 {
             found.push(problem!(
-                addendum(i),
-                "the split of addenda leaves the {} no tooth at the pitch circle; use more equal addenda",
-                NAMES[i]
-            ));
-        } else if gear.half_pitch <= 0.0 {
-            found.push(problem!(
-                "geometry.backlash",
+                cause(tooth),
                 "{:.3} mm is more than the {}'s whole tooth",
                 spec.backlash * MM,
                 NAMES[i]
             ));
-        } else if land(pair, i) <= 0.0 {
-            let unthinned = gear.half_angle(gear.tip) + thinned > 0.0;
+        } else if tooth <= 0.0 {
             found.push(problem!(
-                if unthinned { "geometry.backlash" } else { addendum(i) },
-                "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm for backlash",
+                cause(tooth),
+                "the split between the gears leaves the {} no tooth at the pitch circle; use a more equal split",
+                NAMES[i]
+            ));
+        } else if tip <= 0.0 {
+            found.push(problem!(
+                cause(tip),
+                "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm",
                 NAMES[i],
                 gear.addendum * MM,
-                spec.backlash / 2.0 * MM
+                (thinned + shifted) * spec.module * z * MM
             ));
         }
         let mate = &pair.gears[1 - i];

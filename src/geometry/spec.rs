@@ -1,7 +1,9 @@
 //! User parameters of the gears, the inputs of all geometry formulas.
 
+use crate::declaration::ROUNDING_ONLY;
 use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
+use crate::numeric::FRAC_PI_2;
 
 choices! {
     /// Rule that splits the working depth into addenda and fixes the clearance.
@@ -28,8 +30,8 @@ parameters! {
         planet_count: i32 = 2, 2..=4;
         /// Pressure angle
         pressure_angle: f64 = 20f64.to_radians(), RADIAN | DEG, 0.17..=0.53;
-        /// Angle between planet and side gear axes; a differential needs 90 deg
-        shaft_angle: f64 = 90f64.to_radians(), RADIAN | DEG, 0.17..=3.0;
+        /// Angle between planet and side gear axes: two equal coaxial side gears can mesh with the same planet only at 90 deg
+        shaft_angle: f64 = FRAC_PI_2, RADIAN | DEG, FRAC_PI_2 - ROUNDING_ONLY / 2.0..=FRAC_PI_2 + ROUNDING_ONLY / 2.0;
         /// Face width
         face_width: f64 = 20e-3, METRE | MM, 1e-4..=1.0;
         /// Rule for addenda and dedenda
@@ -42,6 +44,8 @@ parameters! {
         planet_dedendum: f64 = 1.25, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
         /// Side gear dedendum per module, if geometry.addendum_system = explicit
         side_dedendum: f64 = 1.25, ONE, 0.05..=3.0, when(is!(Self.addendum_system, AddendumSystem::Explicit));
+        /// Thickness per module that each planet tooth gains and each side gear tooth loses at the outer pitch circle
+        thickness_shift: f64 = 0.0, ONE, -0.5..=0.5;
         /// Circumferential backlash at the outer pitch circle
         backlash: f64 = 1e-4, METRE | MM, 0.0..=0.05, when(is!(PlainTeeth.backlash, true));
         /// Root fillet radius per module, for the tooth stiffness

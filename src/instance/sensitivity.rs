@@ -169,7 +169,7 @@ impl<'a> Slopes<'a> {
                 along.slope(|lines| of(&lines[k]))
             }
             // the ledger changes only with time
-            OutputSource::Constant(..) | OutputSource::Ledger(..) => 0.0,
+            OutputSource::Constant(..) | OutputSource::Ledger(..) | OutputSource::Choice(..) => 0.0,
             OutputSource::State(k) => {
                 self.states.get_or_insert_with(|| simulation.states_of(|i| direction.q[i], &direction.v))[k]
             }

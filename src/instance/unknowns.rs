@@ -25,6 +25,7 @@ pub fn finite_slope(row: &Variable, slope: f64) -> CallResult<f64> {
 /// Returns the source of a variable that has derivatives.
 pub fn output_source(row: &Variable) -> CallResult<OutputSource> {
     match row.access {
+        Access::Output(OutputSource::Choice(..)) => Err(wrong_type(row)),
         Access::Output(source) => Ok(source),
         Access::Real(_) | Access::Input(_) => {
             Err(CallError::error(format!("{} is set by the host, so it has no derivative", row.name)))

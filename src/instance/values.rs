@@ -3,15 +3,15 @@
 use super::exchange::check_state;
 use super::instance::is_tolerance;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase};
-use crate::model::{LedgerReadings, Motion, STATES};
+use crate::model::{LedgerReadings, Motion, STATES, Simulation};
 use crate::variables::{Access, EnumType, OutputSource, Variability, Variable, accepted, table, tuned};
 
 /// FMI type of a variable, as used in the names of FMI functions.
 fn type_name(row: &Variable) -> &'static str {
     match row.access {
+        Access::Enumeration(..) | Access::Output(OutputSource::Choice(..)) => "Enumeration, read and set as Integer",
         Access::Real(_) | Access::Input(_) | Access::Output(_) => "Real",
         Access::Integer(_) => "Integer",
-        Access::Enumeration(..) => "Enumeration, read and set as Integer",
         Access::Boolean(_) => "Boolean",
     }
 }
@@ -101,9 +101,7 @@ impl Instance {
                 Access::Real(slot) => *slot(&mut self.now.parameters),
                 Access::Input(slot) => *slot(&mut self.now.inputs),
                 Access::Output(source) => {
-                    let simulation = self
-                        .simulation()
-                        .map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })?;
+                    let simulation = self.started(row)?;
                     match source {
                         OutputSource::Constant(i, of) => of(simulation, i),
                         OutputSource::Motion(i, of) => of(motion.get_or_insert_with(|| simulation.motion()), i),
@@ -112,6 +110,7 @@ impl Instance {
                         OutputSource::Pair(k, of) => of(&pairs.get_or_insert_with(|| simulation.pair_lines())[k]),
                         OutputSource::Reading(place) => simulation.forces_without_components().readings[place],
                         OutputSource::Ledger(i, of) => of(ledger.get_or_insert_with(|| simulation.ledger()), i),
+                        OutputSource::Choice(..) => return Err(wrong_type(row)),
                         OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],
                         OutputSource::Rate(k) => rates.get_or_insert_with(|| simulation.state_rates())[k],
                     }
@@ -123,12 +122,18 @@ impl Instance {
         Ok(())
     }
 
+    /// Returns the simulation from which the output `row` is read.
+    fn started(&mut self, row: &Variable) -> CallResult<&mut Simulation> {
+        self.simulation().map_err(|e| CallError { message: format!("{}: {}", row.name, e.message), ..e })
+    }
+
     /// Reads an integer or enumeration.
     pub fn get_integer(&mut self, reference: u32) -> CallResult<i32> {
         let row = row(reference)?;
         match row.access {
             Access::Integer(slot) => Ok(*slot(&mut self.now.parameters)),
             Access::Enumeration(_, get, _) => Ok(get(&self.now.parameters)),
+            Access::Output(source @ OutputSource::Choice(..)) => Ok(source.read(self.started(row)?) as i32),
             _ => Err(wrong_type(row)),
         }
     }
@@ -207,6 +212,7 @@ impl Instance {
                     return Err(choice_error(row, kind, value));
                 }
                 Access::Integer(_) | Access::Enumeration(..) => self.check_settable(row)?,
+                Access::Output(OutputSource::Choice(..)) => return Err(output_error(reference, row)),
                 _ => return Err(wrong_type(row)),
             }
         }

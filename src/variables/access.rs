@@ -18,6 +18,9 @@ pub enum OutputSource {
     Pair(usize, fn(&PairLine) -> f64),
     /// Ledger and statistics of the solver, by an index.
     Ledger(usize, fn(&LedgerReadings, usize) -> f64),
+    /// Reading of an effect that changes with steps and is one of several choices: its type, and its index among such
+    /// readings.
+    Choice(&'static EnumType, usize),
     /// Reading of an effect that may change at any instant, by its index among such readings.
     Reading(usize),
     /// Continuous state, by its number.
@@ -36,6 +39,7 @@ impl OutputSource {
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
             Self::Reading(place) => simulation.forces().readings[place],
             Self::Ledger(i, of) => of(&simulation.ledger(), i),
+            Self::Choice(_, place) => simulation.ledger().readings[place],
             Self::State(k) => simulation.states()[k],
             Self::Rate(k) => simulation.state_rates()[k],
         }
@@ -57,6 +61,16 @@ pub enum Access {
     Input(InputField),
     /// A real output, a local variable, or a calculated parameter.
     Output(OutputSource),
+}
+
+impl Access {
+    /// Returns the type of an enumeration.
+    pub fn enumeration(&self) -> Option<&'static EnumType> {
+        match self {
+            Self::Enumeration(kind, ..) | Self::Output(OutputSource::Choice(kind, _)) => Some(kind),
+            _ => None,
+        }
+    }
 }
 
 /// A row of the table.

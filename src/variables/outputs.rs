@@ -56,11 +56,15 @@ pub fn rows() -> Vec<Row<OutputSource>> {
     }
     let (mut at_instants, mut by_steps) = (0.., 0..);
     for reading in readings() {
-        let source = match reading.changes {
-            Changes::Always => Reading(at_instants.next().unwrap_or(0)),
-            Changes::ByStep => {
-                OutputSource::Ledger(by_steps.next().unwrap_or(0), |ledger, place| ledger.readings[place])
-            }
+        let places = match reading.changes {
+            Changes::Always => &mut at_instants,
+            Changes::ByStep => &mut by_steps,
+        };
+        let place = places.next().unwrap_or(0);
+        let source = match (reading.changes, reading.choices) {
+            (Changes::Always, _) => Reading(place),
+            (Changes::ByStep, None) => OutputSource::Ledger(place, |ledger, place| ledger.readings[place]),
+            (Changes::ByStep, Some(kind)) => OutputSource::Choice(kind, place),
         };
         rows.push(row(reading.name, reading.description).output(Shown(reading.unit, reading.display), source));
     }

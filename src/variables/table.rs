@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
+use super::effective::written_as_shown;
 use super::{Access, Variable};
 use crate::declaration::{Causality, Range, Row, Rows, Variability};
 use crate::model::{Inputs, Parameters, STATES};
@@ -86,6 +87,14 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
         return Ok(());
     }
     let unit = row.unit.map_or("", |u| if u.name == "1" { "" } else { u.name });
+    if let Some(only) = (Range { min, max }).only_value() {
+        return Err(problem!(
+            row.name,
+            "{value} {unit} is not {}, the only possible value. {}",
+            written_as_shown(row, only),
+            row.description
+        ));
+    }
     let mut text = format!("{value} {unit} is outside [{min}, {max}] {unit}");
     // the most common mistake: a value in the display unit
     if let Some(shown) = row.display {

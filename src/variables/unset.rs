@@ -54,8 +54,6 @@ const LOCK: &str = "lock";
 const DIFFERENTIAL: [&str; 3] = ["geometry", "material", "inertia"];
 /// Groups that determine how a scene is computed. Their values select methods and do not describe a differential.
 const METHODS: [&str; 5] = ["scene", "effects", "solver", "solid", "coupling"];
-/// Variables with only one valid value.
-const SINGLE_VALUED: [&str; 1] = ["geometry.shaft_angle"];
 /// Endings of the names of factors. A factor of 1 has no effect.
 const FACTORS: [&str; 3] = ["_factor", "_ratio", ".beyond_limit"];
 
@@ -99,7 +97,7 @@ pub fn unset_as_shown(
         if set.contains(index)
             || matches!(row.access, Access::Output(_) | Access::Boolean(_))
             || METHODS.contains(&group)
-            || SINGLE_VALUED.contains(&row.name)
+            || row.range.is_some_and(|range| range.only_value().is_some())
             || group == LOCK && !is_commanded
         {
             continue;

@@ -89,6 +89,27 @@ fn the_number_of_an_unknown_choice_is_refused_with_the_choices() {
 }
 
 #[test]
+fn an_output_with_choices_is_read_as_an_integer_and_cannot_be_set() {
+    let host = Host::new();
+    assert_eq!(host.set_boolean("effects.coupling_advice", 1), Status::Ok);
+    assert_eq!(host.set("carrier.speed_command", 0.0), Status::Ok);
+    host.start();
+    host.steps(0.0, 1e-3, 50);
+    let state = reference("coupling.advice_state");
+    let mut value = -1;
+    // SAFETY: a live component and arguments valid during the call
+    unsafe {
+        assert_eq!(fmi2GetInteger(host.c, &state, 1, &mut value), Status::Ok);
+        assert_eq!(fmi2GetReal(host.c, &state, 1, &mut 0.0), Status::Error);
+        assert_contains(&host.last_message(), &["coupling.advice_state is of type Enumeration"]);
+        assert_eq!(fmi2SetInteger(host.c, &state, 1, &1), Status::Error);
+        assert_contains(&host.last_message(), &["coupling.advice_state is an output and cannot be set"]);
+    }
+    // nothing moves
+    assert_eq!(value, 2);
+}
+
+#[test]
 fn wrong_types_and_unknown_references_are_named() {
     let host = Host::new();
     let unknown = table().rows.len() as u32;

@@ -143,6 +143,26 @@ fn backlash_thins_both_teeth_and_opens_the_golden_normal_gap() {
     assert!((play / loose.normal_backlash - 1.0).abs() < 1e-12, "{play} {}", loose.normal_backlash);
 }
 
+/// Gleason's circular thickness factor. KHK's example of a straight bevel pair with 16/40 teeth, m = 4 mm, α = 20° and
+/// K = 0.0259 has s₁ = 7.5119 mm and s₂ = 5.0545 mm.
+#[test]
+fn a_shift_of_thickness_makes_planets_thicker_and_side_gears_thinner() {
+    let base =
+        GearSpec { module: 4e-3, planet_teeth: 16, side_teeth: 40, backlash: 0.0, ..spec(AddendumSystem::Gleason) };
+    let (plain, shifted) = (Pair::new(&base), Pair::new(&GearSpec { thickness_shift: 0.0259, ..base }));
+    for (i, khk) in [7.5119, 5.0545].into_iter().enumerate() {
+        let thickness = |pair: &Pair| pair.gears[i].half_pitch * pair.outer_pitch_diameter(i) * MM;
+        assert!((thickness(&shifted) - khk).abs() < 1e-4, "{}", thickness(&shifted));
+        let gained = if i == 0 { 1.0 } else { -1.0 } * 0.0259 * 4.0;
+        assert!((thickness(&shifted) - thickness(&plain) - gained).abs() < 1e-12);
+        // the land changes by the same angle, at the radius of the tip
+        let land = |pair: &Pair| 2.0 * pair.gears[i].half_angle(pair.gears[i].tip) * pair.gears[i].tip.sin();
+        let wanted = gained / (base.module * MM * f64::from(shifted.gears[i].teeth)) * 2.0 * shifted.gears[i].tip.sin();
+        assert!((land(&shifted) - land(&plain) - wanted).abs() < 1e-14);
+    }
+    assert_eq!((shifted.normal_backlash, shifted.path), (plain.normal_backlash, plain.path));
+}
+
 fn rows(text: &str) -> impl Iterator<Item = Vec<&str>> {
     text.lines().filter(|l| !l.starts_with('#')).skip(1).map(|l| l.split(',').collect())
 }

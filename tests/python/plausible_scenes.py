@@ -48,7 +48,7 @@ MULTIPLES = {
                                            "case_to_ambient", "case_to_ambient_per_speed")}}
 # bands within which values are drawn uniformly
 BANDS = {
-    "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5),
+    "geometry.pressure_angle": (0.28, 0.44), "material.poisson_ratio": (0.0, 0.4), "geometry.root_fillet": (0.0, 0.5), "geometry.thickness_shift": (-0.05, 0.05),
     "contact.exponent": (1.0, 2.0), "limited_slip.torque_coefficient": (0.0, 0.5),
     "limited_slip.static_ratio": (1.0, 2.0), "limited_slip.viscous_exponent": (0.3, 2.0), "tooth_friction.static_ratio": (1.0, 2.0),
     "tooth_friction.coefficient": (0.0, 0.15), "thrust_friction.coefficient": (0.0, 0.2),

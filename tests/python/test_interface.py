@@ -140,6 +140,9 @@ def test_a_value_with_its_unit_is_not_taken_for_another_unit(fmu_file):
     with pytest.raises(DifferentialError) as refused:
         Differential({"geometry.module": "450 mm"}, fmu=fmu_file)
     assert str(refused.value) == "geometry.module: 450 mm is outside [0.2, 100] mm"
+    with pytest.raises(DifferentialError) as refused:
+        Differential({"geometry.shaft_angle": "80 deg"}, fmu=fmu_file)
+    assert str(refused.value).startswith("geometry.shaft_angle: 80 deg is not 90 deg, the only possible value. Angle between")
     with pytest.raises(DifferentialError, match="did you mean 4.5 mm"), Differential({"geometry.module": 4.5}, fmu=fmu_file) as bare:
         bare.run(stop=0.01)
 

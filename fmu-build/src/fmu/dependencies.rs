@@ -37,7 +37,7 @@ pub fn is_speed(input: &Variable) -> bool {
 
 /// True if the output changes only with accepted steps.
 pub fn is_of_ledger(row: &Variable) -> bool {
-    matches!(row.access, Access::Output(OutputSource::Ledger(..)))
+    matches!(row.access, Access::Output(OutputSource::Ledger(..) | OutputSource::Choice(..)))
 }
 
 /// Indices of the inputs that are `wanted`.

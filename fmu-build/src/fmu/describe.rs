@@ -5,10 +5,10 @@ use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
-use bevel_differential::model::Parameters;
+use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
-    Access, Causality, EnumType, MODEL_NAME, Table, Variability, Variable, guid, real_start, table,
+    Access, Causality, EnumType, MODEL_NAME, Table, Variability, Variable, guid, real_start, table, value_of,
 };
 use clap::Args;
 
@@ -204,17 +204,10 @@ fn temperature_difference() -> Element {
     Element::new("SimpleType").with("name", DIFFERENCE).child(real)
 }
 
-fn enumeration_of(row: &Variable) -> Option<&'static EnumType> {
-    match row.access {
-        Access::Enumeration(kind, ..) => Some(kind),
-        _ => None,
-    }
-}
-
 /// Enumeration types in the order of their first use.
 pub(super) fn enumerations(table: &'static Table) -> impl Iterator<Item = &'static EnumType> {
     let mut seen: Vec<&EnumType> = Vec::new();
-    for kind in table.rows.iter().filter_map(enumeration_of) {
+    for kind in table.rows.iter().filter_map(|row| row.access.enumeration()) {
         if !seen.iter().any(|k| k.name == kind.name) {
             seen.push(kind);
         }
@@ -254,6 +247,7 @@ pub(super) fn variability(row: &Variable) -> &'static str {
     match row.variability {
         Variability::Fixed => "fixed",
         Variability::Tunable => "tunable",
+        Variability::Continuous if row.access.enumeration().is_some() => "discrete",
         Variability::Continuous => "continuous",
     }
 }
@@ -276,7 +270,7 @@ fn scalar_variable(reference: usize, row: &Variable, (choices, part): (Choices, 
 
 /// Description of a variable. If its choices are integers, the description names the choice of each number.
 fn description(row: &Variable, choices: Choices) -> String {
-    match enumeration_of(row) {
+    match row.access.enumeration() {
         Some(kind) if choices == Choices::Integers => {
             let named = kind.choices.iter().map(|choice| format!("{} = {}", choice.value, choice.name));
             format!("{}: {}", row.description, named.collect::<Vec<_>>().join(", "))
@@ -287,8 +281,19 @@ fn description(row: &Variable, choices: Choices) -> String {
 
 fn variable_type(row: &Variable, is_reinit: bool, choices: Choices) -> Element {
     let mut defaults = Parameters::default();
+    if let Some(kind) = row.access.enumeration() {
+        let start = value_of(row, &defaults, &Inputs::ZERO);
+        let element = match choices {
+            Choices::Integers => {
+                let values = || kind.choices.iter().map(|choice| choice.value);
+                Element::new("Integer").with_some("min", values().min()).with_some("max", values().max())
+            }
+            Choices::Enumerations => Element::new("Enumeration").with("declaredType", kind.name),
+        };
+        return element.with_some("start", start);
+    }
     match row.access {
-        Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
+        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => Element::new("Real")
             .with_some("declaredType", (is_relative(row) && choices == Choices::Enumerations).then_some(DIFFERENCE))
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
@@ -304,12 +309,6 @@ fn variable_type(row: &Variable, is_reinit: bool, choices: Choices) -> Element {
             .with_some("max", row.range.map(|range| range.max))
             .with("start", *access(&mut defaults)),
         Access::Boolean(access) => Element::new("Boolean").with("start", *access(&mut defaults)),
-        Access::Enumeration(kind, value, _) if choices == Choices::Integers => {
-            Element::new("Integer").with("min", 1).with("max", kind.choices.len()).with("start", value(&defaults))
-        }
-        Access::Enumeration(kind, value, _) => {
-            Element::new("Enumeration").with("declaredType", kind.name).with("start", value(&defaults))
-        }
     }
 }
 

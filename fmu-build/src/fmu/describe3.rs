@@ -3,8 +3,10 @@
 use anyhow::{Context, Result};
 use bevel_differential::fmi3::variables::{Added, HAPPENINGS, Item, added, held, planet_count};
 use bevel_differential::instance::OUTPUT_ORDER;
-use bevel_differential::model::Parameters;
-use bevel_differential::variables::{Access, Causality, MODEL_NAME, Table, Variable, guid, real_start, table, units};
+use bevel_differential::model::{Inputs, Parameters};
+use bevel_differential::variables::{
+    Access, Causality, MODEL_NAME, Table, Variable, guid, real_start, table, units, value_of,
+};
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
 use super::describe::{
@@ -79,11 +81,11 @@ fn named(kind: &'static str, reference: usize, name: &str, description: &str) ->
 fn variable(reference: usize, row: &Variable) -> Element {
     let is_structural = reference == planet_count() as usize;
     let kind = match row.access {
-        Access::Real(_) | Access::Input(_) | Access::Output(_) => "Float64",
+        _ if row.access.enumeration().is_some() => "Enumeration",
+        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => "Float64",
         Access::Integer(_) if is_structural => "UInt64",
         Access::Integer(_) => "Int32",
         Access::Boolean(_) => "Boolean",
-        Access::Enumeration(..) => "Enumeration",
     };
     let calculated = matches!(row.causality, Causality::CalculatedParameter | Causality::Output | Causality::Local);
     let element = named(kind, reference, row.name, row.description)
@@ -91,8 +93,12 @@ fn variable(reference: usize, row: &Variable) -> Element {
         .with("variability", if held(reference).is_some() { "discrete" } else { variability(row) })
         .with_some("initial", calculated.then_some("calculated"));
     let mut defaults = Parameters::default();
+    if let Some(kind) = row.access.enumeration() {
+        let start = value_of(row, &defaults, &Inputs::ZERO);
+        return element.with("declaredType", kind.name).with_some("start", start);
+    }
     match row.access {
-        Access::Real(_) | Access::Input(_) | Access::Output(_) => element
+        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => element
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
             .with_some("declaredType", is_relative(row).then_some(DIFFERENCE))
@@ -108,7 +114,6 @@ fn variable(reference: usize, row: &Variable) -> Element {
             .with_some("max", row.range.map(|range| range.max))
             .with("start", *access(&mut defaults)),
         Access::Boolean(access) => element.with("start", *access(&mut defaults)),
-        Access::Enumeration(kind, value, _) => element.with("declaredType", kind.name).with("start", value(&defaults)),
     }
 }
 

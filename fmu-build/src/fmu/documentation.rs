@@ -209,7 +209,7 @@ fn row(row: &Variable) -> Element {
     if row.variability == Variability::Tunable {
         meaning.push_str(" (tunable)");
     }
-    if let Access::Enumeration(kind, ..) = row.access {
+    if let Some(kind) = row.access.enumeration() {
         for choice in kind.choices {
             meaning.push_str(&format!("; {} = {}: {}", choice.value, choice.name, choice.description));
         }

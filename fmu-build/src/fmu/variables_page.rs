@@ -77,9 +77,9 @@ fn without_unit(row: &Variable, text: String) -> String {
 
 /// Smallest and largest value, or the names of the choices.
 fn range(row: &Variable) -> String {
-    match row.access {
-        Access::Enumeration(kind, ..) => kind.choices.iter().map(|choice| choice.name).collect::<Vec<_>>().join(", "),
-        _ => without_unit(row, allowed(row)).replace(" to ", " … "),
+    match row.access.enumeration() {
+        Some(kind) => kind.choices.iter().map(|choice| choice.name).collect::<Vec<_>>().join(", "),
+        None => without_unit(row, allowed(row)).replace(" to ", " … "),
     }
 }
 

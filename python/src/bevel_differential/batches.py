@@ -79,10 +79,10 @@ class Batches:
 
     def slope_writers(self, instance: Any, blocks: Sequence[np.ndarray]) -> list[Rows]:
         """Functions that set the slopes of inputs, per second, in the form of `readers`. All inputs are Real."""
-        set_derivatives, orders = instance.derivatives_setter(), np.ones(sum(block.shape[1] for block in blocks), np.int32)
+        set_rates, orders = instance._set_rates, np.ones(sum(block.shape[1] for block in blocks), np.int32)
 
         def write(component, references, count, address):
-            return set_derivatives(component, references, count, orders.ctypes.data, address)
+            return set_rates(component, references, count, orders.ctypes.data, address)
 
         return self._rows(instance, {"Real": write}, blocks)
 

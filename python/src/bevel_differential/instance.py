@@ -82,6 +82,8 @@ class Instance(Closing):
                                      ctypes.c_int, ctypes.c_double)
         self._enter, self._exit, self._reset = (self._function(f"fmi2{name}", ctypes.c_void_p) for name in
                                                 ("EnterInitializationMode", "ExitInitializationMode", "Reset"))
+        self._set_rates = self._function("fmi2SetRealInputDerivatives", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t,
+                                         ctypes.c_void_p, ctypes.c_void_p)
         self._do_step = self._function("fmi2DoStep", ctypes.c_void_p, ctypes.c_double, ctypes.c_double, ctypes.c_int)
         self._is_fresh = True
 
@@ -166,11 +168,6 @@ class Instance(Closing):
         variables = [self.fmu.variable(name) for name in slopes]
         self._through("setting slopes of inputs", self.raw.setRealInputDerivatives, [variable.reference for variable in variables],
                       [1] * len(slopes), [rate(variable, slopes[name]) for variable, name in zip(variables, slopes)])
-
-    def derivatives_setter(self) -> Any:
-        """Function of the FMU that sets derivatives of inputs, without wrappers."""
-        return self._function("fmi2SetRealInputDerivatives", ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p,
-                              ctypes.c_void_p)
 
     def get(self, name: str) -> Number:
         """Value of one variable, in SI; for an enumeration, its number."""

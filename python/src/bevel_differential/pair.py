@@ -58,6 +58,7 @@ class Pair:
     face_width: float
     planets: int
     outer_cone: float
+    thickness_shift: float
 
     @classmethod
     def of(cls, values: Mapping) -> "Pair":
@@ -73,11 +74,12 @@ class Pair:
         gears = []
         for i, sign in enumerate((1.0, -1.0)):
             # planar thickness at the outer pitch circle; each tooth is thinner by half of the backlash
-            half = (0.5 * pi + 2.0 * sign * shift * tan(alpha) - given["backlash"] / (2.0 * module)) / teeth[i]
+            moved = sign * (2.0 * shift * tan(alpha) + given["thickness_shift"])
+            half = (0.5 * pi + moved - given["backlash"] / (2.0 * module)) / teeth[i]
             gears.append(Gear(teeth[i], pitch[i], math.asin(sin(pitch[i]) * cos(alpha)), pitch[i] + atan2(addenda[i], outer),
                               pitch[i] - atan2(dedenda[i], outer), half, addenda[i], dedenda[i],
                               given[("planet_bore", "side_bore")[i]]))
-        return cls((gears[0], gears[1]), module, alpha, given["face_width"], given["planet_count"], outer)
+        return cls((gears[0], gears[1]), module, alpha, given["face_width"], given["planet_count"], outer, given["thickness_shift"])
 
     @property
     def inner_cone(self) -> float:
@@ -170,12 +172,14 @@ def tool_room(pair: Pair, tool_radius: float) -> float:
     """Room for the rounded tip of the tool that cuts the roots, in modules. It is negative if a tip radius of ρ modules does not fit.
 
     The tool is a basic rack with pressure angle α, clearance c and depth h below the pitch line (ISO 53). Its straight flank must reach
-    down to the working depth, ρ ≤ c/(m (1 − sin α)), and its tip must be wide enough, ρ ≤ (π/4 − h/m tan α) cos α/(1 − sin α)."""
+    down to the working depth, ρ ≤ c/(m (1 − sin α)), and its tip must be wide enough, ρ ≤ (π/4 ∓ k/2 − h/m tan α) cos α/(1 − sin α) with the shift k of thickness, − for the planet."""
     planet, side = pair.gears
     alpha, shift = pair.pressure_angle, 0.5 * (planet.addendum - side.addendum)
     clearance = min(planet.dedendum - side.addendum, side.dedendum - planet.addendum) / pair.module
-    depth = max(planet.dedendum + shift, side.dedendum - shift) / pair.module
-    widest = (0.25 * pi - depth * tan(alpha)) * cos(alpha)
+    depths = (planet.dedendum + shift, side.dedendum - shift)
+    # a tool for thicker teeth is thinner
+    widths = (0.25 * pi - sign * 0.5 * pair.thickness_shift - depth / pair.module * tan(alpha) for sign, depth in zip((1.0, -1.0), depths))
+    widest = min(widths) * cos(alpha)
     return min(clearance, widest) / (1.0 - sin(alpha)) - tool_radius
 
 

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from .batches import Batches
 from .inputs import changing_variable
 from .points import TimeValue
 from .values import DISCARD, DifferentialError, Value, Variable
@@ -29,12 +30,14 @@ class Port:
             changing_variable(instance.fmu, variable.name)
             if driven.count(variable) > 1:
                 raise DifferentialError(f"{variable.name}: it is given twice; name each input once")
-        for variable in (*driven, *shown):
             if variable.kind != "Real":
-                raise DifferentialError(f"{variable.name}: it is of the kind {variable.kind}, and a port exchanges Real variables; "
-                                        "use `set` and `read`")
+                raise DifferentialError(f"{variable.name}: it is of the kind {variable.kind}, and a port sets Real variables; use `set`")
         self._instance, self._inputs = instance, driven
-        self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance.derivatives_setter()
+        # outputs of other kinds have other functions: their places, and how they are read
+        self._places = [place for place, variable in enumerate(shown) if variable.kind != "Real"]
+        self._others = Batches.of(tuple(shown[place] for place in self._places))
+        shown = [variable for variable in shown if variable.kind == "Real"]
+        self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance._set_rates
         self._values, self._rates, self._outputs = (array("d", [0.0] * len(each)) for each in (driven, driven, shown))
         # arguments of the three functions after the component; the arrays behind the addresses live as long as the port
         self._buffers = [array("I", [variable.reference for variable in each]) for each in (driven, shown)]
@@ -65,7 +68,11 @@ class Port:
         status = self._get(instance._component, *self._getting)
         if status >= DISCARD:
             instance.check(status, "getting Real variables")
-        return self._outputs.tolist()
+        values = self._outputs.tolist()
+        if self._places:
+            for place, value in zip(self._places, self._others.get(instance)):
+                values.insert(place, value)
+        return values
 
     def _write(self, values, rates):
         self._fill(self._values, values, "values", Variable.checked)

@@ -183,7 +183,10 @@ class Variable:
             return
         text = " ".join(map(str, written)) if isinstance(written, tuple) else written
         unit, ends = self.shown(np.array([-math.inf if low is None else low, math.inf if high is None else high]))
-        raise DifferentialError(f"{self.name}: {text} is outside [{ends[0]:.6g}, {ends[1]:.6g}] {unit}".rstrip())
+        low, high = (f"{end:.6g}" for end in ends)
+        if low == high:
+            raise DifferentialError(f"{self.name}: {text} is not {low} {unit}, the only possible value. {self.description}")
+        raise DifferentialError(f"{self.name}: {text} is outside [{low}, {high}] {unit}".rstrip())
 
     def shown_in(self, unit: str | None) -> Self:
         """Copy of this variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset: 5 K,

@@ -8,8 +8,8 @@ use crate::contact::detailed::Detailed;
 use crate::contact::errors::GearTeeth;
 use crate::contact::planet::Contact;
 use crate::contact::{FlankGaps, Mesh};
+use crate::geometry::Pair;
 use crate::geometry::solid::mass::GearMass;
-use crate::geometry::{Pair, checks};
 use crate::model::effect_kinds::body_friction::PARTS;
 use crate::model::effect_kinds::{BUILT, Friction, ToothEffects};
 use crate::model::effects::strength::GearStrength;
@@ -70,9 +70,6 @@ impl Model {
         let own = GearCache::default();
         let cache = given.cache.unwrap_or(&own);
         let spec = parameters.gears();
-        if let Some(problem) = checks::shaft_angle(&spec) {
-            return Err(vec![problem]);
-        }
         let checked = cache.pair(&spec);
         let pair = checked.pair;
         let mut problems = checked.errors.clone();

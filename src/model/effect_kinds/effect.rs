@@ -9,7 +9,7 @@ use serde::de::DeserializeOwned;
 use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
-use crate::declaration::{Condition, DisplayUnit, Group, Need, Row, Rows, Unit};
+use crate::declaration::{Condition, DisplayUnit, EnumType, Group, Need, Row, Rows, Unit};
 use crate::geometry::{GearSpec, Pair};
 use crate::model::scene::{GearContact, InertiaSpec, Inputs, Material, OilSpec, Plan, Requests, Scene};
 use crate::problem::Problem;
@@ -51,6 +51,8 @@ pub struct Reading {
     pub display: Option<DisplayUnit>,
     /// Times at which the reading changes.
     pub changes: Changes,
+    /// Type of a reading that is one of several choices.
+    pub choices: Option<&'static EnumType>,
     /// Value at an instant, from the parameters of the effect; `None` if the program computes it together with others.
     pub read: Option<fn(&dyn Any, &Instant) -> f64>,
     /// Description in the interface.
@@ -58,16 +60,18 @@ pub struct Reading {
 }
 
 /// Readings of an effect. The doc comment is the description; the unit, the display unit and the changes follow. A
-/// reading with `Always(|effect, at| …)` has the value of this function of the effect and the instant.
+/// reading with `Always(|effect, at| …)` has the value of this function of the effect and the instant. A reading with a
+/// type at the end of its line is one of the choices of this type.
 macro_rules! readings {
     (@option) => { None };
     (@option $value:expr) => { Some($value) };
-    ($($(#[doc = $line:literal])+ $name:literal: $unit:ident $(| $display:ident)?, $changes:ident $(($read:expr))?;)+) => {
+    ($($(#[doc = $line:literal])+ $name:literal: $unit:ident $(| $display:ident)?, $changes:ident $(($read:expr))? $(, $choices:ty)?;)+) => {
         &[$($crate::model::effect_kinds::Reading {
             name: $name,
             unit: $unit,
             display: readings!(@option $($display)?),
             changes: $crate::model::effect_kinds::Changes::$changes,
+            choices: readings!(@option $(<$choices as $crate::spec::Choices>::TYPE)?),
             read: readings!(@option $(|effect, at| {
                 let read: fn(&Self, &$crate::model::effect_kinds::Instant) -> f64 = $read;
                 effect.downcast_ref().map_or(0.0, |effect| read(effect, at))

@@ -42,11 +42,8 @@ impl Design {
         let (mut parameters, mut inputs) = (Parameters::default(), Inputs::default());
         settings.iter().for_each(|setting| setting.apply(&mut parameters, &mut inputs));
         let spec = parameters.gears();
-        let mut problems = Vec::from_iter(checks::shaft_angle(&spec));
         let pair = Pair::new(&spec);
-        if problems.is_empty() {
-            problems.extend(checks::errors(&spec, &pair));
-        }
+        let mut problems = checks::errors(&spec, &pair);
         problems.extend(assembly::phases(&spec).err());
         if !problems.is_empty() {
             let mut found = Problems::default();

@@ -174,7 +174,7 @@ pub fn real(row: &'static Variable, value: &Value) -> Result<f64, String> {
             _ => problem.message,
         };
         match (row.display, row.range) {
-            (Some(_), Some(range)) => {
+            (Some(_), Some(range)) if range.only_value().is_none() => {
                 format!("{message} ([{}, {}])", units::text(row, range.min), units::text(row, range.max))
             }
             _ => message,

@@ -33,12 +33,10 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
         Access::Boolean(field) => ("Boolean", json!(*field(&mut parameters))),
         Access::Enumeration(_, get, _) => ("Enumeration", json!(get(&parameters))),
         Access::Input(field) => ("Real", json!(*field(&mut inputs))),
+        Access::Output(_) if row.access.enumeration().is_some() => ("Enumeration", Value::Null),
         Access::Output(_) => ("Real", Value::Null),
     };
-    let choices = match row.access {
-        Access::Enumeration(kind, ..) => kind.choices,
-        _ => &[],
-    };
+    let choices = row.access.enumeration().map_or(&[][..], |kind| kind.choices);
     let literals: Vec<Value> = choices
         .iter()
         .map(|choice| json!({"name": choice.name, "value": choice.value, "description": choice.description}))

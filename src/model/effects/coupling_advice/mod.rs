@@ -20,5 +20,5 @@ mod spec;
 mod swing;
 
 pub use port::{PortStep, Shaft};
-pub use record::{AdviceState, Coupling, Cut, Growth, PORTS};
-pub use spec::CouplingAdviceSpec;
+pub use record::{Coupling, Cut, Growth, PORTS};
+pub use spec::{AdviceState, CouplingAdviceSpec};

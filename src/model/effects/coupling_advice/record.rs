@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::memory::LEAST_STEPS;
 use super::port::{LAG, Port, PortStep, Shaft, energy_difference};
 use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED};
+use super::spec::AdviceState;
 use crate::numeric::{Finite, finite};
 
 /// Number of ports: carrier, left side, right side.
@@ -33,21 +34,6 @@ pub struct Cut {
     pub delay: f64,
     /// Half-shaft behind each port; `None` at a port driven by torque.
     pub shafts: [Option<Shaft>; PORTS],
-}
-
-/// Meaning of the advised step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AdviceState {
-    /// The advised step is given.
-    Given = 1,
-    /// 0, because nothing moves.
-    NothingMoves = 2,
-    /// 0, because no host reacts.
-    NoReaction = 3,
-    /// 0, because the exchange of this master has no energy error.
-    NotPossible = 4,
-    /// A swing grows by the cut. The advised step is at most half the present one.
-    UnstableCut = 5,
 }
 
 /// Record of the exchange between host and unit.

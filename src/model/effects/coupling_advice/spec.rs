@@ -3,6 +3,18 @@
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Declare, Effect, Reading, readings};
 
+choices! {
+    /// Meaning of the advised step.
+    pub enum AdviceState: "AdviceState" {
+        Off = 0, "off": "effects.coupling_advice is off, or the host integrates (model exchange)";
+        Given = 1, "given": "the advised step is given";
+        NothingMoves = 2, "nothing_moves": "0, because nothing moves";
+        NoReaction = 3, "no_reaction": "0, because no host reacts";
+        NotPossible = 4, "not_possible": "0, because the exchange of this master has no energy error";
+        UnstableCut = 5, "unstable_cut": "a swing grows by the cut; the advised step is at most half the present one";
+    }
+}
+
 parameters! {
     /// Advice about the communication step.
     pub struct CouplingAdviceSpec in "coupling" {
@@ -33,9 +45,8 @@ impl Declare for CouplingAdviceSpec {
         /// Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the longest
         /// stable step; coupling.advice_state says what 0 means
         "coupling.step_advice": SECOND, ByStep;
-        /// Meaning of coupling.step_advice: 1 = given, 2 = nothing moves, 3 = no host reacts, 4 = not possible for
-        /// this master, 5 = unstable cut
-        "coupling.advice_state": ONE, ByStep;
+        /// Meaning of coupling.step_advice
+        "coupling.advice_state": ONE, ByStep, AdviceState;
     };
 
     fn when() -> Option<Condition> {

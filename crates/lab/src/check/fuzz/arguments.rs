@@ -89,18 +89,21 @@ impl VariableKind {
     fn fits(self, i: usize, row: &Variable) -> bool {
         let is_structural = i == planet_count() as usize;
         match self {
-            Self::Real | Self::Float64 => matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_)),
+            Self::Real | Self::Float64 => {
+                matches!(row.access, Access::Real(_) | Access::Input(_) | Access::Output(_))
+                    && row.access.enumeration().is_none()
+            }
             Self::Settable => {
                 matches!(row.access, Access::Input(_))
                     || matches!(row.access, Access::Real(_)) && row.variability == Variability::Tunable
             }
-            Self::Integer => matches!(row.access, Access::Integer(_) | Access::Enumeration(..)),
+            Self::Integer => matches!(row.access, Access::Integer(_)) || row.access.enumeration().is_some(),
             Self::Boolean => matches!(row.access, Access::Boolean(_)),
             Self::Output => matches!(row.access, Access::Output(_)) && row.causality == Causality::Output,
             Self::Input => matches!(row.access, Access::Input(_)),
             Self::State => table().states.contains(&i),
             Self::Int32 => matches!(row.access, Access::Integer(_)) && !is_structural,
-            Self::Enumeration => matches!(row.access, Access::Enumeration(..)),
+            Self::Enumeration => row.access.enumeration().is_some(),
             Self::Structural => is_structural,
             Self::Array | Self::Text => false,
         }
