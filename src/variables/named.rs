@@ -22,7 +22,7 @@ pub fn assign(row: &Variable, value: f64, parameters: &mut Parameters, inputs: &
     let wrong = |what: &str| Err(problem!(row.name, "{value} {what}"));
     let whole = value == libm::trunc(value) && value.abs() <= f64::from(i32::MAX);
     match row.access {
-        Access::Output(_) => return Err(Problem::new(row.name, "is an output and cannot be set")),
+        Access::Output(_) => return Err(Problem::new(row.name, "it is an output and cannot be set")),
         Access::Integer(_) if !whole => return wrong("is not a whole number"),
         Access::Boolean(_) if value != 0.0 && value != 1.0 => return wrong("is neither 0 (false) nor 1 (true)"),
         Access::Enumeration(kind, ..) if !whole || kind.choices.iter().all(|one| one.value != value as i32) => {

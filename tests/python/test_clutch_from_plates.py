@@ -150,9 +150,9 @@ def test_springs_may_be_left_out_of_a_scene_file(of_file):
 
 
 @pytest.mark.parametrize("changes, words", [
-    ({"faces": "2.5"}, ["faces = 2.5: must be a whole number of 1 or more"]), ({"faces": "true"}, ["faces = true", "number"]),
+    ({"faces": "2.5"}, ["faces = 2.5: it must be a whole number of 1 or more"]), ({"faces": "true"}, ["faces = true", "number"]),
     ({"outer": '"60 deg"'}, ["outer = \"60 deg\"", "deg", "mm"]), ({"outer": '"30 mm"'}, ["inner = 40 mm is not below outer = 30 mm"]),
-    ({"ramp_drive": "45"}, ["ramp_drive = 45: must be above 0 deg and at most 90 deg; numbers are in rad"]),
+    ({"ramp_drive": "45"}, ["ramp_drive = 45: it must be above 0 deg and at most 90 deg; numbers are in rad"]),
     ({"ramp_drive": '"90 deg"'}, ["presses nothing", "exchange"]), ({"friction": "1.5", "ramp_radius": "0"}, ["friction = 1.5", "ramp_radius = 0"]),
     ({"plates": "4"}, ["there is no dimension plates", "known: faces"]), ({"faces": "100"}, ["torque_coefficient", "calculated from faces"])])
 def test_dimensions_in_a_scene_file_are_refused_by_their_name(of_file, changes, words):

@@ -135,6 +135,6 @@ def test_commands_that_need_time_say_so(fmu_file, scene_file, capsys):
     file = str(scene_file(0))
     for words, message in ((["report", file, "--fmu", fmu_file], "has no duration"),
                            (["accuracy", file, "--want", "carrier.speed", "--within", "1%"], "too short to judge"),
-                           (["run", file, "--stop", "-1 ms", "--fmu", fmu_file], 'stop_time = "-1 ms": must be 0 s or more')):
+                           (["run", file, "--stop", "-1 ms", "--fmu", fmu_file], 'stop_time = "-1 ms": it must be 0 s or more')):
         assert main(words) != 0
         assert message in capsys.readouterr().err

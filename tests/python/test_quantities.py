@@ -7,6 +7,7 @@ import pytest
 from short_scene import SCENE
 
 from bevel_differential import Differential, DifferentialError, Scene
+from bevel_differential.accuracy import accuracy
 from bevel_differential.command import main
 from bevel_differential.comparison import compare
 from bevel_differential.designs.sweep import sweep, text
@@ -38,6 +39,22 @@ def test_a_run_records_quantities_by_their_formulas(scene, fmu_file):
     assert "pin.shear" in scene.summary(record) and "MPa" in scene.summary(record)
     plain = Differential({**scene.values}, fmu=fmu_file).run(outputs=["envelope.diameter"], stop=1e-3)
     assert np.all(plain["envelope.diameter"] == record["envelope.diameter"][0])
+
+
+def test_a_scene_file_names_quantities_among_its_outputs(tmp_path, fmu_file):
+    text = SCENE.replace("outputs = [", 'outputs = ["gears.mass", ', 1)
+    assert text != SCENE
+    (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
+    with Scene.load(tmp_path / "scene.toml", fmu_file) as scene:
+        assert scene.outputs[0] == "gears.mass" and len(scene.outputs) > 1
+        record = scene.run()
+        assert list(record.dtype.names) == ["time", *scene.outputs] and record["gears.mass"][0] > 0.0
+        # the accuracy of outputs is examined, and the quantity is left out by name
+        with pytest.warns(match="gears.mass: it is calculated from outputs"):
+            answer = accuracy(scene, within="5%")
+        assert answer.wants and not any("gears.mass" in want for want in answer.wants)
+    with pytest.raises(DifferentialError, match=r"--want pin.shear:max: .*name planet\[1\].pin_force or"):
+        accuracy(tmp_path / "scene.toml", "pin.shear:max")
 
 
 def test_loads_of_quantities_are_the_largest_so_far_since_rating_began(fmu_file):

@@ -13,6 +13,7 @@ import numpy as np
 
 from .interrupts import held_back
 from .library import reply
+from .quantities import QUANTITIES
 from .spreadsheet import csv_text, is_spreadsheet
 from .values import DifferentialError
 from .warned import warn
@@ -54,7 +55,7 @@ def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: S
     given = {"given": scene.contents()} if hasattr(scene, "contents") else {"contents": _spreadsheets(Path(scene))}
     name = scene.name if "given" in given else os.fspath(scene)
     return {"name": name, **given, "scenes": os.fspath(scenes()), "set": assignments(changes),
-            "display_units": list(display_units)}
+            "display_units": list(display_units), "quantities": list(QUANTITIES)}
 
 
 def _spreadsheets(scene):

@@ -26,7 +26,7 @@ pub struct Want {
 /// Returns the scene with only the wanted outputs, and the wanted quantities. Each text is `OUTPUT:STATISTIC`; no texts
 /// mean all outputs of the scene.
 pub fn parse(scene: &Scene, texts: &[String]) -> Result<(Scene, Vec<Want>), String> {
-    let mut scene = scene.clone();
+    let mut scene = Scene { quantities: Vec::new(), ..scene.clone() };
     if texts.is_empty() {
         if scene.outputs.is_empty() {
             return Err(format!("scene {} has no outputs: name one, such as --want left.speed:mean", scene.name));

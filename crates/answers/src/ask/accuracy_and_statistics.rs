@@ -60,6 +60,9 @@ struct FigureQuestion {
     phase: Option<usize>,
 }
 
+/// Why the accuracy of a quantity of the caller is unknown.
+const NOT_EXAMINED: &str = "it is calculated from outputs after a run, and only the accuracy of outputs is examined";
+
 /// Request for the canonical name of a statistic and for the angle by which an order is counted.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -81,6 +84,9 @@ impl StatisticNameQuestion {
 impl AccuracyQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let scene = self.of.scene(progress)?;
+        if self.want.is_empty() {
+            progress.warn(scene.quantities.iter().map(|(_, name)| format!("{name}: {NOT_EXAMINED}")));
+        }
         let question = Question {
             wants: self.want.clone(),
             within: fraction(&self.within)?,

@@ -139,7 +139,7 @@ impl SceneQuestion {
             "at": events.collect::<Vec<_>>(),
             "tables": tables.collect::<Vec<_>>(),
             "input_slopes": scene.input_slopes,
-            "outputs": scene.outputs.iter().map(|row| row.name).collect::<Vec<_>>(),
+            "outputs": scene.recorded(),
             "display_units": scene.display_units.names().collect::<Vec<_>>(),
             "accept_start_values": scene.accepted.json(),
         }))

@@ -1,5 +1,6 @@
 //! Scene of a question, given by name, by file, or as values.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -33,15 +34,19 @@ pub struct Source {
     scenes: PathBuf,
     /// Contents of the scene's input files that are not CSV, as CSV.
     #[serde(default)]
-    contents: load::Contents,
+    contents: BTreeMap<PathBuf, String>,
+    /// Names of quantities that the caller calculates from outputs.
+    #[serde(default)]
+    quantities: Vec<String>,
 }
 
 impl Source {
     /// Returns the scene. Warns about unused columns of its input files.
     pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
+        let supplied = load::Supplied { contents: self.contents.clone(), quantities: self.quantities.clone() };
         let mut scene = match &self.given {
-            Some(file) => load::given(&self.name, Path::new(&self.name), file, &self.contents)?,
-            None => load::load_with(&find_file(&self.name, &self.scenes)?, &self.contents)?,
+            Some(file) => load::given(&self.name, Path::new(&self.name), file, &supplied)?,
+            None => load::load_with(&find_file(&self.name, &self.scenes)?, &supplied)?,
         };
         assignments::apply(&mut scene, &self.set)?;
         progress.warn(&scene.notes);

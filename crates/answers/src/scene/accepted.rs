@@ -28,7 +28,7 @@ impl Accepted {
             Value::Boolean(true) => return Ok(Self::All),
             Value::Boolean(false) => return Ok(Self::None),
             Value::Array(names) => names,
-            _ => return Err(vec![problem("must be true, false, or a list of names".into())]),
+            _ => return Err(vec![problem("it must be true, false, or a list of names".into())]),
         };
         let (mut found, mut problems) = (Vec::new(), Vec::new());
         for name in names {

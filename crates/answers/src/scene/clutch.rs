@@ -79,7 +79,7 @@ fn dimension(key: &str, value: &Value, like: &str) -> Result<f64, Problem> {
         }
         _ => (number > 0.0, "above 0 mm; numbers are in m"),
     };
-    if number.is_finite() && is_allowed { Ok(number) } else { Err(problem(format!("must be {allowed}"))) }
+    if number.is_finite() && is_allowed { Ok(number) } else { Err(problem(format!("it must be {allowed}"))) }
 }
 
 /// Settings of the packs from all dimensions, in SI and in the order of `KEYS`.

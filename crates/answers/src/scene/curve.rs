@@ -32,7 +32,7 @@ const COLUMNS: [&str; 2] = ["slip", "torque"];
 /// Header of a file, for messages.
 const HEADER: &str = "slip [rpm],torque [N.m]";
 /// Problem of an empty list, with its remedy.
-const EMPTY: &str = "has no points; give at least one, or leave the curve out; [[0, 0]] removes a curve";
+const EMPTY: &str = "it has no points; give at least one, or leave the curve out; [[0, 0]] removes a curve";
 
 /// A point as the user wrote it.
 struct Point {
@@ -51,11 +51,11 @@ pub fn settings(name: &str, value: &Value, folder: &Path) -> Result<Vec<Setting>
     let points = match value {
         Value::String(text) if is_list(text) => match text.parse() {
             Ok(Value::Array(points)) => listed(&points),
-            _ => Err(wrong(text, "is not a list such as [[0, 50], [\"100 rpm\", \"80 N.m\"]]")),
+            _ => Err(wrong(text, "it is not a list such as [[0, 50], [\"100 rpm\", \"80 N.m\"]]")),
         },
         Value::String(path) => in_file(&folder.join(path)),
         Value::Array(points) => listed(points),
-        _ => Err(wrong(&written(value), "must be a list of points [slip, torque], or the path of a CSV file")),
+        _ => Err(wrong(&written(value), "it must be a list of points [slip, torque], or the path of a CSV file")),
     };
     checked(&points?)
 }

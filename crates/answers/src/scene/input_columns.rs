@@ -125,9 +125,9 @@ impl Wanted {
                 [] => {
                     let hint = near::hint(written, header);
                     let known = header.iter().collect::<Vec<_>>().join(", ");
-                    problems.push(format!(": has no column \"{written}\"{hint}; its columns: {known}"));
+                    problems.push(format!(": it has no column \"{written}\"{hint}; its columns: {known}"));
                 }
-                _ => problems.push(format!(": has {} columns \"{written}\"; rename the others", places.len())),
+                _ => problems.push(format!(": it has {} columns \"{written}\"; rename the others", places.len())),
             }
         }
         if self.columns.iter().all(|(name, _)| name != TIME) {
@@ -149,7 +149,7 @@ impl Wanted {
             _ if !(is_speed || turns && fits_speed) => None,
             Some(radius) => Some(radius),
             None => {
-                let what = "is the speed of the vehicle; give the radius of the wheels next to file";
+                let what = "it is the speed of the vehicle; give the radius of the wheels next to file";
                 return Err(format!("{what}: {RADIUS} = \"334 mm\""));
             }
         };
@@ -208,7 +208,7 @@ pub fn cell_value(cell: &str, unit: &str) -> Result<Value, String> {
 
 /// Problem of a cell that is not a number.
 pub fn not_a_number() -> String {
-    "is not a number; write one with a decimal point, and its unit in the header".into()
+    "it is not a number; write one with a decimal point, and its unit in the header".into()
 }
 
 impl Column {

@@ -116,16 +116,22 @@ struct InputFileEntry {
     wheel_radius: Option<Value>,
 }
 
-/// Contents of input files as CSV, by the path in the scene, for files in other formats, which the caller has read.
-pub type Contents = BTreeMap<PathBuf, String>;
+/// What the caller of the library adds to a scene file.
+#[derive(Clone, Default)]
+pub struct Supplied {
+    /// Contents of input files as CSV, by the path in the scene, for files in other formats, which the caller has read.
+    pub contents: BTreeMap<PathBuf, String>,
+    /// Names of quantities that the caller calculates from outputs, and that a scene may name under `outputs`.
+    pub quantities: Vec<String>,
+}
 
 /// Loads the scene in `file`.
 pub fn load(file: &Path) -> Result<Scene> {
-    load_with(file, &Contents::new())
+    load_with(file, &Supplied::default())
 }
 
-/// Loads the scene in `file`, with the contents of some of its input files.
-pub fn load_with(file: &Path, contents: &Contents) -> Result<Scene> {
+/// Loads the scene in `file`, with what the caller adds.
+pub fn load_with(file: &Path, supplied: &Supplied) -> Result<Scene> {
     let shown = shown(file);
     let text = std::fs::read_to_string(file).map_err(|why| {
         question_error(match why.kind() {
@@ -135,17 +141,17 @@ pub fn load_with(file: &Path, contents: &Contents) -> Result<Scene> {
     })?;
     let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
     let entry = toml::from_str(&text).map_err(|why| question_error(why.to_string()));
-    entry.and_then(|entry| given(name, file, &entry, contents)).with_context(|| shown)
+    entry.and_then(|entry| given(name, file, &entry, supplied)).with_context(|| shown)
 }
 
 /// Reads the scene `name` from the TOML `text` of `file`.
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
-    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?, &Contents::new())
+    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?, &Supplied::default())
 }
 
 /// Creates the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.
-/// `contents` of input files replace the files.
-pub fn given(name: &str, file: &Path, entry: &File, contents: &Contents) -> Result<Scene> {
+/// Supplied contents of input files replace the files.
+pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Result<Scene> {
     let mut problems = Problems::default();
     let missing = entry.missing();
     if !missing.is_empty() {
@@ -163,14 +169,14 @@ pub fn given(name: &str, file: &Path, entry: &File, contents: &Contents) -> Resu
         entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
     let mut notes = Vec::new();
     for input_file in &entry.inputs {
-        let content = contents.get(&input_file.file).map(String::as_str);
+        let content = supplied.contents.get(&input_file.file).map(String::as_str);
         notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
     }
     let input_slopes = input_slopes(entry, &mut problems);
     if !input_slopes {
         input_tables.iter_mut().for_each(|driven| driven.table.rule = Rule::Sampled);
     }
-    let outputs = outputs(entry.outputs(), &mut problems);
+    let (outputs, quantities) = outputs(entry.outputs(), &supplied.quantities, &mut problems);
     let accepted = entry.accept_start_values.as_ref().map_or(Ok(Accepted::None), Accepted::read);
     let accepted = accepted.map_err(|found| problems.extend(found)).unwrap_or_default();
     let display_units = display_units(&entry.display_units, &mut problems);
@@ -203,6 +209,7 @@ pub fn given(name: &str, file: &Path, entry: &File, contents: &Contents) -> Resu
         input_tables,
         input_slopes,
         outputs,
+        quantities,
         notes,
         display_units,
         accepted,
@@ -326,7 +333,7 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     let place = format!("[[table]] input = \"{}\":", entry.input);
     let mut report = |what: String| problems.push(format!("{place} {what}"));
     let row = match variable(&entry.input) {
-        Ok(row) if !matches!(row.access, Access::Input(_)) => Err("is not an input".into()),
+        Ok(row) if !matches!(row.access, Access::Input(_)) => Err("it is not an input".into()),
         found => found,
     };
     let row = row.map_err(&mut report).ok()?;
@@ -341,7 +348,7 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
     let times = numbers("time", &entry.time, &seconds);
     if entry.time.len() != entry.value.len() || entry.time.is_empty() {
         report(format!(
-            "has {} times and {} values; give as many of both, at least one",
+            "it has {} times and {} values; give as many of both, at least one",
             entry.time.len(),
             entry.value.len()
         ));
@@ -366,7 +373,7 @@ fn wanted(entry: &InputFileEntry) -> Result<Wanted, String> {
     let columns = flat.into_iter().map(header).collect::<Result<_, _>>()?;
     let radius = |value: &Value| {
         let read = value::real(value, Some("m"), false).and_then(|radius| {
-            if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err("must be above 0 m".into()) }
+            if radius > 0.0 && radius.is_finite() { Ok(radius) } else { Err("it must be above 0 m".into()) }
         });
         read.map_err(|problem| format!("wheel_radius = {}: {problem}", written(value)))
     };
@@ -409,13 +416,19 @@ fn add_input_file(
     }
 }
 
-fn outputs(names: &[String], problems: &mut Problems) -> Vec<&'static Variable> {
-    let mut rows = Vec::new();
-    for name in names {
+/// Outputs among `names`, and the quantities of the caller among them with their places.
+fn outputs(
+    names: &[String],
+    known: &[String],
+    problems: &mut Problems,
+) -> (Vec<&'static Variable>, Vec<(usize, String)>) {
+    let (mut rows, mut quantities) = (Vec::new(), Vec::new());
+    for (place, name) in names.iter().enumerate() {
         match output(name) {
             Ok(row) => rows.push(row),
+            Err(_) if known.contains(name) => quantities.push((place, name.clone())),
             Err(problem) => problems.push(format!("outputs: {problem}")),
         }
     }
-    rows
+    (rows, quantities)
 }

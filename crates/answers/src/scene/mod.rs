@@ -63,12 +63,23 @@ pub struct Scene {
     pub input_slopes: bool,
     /// Outputs to record.
     pub outputs: Vec<&'static Variable>,
+    /// Quantities that the caller calculates from outputs, with their places among all names under `outputs`.
+    pub quantities: Vec<(usize, String)>,
     /// Messages about unused columns of input files.
     pub notes: Vec<String>,
     /// Units for displayed values, instead of the usual ones.
     pub display_units: DisplayUnits,
     /// Start values of the FMU of which no warning is wanted.
     pub accepted: Accepted,
+}
+
+impl Scene {
+    /// Names of all outputs and quantities to record, in the order of the file.
+    pub fn recorded(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = self.outputs.iter().map(|row| row.name).collect();
+        self.quantities.iter().for_each(|(place, name)| names.insert(*place, name));
+        names
+    }
 }
 
 /// An input that follows a table.

@@ -81,7 +81,7 @@ fn arguments(scene: &Scene) -> Result<String> {
             writeln!(out, "    accept_start_values=[{}],", names?.join(", "))?;
         }
     }
-    let outputs: Result<Vec<String>> = scene.outputs.iter().map(|row| quoted(row.name)).collect();
+    let outputs: Result<Vec<String>> = scene.recorded().into_iter().map(quoted).collect();
     writeln!(out, "    outputs=[\n{}    ],", lines("        ", outputs?.into_iter()))?;
     Ok(out)
 }

@@ -149,7 +149,7 @@ pub fn literal(row: &Variable, value: i32) -> Option<(&'static str, &'static str
 
 fn known(row: &'static Variable, value: &Value) -> Result<SettingValue, String> {
     match row.access {
-        Access::Output(_) => Err("is an output, which cannot be set; name it under outputs".into()),
+        Access::Output(_) => Err("it is an output, which cannot be set; name it under outputs".into()),
         Access::Real(_) | Access::Input(_) => real(row, value).map(SettingValue::Real),
         Access::Integer(_) => {
             let number = value::whole(value)?;

@@ -11,18 +11,18 @@ pub fn seconds(value: &Value) -> Result<f64, String> {
         Value::Float(number) => Ok(*number),
         Value::Integer(number) => Ok(*number as f64),
         Value::String(text) => units::seconds(text),
-        _ => Err("must be a number of seconds, or a text like \"20 ms\"".into()),
+        _ => Err("it must be a number of seconds, or a text like \"20 ms\"".into()),
     }
 }
 
 /// Parses a length of time that must be finite and above zero [s]. `key` names it in the error.
 pub fn span(key: &str, value: &Value) -> Result<f64, String> {
-    length(key, value, |span| span > 0.0, "must be above 0 s")
+    length(key, value, |span| span > 0.0, "it must be above 0 s")
 }
 
 /// Parses a length of time that may be zero [s]. `key` names it in the error.
 pub fn duration(key: &str, value: &Value) -> Result<f64, String> {
-    length(key, value, |duration| duration >= 0.0, "must be 0 s or more")
+    length(key, value, |duration| duration >= 0.0, "it must be 0 s or more")
 }
 
 fn length(key: &str, value: &Value, is_valid: fn(f64) -> bool, rule: &str) -> Result<f64, String> {

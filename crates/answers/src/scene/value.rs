@@ -37,13 +37,13 @@ pub fn real(value: &Value, si: Option<&str>, is_relative: bool) -> Result<f64, S
         Value::Float(number) => Ok(*number),
         Value::Integer(number) => Ok(*number as f64),
         Value::String(text) => units::parse(text, si, is_relative),
-        _ => Err("must be a number, or a text like \"4.5 mm\"".into()),
+        _ => Err("it must be a number, or a text like \"4.5 mm\"".into()),
     }
 }
 
 /// Returns a whole number of 32 bits.
 pub fn whole(value: &Value) -> Result<i32, String> {
-    let wrong = || "must be a whole number".to_owned();
+    let wrong = || "it must be a whole number".to_owned();
     let (min, max) = (f64::from(i32::MIN), f64::from(i32::MAX));
     let number = match value {
         Value::Float(number) => *number,
@@ -63,7 +63,7 @@ pub fn truth(value: &Value) -> Result<bool, String> {
         Value::Boolean(truth) => Ok(*truth),
         Value::String(text) if text.eq_ignore_ascii_case("true") => Ok(true),
         Value::String(text) if text.eq_ignore_ascii_case("false") => Ok(false),
-        _ => Err("must be true or false".into()),
+        _ => Err("it must be true or false".into()),
     }
 }
 
@@ -83,7 +83,7 @@ pub fn literal(value: &Value, choices: &[(&str, i32)]) -> Result<i32, String> {
         Value::String(name) => name.clone(),
         other => written(other),
     };
-    Err(format!("is not one of {}{}", names().collect::<Vec<_>>().join(", "), near::hint(&given, names())))
+    Err(format!("it is not one of {}{}", names().collect::<Vec<_>>().join(", "), near::hint(&given, names())))
 }
 
 #[cfg(test)]
@@ -100,7 +100,7 @@ mod tests {
             assert_eq!(whole(&twelve), Ok(12), "{twelve:?}");
         }
         for wrong in [Value::Float(12.5), text("12.5"), text("ten"), Value::Boolean(true), Value::Float(f64::NAN)] {
-            assert!(whole(&wrong).is_err_and(|problem| problem.starts_with("must be a whole number")), "{wrong:?}");
+            assert!(whole(&wrong).is_err_and(|problem| problem.starts_with("it must be a whole number")), "{wrong:?}");
         }
         assert!(whole(&Value::Float(3e9)).is_err_and(|problem| problem.ends_with("to 2147483647")));
     }

@@ -265,7 +265,7 @@ fn errors_are_reported_together_with_name_range_and_unit() {
         message.contains("geometry.backlash = \"60mm\": 0.06 m is outside [0, 0.05] m ([0 mm, 50 mm])"),
         "{message}"
     );
-    assert!(message.contains("geometry.planet_teeth = \"ten\": must be a whole number"), "{message}");
+    assert!(message.contains("geometry.planet_teeth = \"ten\": it must be a whole number"), "{message}");
     assert!(message.contains("\"geometry.module\" is not of the form name=value"), "{message}");
     assert!(refused(&["module=4mm"]).contains("did you mean geometry.module?"));
     assert!(refused(&["geometry.module=4"]).contains("did you mean 4 mm"));

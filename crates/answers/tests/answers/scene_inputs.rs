@@ -75,9 +75,9 @@ fn wrong_times_are_reported_by_key_and_value() {
     for (text, wanted) in [
         (FRAME.replace("100 ms", "100 mm"), "stop_time = \"100 mm\""),
         (FRAME.replace("100 ms", "100 mm"), "s, ms, us, min"),
-        (FRAME.replace("\"1 ms\"", "true"), "step = true: must be a number of seconds, or a text like \"20 ms\""),
-        (FRAME.replace("1 ms", "-1 ms"), "step = \"-1 ms\": must be above 0 s"),
-        (FRAME.replace("100 ms", "-1 ms"), "stop_time = \"-1 ms\": must be 0 s or more"),
+        (FRAME.replace("\"1 ms\"", "true"), "step = true: it must be a number of seconds, or a text like \"20 ms\""),
+        (FRAME.replace("1 ms", "-1 ms"), "step = \"-1 ms\": it must be above 0 s"),
+        (FRAME.replace("100 ms", "-1 ms"), "stop_time = \"-1 ms\": it must be 0 s or more"),
         (FRAME.replace("1 ms", "1 s"), "step = 1 s is longer than stop_time = 0.1 s"),
         (format!("{FRAME}[[at]]\ntime = \"200 ms\"\n"), "time = 0.2 s is outside the scene's [0, 0.1] s"),
         (format!("{FRAME}[[at]]\ntime = [1]\n"), "[[at]] time = [...]"),
@@ -256,7 +256,7 @@ fn wrong_input_files_are_reported_with_line_column_value_and_remedy() -> Result<
         }
     }
     let good = "time,left.load_torque\n0,1\n";
-    assert!(folder.wrong(&format!("{INPUTS}period = 0\n"), good).contains("period = 0: must be above 0 s"));
+    assert!(folder.wrong(&format!("{INPUTS}period = 0\n"), good).contains("period = 0: it must be above 0 s"));
     let table = "[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]\n";
     assert!(folder.wrong(&format!("{table}{INPUTS}"), good).contains("another table"));
     let missing = folder.wrong(&INPUTS.replace("cycle", "cycles"), good);
@@ -361,7 +361,7 @@ fn a_linear_speed_turns_the_carrier_by_its_integral() -> Result<()> {
 fn an_invalid_choice_of_slopes_is_reported_by_key_and_value() {
     let problem =
         parsed(&format!("{FRAME}input_slopes = 1\n")).err().map(|error| format!("{error:#}")).unwrap_or_default();
-    assert!(problem.contains("input_slopes = 1: must be true or false"), "{problem}");
+    assert!(problem.contains("input_slopes = 1: it must be true or false"), "{problem}");
 }
 
 #[test]

@@ -7,9 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 from ..answers import Progress, about, ask
 from ..extras import matplotlib
+from ..quantities import QUANTITIES
 from ..readable import plain
 from ..scene import Scene
-from ..values import FileName, Value
+from ..values import DifferentialError, FileName, Value
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -106,7 +107,12 @@ def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: fl
     time on, s or with a unit. `set`: changes of the scene. `display_units`: units of the text. `file`: intended path of a scene
     file with the setting; the file is not written, its text is `answer["file"]`. Ctrl-C stops the work. Raises
     `DifferentialError`."""
-    question = {"ask": "accuracy", "of": about(scene, set, display_units), "want": [want] if isinstance(want, str) else list(want),
+    wants = [want] if isinstance(want, str) else list(want)
+    for text in wants:
+        if (name := text.partition(":")[0].strip()) in QUANTITIES:
+            raise DifferentialError(f"--want {text}: {name} is calculated from outputs after a run, and only the accuracy of outputs is examined"
+                                    + (f"; name {' or '.join(QUANTITIES[name].loads)}" if QUANTITIES[name].loads else ""))
+    question = {"ask": "accuracy", "of": about(scene, set, display_units), "want": wants,
                 "within": str(within), "from": None if from_ is None else str(from_), "file": None if file is None else Path(file)}
     found = ask(question, progress=progress)
     runs = [Run(**{**row, "error": float("inf") if row["error"] is None else row["error"]}) for row in found["runs"]]
