@@ -12,7 +12,7 @@ use bevel_differential::variables::guid;
 use clap::Args;
 
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
-use crate::fmu::wasm::WasmCrate;
+use crate::fmu::wasm::{QUICK, WasmCrate};
 use crate::tools::files::{copy_folder, make_whole, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
@@ -27,8 +27,6 @@ const COMMAND: &str = "cargo run --release -- page";
 const CRATE: &str = "bevel-differential-page";
 /// Number of codegen units, and level of optimisation, for users. These settings do not affect results.
 const FOR_USERS: [&str; 2] = ["1", "3"];
-/// Number of codegen units, and level of optimisation, for a faster build.
-const QUICK: [&str; 2] = ["16", "1"];
 /// Compresses a file with Python's own library, with the checksum that unpackers of browsers support.
 const PACK: &str = "import lzma, sys; from pathlib import Path; \
                     Path(sys.argv[2]).write_bytes(lzma.compress(Path(sys.argv[1]).read_bytes(), \
@@ -61,7 +59,7 @@ impl PageCommand {
         }
         let progress = Progress::start("building the library for browsers");
         let _alone = Lock::of(&paths::page())?;
-        let library = library(&tools, if self.quick { QUICK } else { FOR_USERS })?;
+        let library = library(&tools, self.quick)?;
         progress.stage("bundling the page");
         let page = bundle(&library)?;
         progress.finish();
@@ -71,9 +69,10 @@ impl PageCommand {
     }
 }
 
-/// Compiles the library for browsers with this number of codegen units and this level of optimisation.
-fn library(tools: &Compiler, [parts, level]: [&str; 2]) -> Result<PathBuf> {
-    let library = WasmCrate { package: CRATE, parts, level, options: &[], folder: "wasm" };
+/// Compiles the library for browsers, for users or in less time.
+fn library(tools: &Compiler, quick: bool) -> Result<PathBuf> {
+    let (settings, model_level) = if quick { (QUICK, Some("1")) } else { (FOR_USERS, None) };
+    let library = WasmCrate { package: CRATE, settings, model_level, link: &[] };
     library.compiled(tools, "the library for browsers cannot be built")
 }
 

@@ -15,17 +15,17 @@ pub use translate::File;
 
 use crate::fmu::archive::Packing;
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
-use crate::fmu::wasm::WasmCrate;
+use crate::fmu::wasm::{QUICK, WasmCrate};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::python::{Environment, finish};
 
 /// Crate of the library.
 const CRATE: &str = "bevel-differential-sources";
-/// Target folder of the library.
-const FOLDER: &str = "sources";
+/// Number of codegen units, and level of optimisation, for users.
+const FOR_USERS: [&str; 2] = ["1", "2"];
 /// Size of the stack in the library's memory, twice the maximum in the scenes of the tests [bytes].
-const STACK: &str = "-Clink-arg=-zstack-size=262144";
+const STACK: &str = "-zstack-size=262144";
 /// Files around the library, in `fmu-build/sources/c`.
 const OWN: [&str; 5] = ["bd_runtime.h", "bd_runtime.c", "bd_unit.h", "bd_unit.c", "fmi2Functions.c"];
 
@@ -47,14 +47,9 @@ impl Tools {
     /// Creates all files of the sources. With quick packing, the compiler uses more codegen units: it finishes sooner,
     /// and the sources give the same results with more instructions.
     pub fn files(&self, packing: Packing) -> Result<Vec<File>> {
-        let _alone = Lock::of(&paths::target().join("cross").join(FOLDER))?;
-        let library = WasmCrate {
-            package: CRATE,
-            parts: if packing == Packing::Quick { "16" } else { "1" },
-            level: "2",
-            options: &[STACK],
-            folder: FOLDER,
-        };
+        let _alone = Lock::of(&paths::target().join("cross").join("sources"))?;
+        let settings = if packing == Packing::Quick { QUICK } else { FOR_USERS };
+        let library = WasmCrate { package: CRATE, settings, model_level: None, link: &[STACK] };
         let library = library.compiled(&self.wasm, "the library for sources in C cannot be built")?;
         let mut files = translate::files(&self.in_c(&library)?)?;
         let own = paths::workspace().join("fmu-build").join("sources").join("c");
