@@ -34,13 +34,13 @@ pub struct Range {
     pub max: f64,
 }
 
-/// Width of a range that only admits rounding errors of one value [unit of the variable].
-pub const ROUNDING_ONLY: f64 = 1e-6;
+/// Rounding error of a value that is typed with seven digits [unit of the variable].
+pub const TYPED: f64 = 5e-7;
 
 impl Range {
     /// Returns the only value of the range, if all others are rounding errors of it.
     pub fn only_value(&self) -> Option<f64> {
-        (self.max - self.min <= ROUNDING_ONLY).then_some((self.min + self.max) / 2.0)
+        (self.max - self.min < 3.0 * TYPED).then_some((self.min + self.max) / 2.0)
     }
 }
 

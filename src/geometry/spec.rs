@@ -1,6 +1,6 @@
 //! User parameters of the gears, the inputs of all geometry formulas.
 
-use crate::declaration::ROUNDING_ONLY;
+use crate::declaration::TYPED;
 use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 use crate::numeric::FRAC_PI_2;
@@ -31,7 +31,7 @@ parameters! {
         /// Pressure angle
         pressure_angle: f64 = 20f64.to_radians(), RADIAN | DEG, 0.17..=0.53;
         /// Angle between planet and side gear axes: two equal coaxial side gears can mesh with the same planet only at 90 deg
-        shaft_angle: f64 = FRAC_PI_2, RADIAN | DEG, FRAC_PI_2 - ROUNDING_ONLY / 2.0..=FRAC_PI_2 + ROUNDING_ONLY / 2.0;
+        shaft_angle: f64 = FRAC_PI_2, RADIAN | DEG, FRAC_PI_2 - TYPED..=FRAC_PI_2 + TYPED;
         /// Face width
         face_width: f64 = 20e-3, METRE | MM, 1e-4..=1.0;
         /// Rule for addenda and dedenda

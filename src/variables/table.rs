@@ -30,6 +30,11 @@ impl Table {
         self.states.iter().position(|&index| index as u32 == reference)
     }
 
+    /// Value references of the outputs that are real numbers, ascending.
+    pub fn real_outputs(&self) -> impl Iterator<Item = u32> + Clone {
+        self.outputs.iter().filter(|&&i| self.rows[i].access.enumeration().is_none()).map(|&i| i as u32)
+    }
+
     /// True if the variable is a velocity state. Imposed speeds may set these states at events.
     pub fn is_velocity(&self, reference: u32) -> bool {
         self.state(reference).is_some_and(|k| k >= STATES / 2)

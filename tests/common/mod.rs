@@ -181,7 +181,7 @@ impl Host {
 
     /// Returns all outputs as bits.
     pub fn outputs(&self) -> Vec<u64> {
-        let references: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
+        let references: Vec<u32> = table().real_outputs().collect();
         let mut values = vec![f64::NAN; references.len()];
         // SAFETY: a live component and memory for all values
         let status = unsafe { fmi2GetReal(self.c, references.as_ptr(), references.len(), values.as_mut_ptr()) };

@@ -56,7 +56,7 @@ fn setting_stepping_and_reading_allocate_nothing_with_any_level_law_method_and_e
         let host = Host::on_level(3);
         values.iter().for_each(|&(name, value)| set(&host, name, value));
         host.start();
-        let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
+        let outputs: Vec<u32> = table().real_outputs().collect();
         let (mut read, mut slope) = (vec![f64::NAN; outputs.len()], f64::NAN);
         let inputs = [reference("left.load_torque"), reference("right.load_torque"), reference("contact.damping")];
         // the log reports once that ideal gears do not depend on this value

@@ -81,10 +81,10 @@ fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {
     match before {
         _ if !time.is_finite() => Err("it is not a finite number".into()),
         None if time < 0.0 => Err("times begin at 0 or later".into()),
-        Some(before) if time < before => {
-            Err("it is earlier than in the line above; sort the lines by time, and write a jump as two lines of one time"
-                .into())
-        }
+        Some(before) if time < before => Err(
+            "it is earlier than in the line above; sort the lines by time, and write a jump as two lines of one time"
+                .into(),
+        ),
         _ => Ok(time),
     }
 }

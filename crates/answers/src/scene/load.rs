@@ -240,7 +240,7 @@ fn input_slopes(entry: &File, problems: &mut Problems) -> bool {
         None => true,
         Some(Value::Boolean(value)) => *value,
         Some(other) => {
-            problems.push(format!("input_slopes = {}: must be true or false", written(other)));
+            problems.push(format!("input_slopes = {}: it must be true or false", written(other)));
             false
         }
     }

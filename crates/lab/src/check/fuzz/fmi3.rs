@@ -240,8 +240,7 @@ unsafe extern "C" fn update(
     let count = host.updates.get() + 1;
     host.updates.set(count);
     let mut numbers = [f64::NAN; 4];
-    let references: Vec<u32> =
-        table().outputs.iter().cycle().skip(count as usize % 97).take(3).map(|&i| i as u32).collect();
+    let references: Vec<u32> = table().real_outputs().cycle().skip(count as usize % 97).take(3).collect();
     let references = [table().rows.len() as u32, references[0], references[1], references[2]];
     // SAFETY: a live instance, and room for the values
     let status = unsafe { fmi3GetFloat64(host.component.get(), references.as_ptr(), 4, numbers.as_mut_ptr(), 4) };

@@ -105,7 +105,7 @@ pub fn study(instance: &FuzzedInstance) -> Option<Vec<u64>> {
         } else {
             // a step may end early if the host has allowed it
             statuses.extend([(); 3].map(|()| (interface.step)(c, instance.time().unwrap_or(f64::NAN), 1e-3)));
-            let outputs: Vec<u32> = table().outputs.iter().map(|&i| i as u32).collect();
+            let outputs: Vec<u32> = table().real_outputs().collect();
             numbers.resize(outputs.len(), f64::NAN);
             statuses.push((interface.get_reals)(c, outputs.as_ptr(), outputs.len(), numbers.as_mut_ptr()));
         }
