@@ -105,8 +105,8 @@ fn an_output_with_choices_is_read_as_an_integer_and_cannot_be_set() {
         assert_eq!(fmi2SetInteger(host.c, &state, 1, &1), Status::Error);
         assert_contains(&host.last_message(), &["coupling.advice_state is an output and cannot be set"]);
     }
-    // nothing moves
-    assert_eq!(value, 2);
+    // no value of the host has changed
+    assert_eq!(value, 3);
 }
 
 #[test]

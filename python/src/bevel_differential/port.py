@@ -11,7 +11,7 @@ import numpy as np
 from .batches import Batches
 from .inputs import changing_variable
 from .points import TimeValue
-from .values import DISCARD, DifferentialError, Value, Variable
+from .values import DISCARD, DifferentialError, Number, Value, Variable
 
 # one value for each input; a single input also accepts its value without a list
 Given: TypeAlias = Value | Sequence[Value] | np.ndarray
@@ -47,7 +47,7 @@ class Port:
         self._sloping = inputs_at, len(driven), orders_at, _address(self._rates)
         self._getting = outputs_at, len(shown), _address(self._outputs)
 
-    def step(self, values: Given, size: TimeValue, rates: Given | None = None) -> list[float]:
+    def step(self, values: Given, size: TimeValue, rates: Given | None = None) -> list[Number]:
         """Sets the inputs, takes a step of `size` (s, or text such as "1 ms") from the time of the instance, and returns the outputs in SI, as a new list.
 
         `values`: one for each input, in their order, written as in `set`; a single input also accepts its value without a list. `rates`:
@@ -56,19 +56,19 @@ class Port:
         self._instance.step(size)
         return self.read()
 
-    def do_step(self, values: Given, time: TimeValue, size: TimeValue, rates: Given | None = None) -> list[float]:
+    def do_step(self, values: Given, time: TimeValue, size: TimeValue, rates: Given | None = None) -> list[Number]:
         """Exchanges values as `step` does, but from a time, s, that the caller tracks."""
         self._write(values, rates)
         self._instance.do_step(time, size)
         return self.read()
 
-    def read(self) -> list[float]:
+    def read(self) -> list[Number]:
         """Present values of the outputs, as a new list."""
         instance = self._instance
         status = self._get(instance._component, *self._getting)
         if status >= DISCARD:
             instance.check(status, "getting Real variables")
-        values = self._outputs.tolist()
+        values: list[Number] = self._outputs.tolist()
         if self._places:
             for place, value in zip(self._places, self._others.get(instance)):
                 values.insert(place, value)

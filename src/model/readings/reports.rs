@@ -101,7 +101,8 @@ impl Simulation {
     /// Warning about the cut between host and unit if it is unstable, or if it changes much of the transmitted energy.
     fn costly_coupling(&self) -> Option<Problem> {
         let coupling = self.coupling.as_ref()?;
-        let growth = coupling.growth(&self.cut())?;
+        let cut = self.cut_with_mobility();
+        let growth = coupling.growth(&cut)?;
         let port = ["carrier", "left side", "right side"][growth.port];
         let what = if growth.is_unstable {
             format!(
@@ -110,7 +111,7 @@ impl Simulation {
         } else {
             format!("the cut at the {port} changes much energy")
         };
-        let (advice, _) = coupling.advice(self.model.parameters.specs.coupling_advice.wanted_ratio, &self.cut());
+        let (advice, _) = coupling.advice(self.model.parameters.specs.coupling_advice.wanted_ratio, &cut);
         let advised = if advice > 0.0 {
             format!("coupling.step_advice is {} s", six_digits(advice))
         } else {

@@ -12,6 +12,7 @@ use crate::model::effects::coupling_advice::{Coupling, Cut, PORTS, PortStep, Sha
 use crate::model::scene::{CARRIER, Inputs};
 use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
+use crate::numeric::quotient;
 
 /// Positions and their rates of all ports.
 type Places = [[f64; 2]; PORTS];
@@ -96,7 +97,27 @@ impl Simulation {
             let (stiffness, damping) = (specs.half_shaft.stiffness[s], specs.half_shaft.damping[s]);
             imposed[s].then_some(Shaft { stiffness, damping })
         };
-        Cut { delay: specs.coupling_advice.host_delay, shafts: [None, shaft(0), shaft(1)] }
+        Cut { delay: specs.coupling_advice.host_delay, shafts: [None, shaft(0), shaft(1)], ..Cut::default() }
+    }
+
+    /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears, and the
+    /// end of a half-shaft that twists moves alone.
+    pub(in crate::model) fn cut_with_mobility(&self) -> Cut {
+        let ideal = &self.model.ideal;
+        let under = |inputs: &Inputs| {
+            let motion = ideal.motion(inputs);
+            let [left, right] = ideal.side_accelerations(&motion);
+            [motion.carrier, left, right]
+        };
+        let unit = |s: usize| Inputs { load_torque: [0, 1].map(|side| f64::from(u8::from(side == s))), ..Inputs::ZERO };
+        let by_torque = [under(&Inputs { carrier_torque: 1.0, ..Inputs::ZERO }), under(&unit(0)), under(&unit(1))];
+        let mut mobility: [[f64; PORTS]; PORTS] = std::array::from_fn(|port| by_torque.map(|of| of[port]));
+        for s in (0..2).filter(|&s| ideal.plan.shafts[s]) {
+            mobility.iter_mut().for_each(|row| row[1 + s] = 0.0);
+            mobility[1 + s] = [0.0; PORTS];
+            mobility[1 + s][1 + s] = quotient(1.0, ideal.inertia.end[s]).unwrap_or(0.0);
+        }
+        Cut { mobility, ..self.cut() }
     }
 
     /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
@@ -144,7 +165,7 @@ impl Simulation {
         let readings = &mut readings[const { places_of("coupling_advice", Changes::ByStep) }];
         readings[..PORTS].copy_from_slice(&coupling.errors());
         let wanted = self.model.parameters.specs.coupling_advice.wanted_ratio;
-        let (step, state) = coupling.advice(wanted, &self.cut());
+        let (step, state) = coupling.advice(wanted, &self.cut_with_mobility());
         readings[PORTS..].copy_from_slice(&[coupling.ratio(), step, f64::from(state as u8)]);
     }
 

@@ -13,7 +13,7 @@ from ..scene import Scene
 from ..values import DifferentialError, FileName
 from ..warned import warn
 from .host import TORQUE, Host
-from .limit import Mode, growth, limit, longest, mode
+from .limit import Mode, departure, growth, limit, longest, mode
 from .linear import Linear
 from .masters import GAUSS_SEIDEL, HELD, HOST, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
 from .unit import at_ports, linearised
@@ -46,6 +46,12 @@ class Coupling:
     def growth(self, step: float) -> float:
         """Factor by which a disturbance grows in each step of `step` [s]; above 1, the coupling is unstable."""
         return growth(self.exchange, step)
+
+    @property
+    def departure(self) -> float:
+        """Rate [1/s] at which a disturbance grows however short the steps are, because the teeth do not rest at the operating point; 0 if
+        they do. This growth does not count for the limit."""
+        return departure(self.exchange)
 
     @property
     def step(self) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .linear import poles
+from .linear import RIGID, poles
 from .masters import ROLLBACK, Exchange
 
 # range of the search [s], and its points per decade: of steps that are far shorter than all swings, and of others. A swing whose period
@@ -18,6 +18,8 @@ SLOW, DAMPED = 0.3, 0.95
 GROWS = 1.0 + 1e-11
 # radius from which a maximum between points of the search is looked at more closely, and number of points for this
 NEAR, CLOSER = 0.97, 16
+# a growth counts from this multiple of the growth in continuous exchange on, because steps change the latter slightly
+FASTER = 2.0
 # bisections: a step to 2e-10 of itself
 BISECTIONS = 28
 
@@ -48,11 +50,19 @@ def _points(low, high, per_decade):
 
 
 def limit(exchange: Exchange) -> float:
-    """Longest stable step [s] of an exchange; see `longest`."""
+    """Longest stable step [s] of an exchange; see `longest`. A motion that grows in continuous exchange, too, is not due to the steps."""
     # swings of the unit with constant torques, and of all together
     found = np.concatenate([poles(exchange.unit.a), poles(exchange.continuous())])
     swings = np.abs(found.imag[np.abs(found.real) < DAMPED * np.abs(found)])
-    return longest(lambda step: growth(exchange, step), dense=SLOW / max(swings.max(initial=0.0), SLOW))
+    rate = FASTER * departure(exchange)
+    return longest(lambda step: growth(exchange, step) * math.exp(-rate * step), dense=SLOW / max(swings.max(initial=0.0), SLOW))
+
+
+def departure(exchange: Exchange) -> float:
+    """Rate [1/s] at which a disturbance grows in continuous exchange; 0 if it does not. Without friction, loaded teeth may leave the
+    operating point as a ball leaves the top of a hill."""
+    found = poles(exchange.continuous())
+    return max(0.0, float(found.real[np.abs(found) >= RIGID].max(initial=0.0)))
 
 
 def _bisected(radius, good, bad):

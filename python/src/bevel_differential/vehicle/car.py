@@ -219,20 +219,16 @@ class _Run:
     """One run: from step to step, the differential receives lines of torque, and the parts receive lines of speed."""
 
     def __init__(self, instance: Instance, motion: Motion, names: list[str], communication_step: float):
-        real = [name for name in names if instance.fmu.variable(name).kind == "Real"]
-        self.instance, self.motion, self.names = instance, motion, real
-        self.port = instance.port(LOADS, [*SPEEDS, *real])
-        # variables of other kinds are fixed parameters
-        self.fixed: dict[str, Number] = {name: 0 for name in names if name not in real}
+        self.instance, self.motion, self.names = instance, motion, names
+        self.port = instance.port(LOADS, [*SPEEDS, *names])
         # times and speeds: the last point that is a communication step or more ago, and all points since then
         self.past: list[tuple[float, list[float]]] = []
         self.communication_step = communication_step * (1.0 - SAME)
-        self.read: list[float] = []
+        self.read: list[Number] = []
 
     def start(self, values, stop):
         at = values.get("carrier.speed_command", 0.0)
         self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
-        self.fixed = dict(zip(self.fixed, self.instance.read(self.fixed)))
         self._keep(0.0, self.port.read())
 
     def _keep(self, time, outputs):
@@ -243,7 +239,7 @@ class _Run:
         self.read = outputs[3:]
 
     def values(self, steer):
-        return self.fixed | dict(zip(self.names, self.read)) | self.motion.outputs(self.past[-1][1], steer)
+        return dict(zip(self.names, self.read)) | self.motion.outputs(self.past[-1][1], steer)
 
     def step(self, time, size, asked):
         """Advances the parts first, along the line through the speeds of the last communication step. The torques at both ends of the step are then known."""

@@ -184,29 +184,54 @@ impl Port {
         if a + b > 0.0 { 2.0 * c / (a + sqrt(a * a + 4.0 * b * c)) } else { f64::INFINITY }
     }
 
-    /// Longest stable step [s] of a host with `delay` that reacts, behind the unit's `shaft` or at a torque. It is infinite
-    /// if the cut shows no limit.
-    ///
-    /// A spring k, an inertia with the mobility b and damping make an oscillation whose damping acts the time τ ahead:
-    /// c/k of the damper beside the spring, and the ratio of both coefficients of the host's law. Held inputs act
-    /// (½ + `delay`) h late, so they are stable up to (½ + `delay`) h = τ, and up to ω h = 2. The line through the last two values
-    /// is a two-step Adams-Bashforth method, whose factor 1 + (ω h)⁴/4 in a step must not exceed the damping 1 + τ ω² h/2.
-    pub fn stable_step(&self, delay: f64, shaft: Option<Shaft>) -> f64 {
-        let Some(law) = self.regression.law(0.0).filter(|law| law.per_movement > 0.0) else { return f64::INFINITY };
-        let Law { per_movement, per_rate } = law;
-        let own = shaft.map_or(0.0, |shaft| shaft.damping / shaft.stiffness);
-        let ahead = own + per_rate.max(0.0) / per_movement;
-        let by_delay = quotient(ahead, 0.5 + delay).unwrap_or(f64::INFINITY);
-        let rate = shaft.map(|shaft| sqrt(shaft.stiffness * per_movement));
-        let limit = match (self.is_line, rate) {
-            (true, Some(rate)) => pow(2.0 * ahead * rate, 1.0 / 3.0) / rate,
-            (true, None) => f64::INFINITY,
-            (false, Some(rate)) => by_delay.min(2.0 / rate),
-            (false, None) => by_delay,
-        };
-        // without any damping, no step is stable; a growing swing then reports the unstable cut
-        if limit > 0.0 { limit } else { f64::INFINITY }
+    /// Law of the host, if the motion explains at least the `fraction` of the changes of u.
+    pub fn law(&self, fraction: f64) -> Option<Law> {
+        self.regression.law(fraction)
     }
+
+    /// Longest stable step [s] of a host with `delay` that sets a torque. Its springs give the unit the `rates` ω² [1/s²], and
+    /// its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
+    ///
+    /// A spring with a damper acts the time τ = λ/ω² ahead. Held inputs act (½ + `delay`) h late, so springs are stable up to
+    /// (½ + `delay`) h = τ, and dampers up to (1 + `delay`) λ h = 2. The line through the last two values is a two-step
+    /// Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up to λ h = 1.
+    pub fn stable_step_of_torque(&self, delay: f64, [spring, damper]: [f64; 2]) -> f64 {
+        let quotient = |a, b| quotient(a, b).unwrap_or(f64::INFINITY);
+        let ahead = quotient(damper, spring);
+        if self.is_line {
+            limit(line_limit(ahead, sqrt(spring))).min(limit(quotient(1.0, damper)))
+        } else {
+            limit(quotient(ahead, 0.5 + delay)).min(limit(quotient(2.0, (1.0 + delay) * damper)))
+        }
+    }
+
+    /// Longest stable step [s] of a host with `delay` that sets the speed behind the unit's `shaft` k, c. It is infinite if the
+    /// cut shows no limit.
+    ///
+    /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts the
+    /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `delay`) h = τ and up to ω h = 2.
+    pub fn stable_step_of_speed(&self, delay: f64, shaft: Shaft) -> f64 {
+        let Some(law) = self.law(0.0).filter(|law| law.per_movement > 0.0) else { return f64::INFINITY };
+        let Law { per_movement, per_rate } = law;
+        let ahead = shaft.damping / shaft.stiffness + per_rate.max(0.0) / per_movement;
+        let rate = sqrt(shaft.stiffness * per_movement);
+        if self.is_line {
+            limit(line_limit(ahead, rate))
+        } else {
+            limit(quotient(ahead, 0.5 + delay).unwrap_or(f64::INFINITY).min(2.0 / rate))
+        }
+    }
+}
+
+/// Longest stable step [s] of a two-step Adams-Bashforth method on an oscillation with the `rate` ω [1/s] and damping that
+/// acts the time τ `ahead` [s]: the factor 1 + (ω h)⁴/4 in a step must not exceed the damping 1 + τ ω² h/2.
+fn line_limit(ahead: f64, rate: f64) -> f64 {
+    if rate > 0.0 { pow(2.0 * ahead * rate, 1.0 / 3.0) / rate } else { f64::INFINITY }
+}
+
+/// Returns a limit. Without any damping, no step is stable; a growing swing then reports the unstable cut.
+fn limit(step: f64) -> f64 {
+    if step > 0.0 { step } else { f64::INFINITY }
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::memory::LEAST_STEPS;
 use super::port::{LAG, Port, PortStep, Shaft, energy_difference};
-use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED};
+use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED, Law};
 use super::spec::AdviceState;
 use crate::numeric::{Finite, finite};
 
@@ -34,6 +34,9 @@ pub struct Cut {
     pub delay: f64,
     /// Half-shaft behind each port; `None` at a port driven by torque.
     pub shafts: [Option<Shaft>; PORTS],
+    /// Accelerations of the ports under a torque at each port that is driven by torque [1/(kg·m²)]. They are needed
+    /// only for the longest stable steps.
+    pub mobility: [[f64; PORTS]; PORTS],
 }
 
 /// Record of the exchange between host and unit.
@@ -131,19 +134,42 @@ impl Coupling {
         if !self.has_changed {
             return none(AdviceState::NoReaction);
         }
-        let all = || self.ports.iter().zip(cut.shafts).filter(|(port, _)| port.reacts(EXPLAINED));
-        let reacting = || all().filter(|(port, _)| port.moves());
+        let all = || (0..PORTS).filter(|&port| self.ports[port].reacts(EXPLAINED));
+        let reacting = || all().filter(|&port| self.ports[port].moves());
         if reacting().next().is_none() {
             let moves = all().next().is_none() && self.ports.iter().any(Port::moves);
             return none(if moves { AdviceState::NoReaction } else { AdviceState::NothingMoves });
         }
-        let least = self.least_passed();
-        let by_ratio = reacting().map(|(port, _)| port.step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
-        let stable = reacting().map(|(port, shaft)| port.stable_step(cut.delay, shaft)).fold(f64::INFINITY, f64::min);
+        let (least, steps) = (self.least_passed(), self.stable_steps(cut));
+        let by_ratio =
+            reacting().map(|port| self.ports[port].step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
+        let stable = reacting().map(|port| steps[port]).fold(f64::INFINITY, f64::min);
         if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
             return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);
         }
         if by_ratio.is_finite() { (by_ratio.min(stable), AdviceState::Given) } else { none(AdviceState::NotPossible) }
+    }
+
+    /// Longest stable step of each port [s]. Springs and dampers at several ports that move each other act together; the
+    /// sum over the ports is an upper bound of their rates.
+    fn stable_steps(&self, cut: &Cut) -> [f64; PORTS] {
+        let laws: [Law; PORTS] = std::array::from_fn(|port| {
+            let law = self.ports[port].law(EXPLAINED).unwrap_or_default();
+            // torque drives the carrier and loads the sides
+            Law { per_movement: SIGNS[port] * law.per_movement, per_rate: SIGNS[port] * law.per_rate }
+        });
+        std::array::from_fn(|port| {
+            let together = |of: fn(&Law) -> f64| -> f64 {
+                laws.iter().zip(cut.mobility[port]).map(|(law, mobility)| mobility.abs() * of(law).max(0.0)).sum()
+            };
+            match cut.shafts[port] {
+                Some(shaft) => self.ports[port].stable_step_of_speed(cut.delay, shaft),
+                None => {
+                    let rates = [together(|law| law.per_movement), together(|law| law.per_rate)];
+                    self.ports[port].stable_step_of_torque(cut.delay, rates)
+                }
+            }
+        })
     }
 
     /// Cause of a warning, if there is one: a swing at a port at which the host reacts grows by the cut, or its ratio is
@@ -158,9 +184,9 @@ impl Coupling {
         }
         let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
         // all ports swing with the one that is unstable, which has the shortest stable step
-        let stable = |port: usize| self.ports[port].stable_step(cut.delay, cut.shafts[port]);
+        let stable = self.stable_steps(cut);
         let unstable = reacting().filter(|&port| is_unstable(&self.ports[port]));
-        if let Some(port) = unstable.min_by(|&a, &b| stable(a).total_cmp(&stable(b))) {
+        if let Some(port) = unstable.min_by(|&a, &b| stable[a].total_cmp(&stable[b])) {
             return Some(Growth { port, is_unstable: true });
         }
         let ratio = |port: usize| self.ports[port].ratio(least);

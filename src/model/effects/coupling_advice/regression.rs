@@ -44,7 +44,7 @@ pub struct Regression {
 finite!(Regression { slow, slow_weight, weight, means, products, fourth, magnitude });
 
 /// Law of a host that reacts: Δu = `per_movement` x + `per_rate` y.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Law {
     /// Change of u per movement of the port [N·m/rad, or rad/s per N·m·s].
     pub per_movement: f64,
