@@ -289,10 +289,10 @@ impl Instance {
 
     /// Logs warnings that are known only at the end of a run, once.
     pub fn warn_at_end(&mut self) {
-        if let Some(simulation) = self.now.simulation.as_mut().filter(|_| self.log.is_on(Category::Warning))
-            && let Some(warning) = simulation.unreported_at_end(&mut self.reported)
-        {
-            self.log.warning(&warning.to_string());
+        if let Some(simulation) = self.now.simulation.as_mut().filter(|_| self.log.is_on(Category::Warning)) {
+            for warning in simulation.unreported_at_end(&mut self.reported) {
+                self.log.warning(&warning.to_string());
+            }
         }
     }
 

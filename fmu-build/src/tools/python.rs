@@ -191,7 +191,7 @@ impl Environment {
             .collect();
         let python = self.interpreter().program;
         let text = format!(
-            "#!{}\nimport os, sys\nsys.pycache_prefix = {:?}\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nsys.exit(main())\n",
+            "#!{}\nimport os, sys\nsys.pycache_prefix = {:?}\nsys.path.insert(0, {:?})\n{set}from bevel_differential.command import main\nif __name__ == '__main__':\n    sys.exit(main())\n",
             python.display(),
             self.bytecode().display().to_string(),
             source.display().to_string()

@@ -5,6 +5,7 @@ Until then, the file is `.NAME.xxxxxxxx.part` in the same folder. Such a file re
 automatically, because another process may still write it; users can delete it."""
 
 import errno
+import multiprocessing
 import os
 import secrets
 import shutil
@@ -115,11 +116,19 @@ def write_whole(file: FileName, content: str | bytes) -> None:
             part.write_text(content, encoding="utf-8")
 
 
+def refuse_in_worker() -> None:
+    """Raises `DifferentialError` in a worker process that has just begun and runs the script of the process that started it."""
+    if getattr(multiprocessing.current_process(), "_inheriting", False):
+        raise DifferentialError("a worker process has run the script that started it; put what the script does below "
+                                "if __name__ == \"__main__\":", kind="failed")
+
+
 @contextmanager
 def locked(file: FileName) -> Iterator[None]:
     """Lets one process at a time work on results in `file` or in this folder. Others wait before the block, with a warning.
 
     The lock is on the file `.NAME.lock` next to it, and ends with its process."""
+    refuse_in_worker()
     final = Path(file).resolve()
     lock = final.with_name(f".{final.name[:KEPT]}.lock")
     with _made(lock.parent):

@@ -59,7 +59,7 @@ impl ExcessiveDeflection {
         };
         format!(
             "tooth deflection exceeds {} between planet[{}] and the {} side gear: {:.3} mm along the line of action, \
-             at most {:.3} mm; reduce the load or {}",
+             at most {:.3} mm; reduce the load or {}; in a coupling, take shorter communication steps",
             limit_name(model),
             self.planet + 1,
             ["left", "right"][self.side],

@@ -11,11 +11,16 @@ use super::cases::PatternCase;
 use super::sample::Engagement;
 use super::sections::LoadedSection;
 
-/// Results of one case. Unless noted otherwise, they are for the instant at which the pair is at the pitch point.
+/// Results of one case. Unless noted otherwise, they are for the instant at which the pair is at the pitch point, or has
+/// its largest force if its engagement is not whole.
 #[derive(Clone, Debug)]
 pub struct PatternFindings {
     /// Name and title of the case.
     pub case: [String; 2],
+    /// The instant [s].
+    pub time: f64,
+    /// True if the pair came into touch and parted again.
+    pub is_whole: bool,
     /// Distance of the load's centroid from the middle of the face, toward the heel [m].
     pub centroid: f64,
     /// Line load of the sections nearest to toe and heel [N/m].
@@ -42,9 +47,9 @@ pub struct PatternFindings {
 impl PatternFindings {
     /// Results of `case`, whose engagement is `record`.
     pub fn new(case: &PatternCase, record: &Engagement) -> Result<Self> {
-        let pitch = record.at_pitch_point();
+        let pitch = record.rated();
         let (first, last) = (pitch.first(), pitch.last());
-        let (first, last) = first.zip(last).context("the pair that was followed has no load at the pitch point")?;
+        let (first, last) = first.zip(last).context("the pair that was followed has no load")?;
         let gear = &record.pair.gears[0];
         let height = |c: &LoadedSection, cone: f64| cone * (c.polar[0] - gear.pitch);
         let greatest = |all: &mut dyn Iterator<Item = f64>| all.fold(0.0, f64::max);
@@ -57,6 +62,8 @@ impl PatternFindings {
         let mean = record.pair.mean_cone;
         Ok(Self {
             case: [case.name.clone(), case.title.clone()],
+            time: first.time,
+            is_whole: record.is_whole,
             centroid: centroid(&pitch) - mean,
             ends: [end(first, record.pair.inner_cone), end(last, record.pair.outer_cone)],
             bearing: pitch.iter().map(|c| c.width).sum::<f64>() / face,
@@ -134,15 +141,20 @@ fn columns(found: &[PatternFindings], count: usize) -> Table {
 pub fn markdown(found: &[PatternFindings]) -> String {
     format!(
         "{}\nForce, centroid, line loads and pressure are for the instant at which the pair is nearest to its pitch \
-         point. The contact may then be slightly below the pitch line. The centroid of the load counts from the middle \
+         point{}. The contact may then be slightly below the pitch line. The centroid of the load counts from the middle \
          of the face toward the heel. Peak is the largest pressure of the whole engagement at or above the pitch line, \
          so it can be smaller than the pressure.\n",
-        columns(found, IN_DOCUMENT).markdown()
+        columns(found, IN_DOCUMENT).markdown(),
+        if found.iter().all(|f| f.is_whole) {
+            ""
+        } else {
+            "; for a pair that did not touch and part, of its largest force"
+        }
     )
 }
 
 /// Columns of the file, in SI.
-const COLUMNS: &str = "case,title,flank,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
+const COLUMNS: &str = "case,title,flank,time,whole,force,centroid,toe_load,heel_load,bearing,pitch_pressure,peak,peak_cone,most,\
                        lowest,highest,teeth";
 
 /// CSV file of the results.
@@ -164,7 +176,8 @@ pub fn csv(found: &[PatternFindings]) -> Result<String> {
             f.heights[0],
             f.heights[1],
         ];
-        let texts = [name, title, flank].map(str::to_owned);
+        let whole = u8::from(f.is_whole).to_string();
+        let texts = [name.clone(), title.clone(), flank.to_owned(), format!("{:.9e}", f.time), whole];
         let numbers = numbers.map(|x| format!("{x:.6e}"));
         file.push(texts.into_iter().chain(numbers).chain([f.teeth.to_owned()]))?;
     }

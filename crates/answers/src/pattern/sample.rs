@@ -40,8 +40,10 @@ pub struct Engagement {
     pub pair: Pair,
     /// Loaded sections of all pairs by time. Sections of one instant are in the order of the simulation.
     pub contacts: Vec<LoadedSection>,
-    /// Pair with the complete engagement.
+    /// Pair with the complete engagement, or else the most loaded pair.
     pub followed: PairName,
+    /// True if this pair came into touch and parted again.
+    pub is_whole: bool,
     /// Cone distances beyond which only the outermost section of the face remains [m]; `None` for solid teeth, whose
     /// sections move.
     pub ends: Option<[f64; 2]>,
@@ -107,7 +109,7 @@ impl Engagement {
             let parted = seen.iter().find(|(name, (fresh, range))| *fresh && through(*range) && !is_loaded(name));
             if let Some((&followed, _)) = parted {
                 progress.warn(run.warnings());
-                return Ok(Self { pair, contacts, followed, ends });
+                return Ok(Self { pair, contacts, followed, is_whole: true, ends });
             }
             seen.retain(|name, (fresh, _)| is_loaded(name) || (!solid && *fresh));
             if solid || !is_same(&last, &now, pair.base_pitch) {
@@ -131,7 +133,7 @@ impl Engagement {
              at different speeds, or longer",
             scene.name
         )]);
-        Ok(Self { pair, contacts, followed, ends })
+        Ok(Self { pair, contacts, followed, is_whole: false, ends })
     }
 
     /// Sections of the followed pair.
@@ -143,6 +145,18 @@ impl Engagement {
     pub fn at_pitch_point(&self) -> Vec<LoadedSection> {
         let nearest = self.engagement().min_by(|a, b| a.s.abs().total_cmp(&b.s.abs()));
         nearest.map_or(Vec::new(), |n| self.engagement().filter(|c| c.time == n.time).copied().collect())
+    }
+
+    /// Sections of the followed pair for which the findings are: at the pitch point, or, if its engagement is not whole, at
+    /// the instant of its largest force.
+    pub fn rated(&self) -> Vec<LoadedSection> {
+        if self.is_whole {
+            return self.at_pitch_point();
+        }
+        let all: Vec<LoadedSection> = self.engagement().copied().collect();
+        let instants = all.chunk_by(|a, b| a.time == b.time);
+        let force = |instant: &[LoadedSection]| instant.iter().map(LoadedSection::force).sum::<f64>();
+        instants.max_by(|a, b| force(a).total_cmp(&force(b))).unwrap_or_default().to_vec()
     }
 
     /// Creates a CSV file for loaded sections of planet 1's left mesh in SI, without rows. `followed` marks the pair whose

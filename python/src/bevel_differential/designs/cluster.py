@@ -1,7 +1,6 @@
 """Workers of dask.distributed, without log messages and dashboard."""
 
 import logging
-import multiprocessing
 import os
 import signal
 import warnings
@@ -12,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from ..extras import require
 from ..values import DifferentialError
+from ..writing import refuse_in_worker
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -37,9 +37,7 @@ SETTINGS = {
 def client(workers: int | None, processes: bool, scheduler: str | None) -> "Iterator[Client]":
     """Dask client of the scheduler at an address, or of a new cluster with one thread per worker."""
     dask, distributed = require("dask", "sweep"), require("distributed", "sweep")
-    if getattr(multiprocessing.current_process(), "_inheriting", False):
-        raise DifferentialError("a worker process has run the script that started it; put what the script does below "
-                                "if __name__ == \"__main__\":", kind="failed")
+    refuse_in_worker()
     with _quiet(), dask.config.set(SETTINGS):
         opened = _connected(distributed, scheduler) if scheduler else _started(distributed, workers, processes)
         try:

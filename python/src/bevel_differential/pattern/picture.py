@@ -109,6 +109,7 @@ def patterns(folder, data, outlines, cases, remarks):
     margin = 0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0
     grid = figure.add_gridspec(rows, columns + 2, width_ratios=[margin + 1e-3, *[1.0] * columns, margin + 1e-3])
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
+    engaged, rated = words_of(data)
     scale, first = Normalize(0.0, top_of(data, cases)), None
     for i, (name, title) in enumerate(cases):
         row, column = divmod(i, columns)
@@ -142,12 +143,22 @@ def patterns(folder, data, outlines, cases, remarks):
               "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
               "opposite one. ") if remarks else ""
     style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
-                  "trapezoid with the small end (toe) left; colour is the largest pressure at each spot while one pair goes from "
-                  f"first touch to parting, as marking compound would show it. {shared} the seam at the base "
-                  "circle exceeds the scale, because the flank has no radius there. Blue: line load over the face while the pair is nearest to "
-                  f"the pitch line. Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
+                  f"trapezoid with the small end (toe) left; colour is the largest pressure at each spot while {engaged}, "
+                  f"as marking compound would show it. {shared} the seam at the base "
+                  f"circle exceeds the scale, because the flank has no radius there. Blue: line load over the face {rated}. "
+                  f"Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
                   "tip corner touches, the pressure is calculated with the flanks' radii; the true one is higher.", LEGEND)
     style.save(figure, folder / "contact_pattern.png", shaded=True)
+
+
+def words_of(data):
+    """What the pairs do, and the instant of their line loads, for captions."""
+    whole = [bool(row["whole"]) for row in data["summary"]]
+    engaged, rated = "one pair goes from first touch to parting", "while the pair is nearest to the pitch line"
+    if all(whole):
+        return engaged, rated
+    partly, largest = "the most loaded pair stays in touch (none touched and parted)", "at the pair's largest force"
+    return (f"{engaged}, or {partly}", f"{rated}, or {largest}") if any(whole) else (partly, largest)
 
 
 def teeth_of(data):
@@ -194,9 +205,9 @@ def top_of(data, cases):
 
 
 def strip(data, name):
-    """Cone distance and line load at the time nearest to the pitch point."""
+    """Cone distance and line load at the instant of the findings."""
     rows = [row for row in data["contacts"] if row["case"] == name and row["followed"]]
-    time = min(rows, key=lambda row: abs(row["s"]))["time"]
+    time = next(row["time"] for row in data["summary"] if row["case"] == name)
     return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
 
 
@@ -236,7 +247,7 @@ def lines(folder, data, outlines, cases, of_documentation):
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if of_documentation else ""
-    style.caption(figure, f"Lines of contact on the planet's flank while one pair goes from first touch to parting, "
+    style.caption(figure, f"Lines of contact on the planet's flank while {words_of(data)[0]}, "
                   f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
                   f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
                   "each line's load, a circle for the pair that is followed and a square for its neighbours.", LEGEND)

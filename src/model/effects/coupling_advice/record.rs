@@ -19,6 +19,9 @@ const SIGNS: [f64; PORTS] = [-1.0, 1.0, 1.0];
 const LEAST_WEIGHT: f64 = 30.0;
 /// Ratio above which a warning is reported.
 const HIGH: f64 = 0.1;
+/// Ratio above which a warning is reported after a few steps already, and the weight of these steps.
+const EXTREME: f64 = 0.5;
+const FEW_STEPS: f64 = 12.0;
 /// Number of successive swings with growth after which the cut is unstable: four periods.
 const GROWTHS: u32 = 8;
 /// Fraction of the energy through all ports that is the lower bound of the denominator of each port's ratio.
@@ -178,8 +181,12 @@ impl Coupling {
     pub fn growth(&self, cut: &Cut) -> Option<Growth> {
         let least = self.least_passed();
         let is_high = |port: &Port| port.errors > HIGH * port.passed.max(least) && port.oscillation.has_period();
+        // steps that are far too long show no period
+        let is_extreme = |port: &Port| port.errors > EXTREME * port.passed.max(least);
         let is_unstable = |port: &Port| port.growths() >= GROWTHS;
-        if self.weight < LEAST_WEIGHT || !self.ports.iter().any(|port| is_unstable(port) || is_high(port)) {
+        let has_cause =
+            |port: &Port| is_extreme(port) || self.weight >= LEAST_WEIGHT && (is_unstable(port) || is_high(port));
+        if self.weight < FEW_STEPS || !self.ports.iter().any(has_cause) {
             return None;
         }
         let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
@@ -190,8 +197,9 @@ impl Coupling {
             return Some(Growth { port, is_unstable: true });
         }
         let ratio = |port: usize| self.ports[port].ratio(least);
-        let port =
-            reacting().filter(|&port| is_high(&self.ports[port])).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+        let port = reacting()
+            .filter(|&port| is_high(&self.ports[port]) || is_extreme(&self.ports[port]))
+            .max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
         Some(Growth { port, is_unstable: false })
     }
 
