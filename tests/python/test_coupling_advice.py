@@ -5,6 +5,9 @@ import random
 
 import numpy as np
 import pytest
+from bevel_differential import Scene
+from bevel_differential.coupling import Host as Spring
+from bevel_differential.coupling import coupling
 from bevel_differential.vehicle import Car, Tyre
 from coupled_hosts import ERRORS, FREE, LAG, LOADS, MOTION, Coupled, Host, couple
 
@@ -177,6 +180,37 @@ def test_a_car_that_follows_the_advice_has_the_wanted_ratio(fmu, wanted):
 
     followed = end(end(5e-4)["coupling.step_advice"])
     assert wanted / 1.5 < followed["coupling.energy_ratio"] < 1.5 * wanted
+
+
+def test_a_car_records_the_state_of_the_advice(fmu):
+    car = Car({"contact.law": "line", "effects.coupling_advice": True}, left=Tyre(), right=Tyre(), fmu=fmu)
+    record = car.run([*ADVICE, STATE], stop=1.0, request=([0.0, 0.1], [0.0, 150.0]))
+    given = np.isin(record[STATE], [GIVEN, UNSTABLE])
+    assert 100 < given.sum() < len(record) and np.all(given == (record["coupling.step_advice"] > 0.0))
+
+
+@pytest.mark.parametrize("lines", [False, True])
+@pytest.mark.parametrize("ports", [("left",), ("carrier",), ("left", "right")])
+@pytest.mark.parametrize("stiffness, damping", [(9000.0, 5.0), (9000.0, 50.0), (500.0, 5.0)])
+def test_the_advice_is_at_most_the_longest_stable_step(fmu, ports, stiffness, damping, lines):
+    scene = Scene("free", stop=1.0, step=1e-3, outputs=["left.speed"], set=FREE, fmu=fmu.file)
+    springs = [Spring.spring(port, stiffness, damping, 1e3, reads="both") for port in ports]
+    stable = coupling(scene, springs, "gauss-seidel", "lines" if lines else "held").limit
+    for share in (0.1, 0.5, 0.9):
+        hosts = {port: Host(stiffness, damping, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time),
+                            sign=-1.0 if port == "carrier" else 1.0) for port in ports}
+        run = couple(fmu, hosts, share * stable, max(200.0 * share * stable, 1.0), lines=lines,
+                     values={} if "carrier" in ports else {"carrier.torque_command": 20.0})
+        advised = [advice for advice in run.advice[40:] if advice > 0.0]
+        # the host's law is learned from noisy differences
+        assert advised and max(advised) < 1.2 * stable
+
+
+def test_a_step_that_is_far_too_long_is_reported_before_the_run_fails(fmu):
+    # the limit is 1.1 ms
+    hosts = {port: Host(17400.0, 10.0, 79.0) for port in ("left", "right")}
+    run = couple(fmu, hosts, 12e-3, 0.4, values={"carrier.torque_command": 500.0})
+    assert len(run.warnings) == 1 and "with steps of 0.012 s" in run.warnings[0]
 
 
 def test_the_cut_of_a_car_costs_less_energy_than_the_page_says(fmu):

@@ -289,3 +289,35 @@ def test_a_car_is_stable_up_to_its_longest_step(left, fmu_file, monkeypatch):
         jumps = np.abs(np.diff(record["left.wheel_speed"], 2))
         swell.append(jumps[1000:].max() / jumps[:100].max())
     assert swell[0] < 0.1 and swell[1] > 10.0 * swell[0], swell
+
+
+def test_a_motion_that_grows_without_a_cut_has_no_influence_on_the_limit(fmu, capsys, tmp_path, fmu_file):
+    """Without friction, planets leave some positions of their teeth as a ball leaves the top of a hill."""
+    text = """description = "launch without friction"
+stop_time = "0.4 s"
+step = "1 ms"
+outputs = ["left.shaft_torque"]
+accept_start_values = true
+[set]
+contact.law = "line"
+scene.carrier_drive = "torque"
+scene.start = "rest"
+carrier.torque_command = 500.0
+effects.half_shaft = true
+inertia.left_end = 1.0
+inertia.right_end = 1.0
+left.load_torque = 200.0
+right.load_torque = 200.0
+"""
+    (tmp_path / "launch.toml").write_text(text, encoding="utf-8")
+    hosts = [Host.spring(port, 17400.0, 10.0, 79.0, reads="both") for port in ("left", "right")]
+    found = {}
+    for gears in ("tooth", "lumped"):
+        with Scene.load(tmp_path / "launch.toml", fmu) as scene:
+            made = coupling(scene.set({"scene.gear_contact": gears}), hosts, GAUSS_SEIDEL, at=0.3)
+            found[gears] = made.departure, made.limit
+    assert found["tooth"][0] > 0.0 and found["lumped"][0] == 0.0
+    assert 0.0 < found["tooth"][1] == pytest.approx(found["lumped"][1], rel=0.05)
+    command = ["coupling", str(tmp_path / "launch.toml"), "--fmu", str(fmu_file), "--at", "0.3 s", "--master", "gauss-seidel"]
+    assert main([*command, *(word for port in ("left", "right") for word in ("--host", f"{port}:k=17400,c=10,J=79,reads=both"))]) == DONE
+    assert "the teeth do not rest at this time" in capsys.readouterr().out

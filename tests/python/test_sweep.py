@@ -334,3 +334,11 @@ def test_plan_json_of_the_parts_is_the_metadata(scene, tmp_path, monkeypatch):
     with pytest.raises(Stopped, match="0 of 20"):
         sweep(scene, **few(), out=tmp_path / "found.parquet")
     assert json.loads((tmp_path / "found.parquet.parts" / "plan.json").read_text())["plan"] == "lhs"
+
+
+def test_a_script_without_a_guard_is_told_so_and_does_not_wait_for_itself(fmu_file, tmp_path):
+    (tmp_path / "all.py").write_text("import sys\nfrom bevel_differential.command import main\nsys.exit(main())\n", encoding="utf-8")
+    command = [sys.executable, "all.py", "sweep", "--scene", "clunk", "--vary", "left.load_torque=1 N.m,2 N.m", "--plan", "grid",
+               "--want", "left.speed", "--fmu", os.fspath(fmu_file), "--workers", "2", "--out", "all.parquet"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 2 and "if __name__" in done.stderr and "another command writes there" not in done.stderr

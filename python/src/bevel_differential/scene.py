@@ -57,10 +57,11 @@ class Scene(Runner):
 
     @classmethod
     def load(cls, what: FileName, fmu: FileName | Fmu | None = None, stop: str | None = None,
-             display_units: Sequence[str] = ()) -> Self:
-        """Reads the scene from the TOML file `what`, or the shipped scene of that name; `stop`: another end, after which nothing changes.
+             display_units: Sequence[str] = (), step: str | None = None) -> Self:
+        """Reads the scene from the TOML file `what`, or the shipped scene of that name; `stop`: another end, after which nothing changes;
+        `step`: another communication step.
         All errors in a file are reported together. `display_units`, and those of `fmu`, take precedence over those of the file."""
-        given, fmu = read_scene(find(what), stop), Fmu.of(fmu)
+        given, fmu = read_scene(find(what), stop, step), Fmu.of(fmu)
         for preferred in (given.pop("display_units"), list(fmu.display_units.values()), display_units):
             fmu = fmu.displaying(preferred)
         return cls(fmu=fmu, **given)

@@ -30,9 +30,10 @@ def find_beside(file: Path, what: str) -> Path:
     return near if near.is_file() else find(what)
 
 
-def read_scene(file: Path, stop: str | None = None) -> dict[str, Any]:
-    """Arguments of `Scene` in a file; `stop` replaces its end. All errors are reported together."""
-    found = ask({"ask": "scene", "of": about(file, {} if stop is None else {"stop_time": stop})})
+def read_scene(file: Path, stop: str | None = None, step: str | None = None) -> dict[str, Any]:
+    """Arguments of `Scene` in a file; `stop` and `step` replace its end and its communication step. All errors are reported together."""
+    times = {name: value for name, value in (("stop_time", stop), ("step", step)) if value is not None}
+    found = ask({"ask": "scene", "of": about(file, times)})
     return {"name": found["name"], "description": found["description"], "stop": found["stop_time"], "step": found["step"],
             "outputs": found["outputs"], "set": found["set"], "changes": [(each["time"], each["set"]) for each in found["at"]],
             "tables": [(each["input"], each["times"], each["values"], each["period"]) for each in found["tables"]],

@@ -212,6 +212,19 @@ pub fn not_a_number() -> String {
 }
 
 impl Column {
+    /// Message about a column that the scene names, whose numbers have no unit although users expect another one than that
+    /// of the interface.
+    pub fn without_unit(&self, wanted: &Wanted) -> Option<String> {
+        let (row, head) = (self.row, &self.header_cell);
+        let [unit, usual] = [row.unit?.name, row.display?.name];
+        let is_bare = self.unit.is_empty() && !wanted.columns.is_empty();
+        is_bare.then(|| {
+            format!(
+                ", column {head}: it has no unit, so its numbers are in {unit}; write one, as in \"{head} [{usual}]\""
+            )
+        })
+    }
+
     /// Adds the value in a cell.
     pub fn take(&mut self, line: u64, cell: &str) {
         match self.value(cell) {

@@ -36,13 +36,12 @@ pub fn read(
         Err(problem) if content.is_some() || file.is_file() => Err(vec![problem]),
         Err(problem) => Err(vec![format!("{problem}; the path in file = is relative to the scene's own file")]),
     };
-    let (tables, outputs) =
+    let (tables, notes) =
         found.map_err(|problems| problems.iter().map(|problem| format!("{shown}{problem}")).collect::<Vec<_>>())?;
-    let unused = |head: String| format!("{shown}, column {head}: it is an output, so no input follows it");
-    Ok((tables, outputs.into_iter().map(unused).collect()))
+    Ok((tables, notes.into_iter().map(|note| format!("{shown}{note}")).collect()))
 }
 
-/// Returns the inputs in a file and the headers of outputs. Problems begin with their position in the file.
+/// Returns the inputs in a file and messages about its columns. Problems and messages begin with their position in the file.
 fn tables(
     found: CsvInput,
     period: Option<f64>,
@@ -71,8 +70,10 @@ fn tables(
     if !problems.is_empty() {
         return Err(problems);
     }
+    let unused = outputs.iter().map(|head| format!(", column {head}: it is an output, so no input follows it"));
+    let notes = unused.chain(columns.iter().filter_map(|column| column.without_unit(wanted))).collect();
     let of = |Column { row, values, .. }| InputTable { row, table: Table::straight(times.clone(), values, period) };
-    Ok((columns.into_iter().map(of).collect(), outputs))
+    Ok((columns.into_iter().map(of).collect(), notes))
 }
 
 fn time(cell: &str, unit: &str, before: Option<f64>) -> Result<f64, String> {

@@ -47,7 +47,7 @@ use super::accepted::Accepted;
 use super::curve::{self, CURVE};
 use super::display_units::DisplayUnits;
 use super::input_columns::Wanted;
-use super::set::{Setting, output, real, variable};
+use super::set::{Setting, SettingValue, output, real, variable};
 use super::times::{check_step, duration, seconds, span};
 use super::units::six_digits;
 use super::value::{self, written};
@@ -170,7 +170,9 @@ pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Resu
     let mut notes = Vec::new();
     for input_file in &entry.inputs {
         let content = supplied.contents.get(&input_file.file).map(String::as_str);
+        let known = input_tables.len();
         notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
+        notes.extend(ends_early(input_file, &input_tables[known..], stop_time));
     }
     let input_slopes = input_slopes(entry, &mut problems);
     if !input_slopes {
@@ -181,6 +183,7 @@ pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Resu
     let accepted = accepted.map_err(|found| problems.extend(found)).unwrap_or_default();
     let display_units = display_units(&entry.display_units, &mut problems);
     overridden(&events, &input_tables, &mut problems);
+    notes.extend(without_influence(&settings, &input_tables));
     let tables = input_tables.iter().map(|driven| &driven.table);
     if let Some(index) = Schedule::new(stop_time, Some(step), Vec::new(), tables).table_with_too_many_stops() {
         let InputTable { row, table } = &input_tables[index];
@@ -329,6 +332,34 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
     }
 }
 
+/// Remark about an input file that ends in the first half of the scene, as one whose times are in another unit.
+fn ends_early(entry: &InputFileEntry, tables: &[InputTable], stop_time: f64) -> Option<String> {
+    let end = tables
+        .iter()
+        .filter(|table| table.table.period.is_none())
+        .filter_map(|table| table.table.times.last().copied());
+    let end = end.reduce(f64::max).filter(|end| *end < 0.5 * stop_time)?;
+    Some(format!(
+        "[[inputs]] file = \"{}\": it ends at {} s, and its last values stay until {} s; its times are in s unless their header \
+         has another unit",
+        entry.file.display(),
+        six_digits(end),
+        six_digits(stop_time)
+    ))
+}
+
+/// Remarks about inputs with a value at the start that a table replaces.
+fn without_influence(settings: &[Setting], input_tables: &[InputTable]) -> Vec<String> {
+    let replaced = |setting: &Setting| {
+        let table = &input_tables.iter().find(|table| table.row.name == setting.row.name)?.table;
+        let is_other = !matches!(setting.value, SettingValue::Real(value) if value == table.at(0.0));
+        is_other.then(|| {
+            format!("[set] {}: a table gives this input from the start, so the value changes nothing", setting.row.name)
+        })
+    };
+    settings.iter().filter_map(replaced).collect()
+}
+
 fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<InputTable> {
     let place = format!("[[table]] input = \"{}\":", entry.input);
     let mut report = |what: String| problems.push(format!("{place} {what}"));
@@ -354,8 +385,11 @@ fn input_table(entry: &InputTableEntry, problems: &mut Problems) -> Option<Input
         ));
     }
     let rising = times.windows(2).all(|pair| pair[0] <= pair[1]) && times.first().is_none_or(|&t| t >= 0.0);
-    if !rising || !times.iter().all(|time| time.is_finite()) {
-        report("times must be 0 or more and must not fall".into());
+    if let Some(pair) = times.windows(2).find(|pair| pair[0] > pair[1]) {
+        let [before, after] = [pair[0], pair[1]].map(six_digits);
+        report(format!("time {after} s comes after {before} s; sort the times, and write a jump as two equal times"));
+    } else if !rising || !times.iter().all(|time| time.is_finite()) {
+        report("times must be 0 s or more".into());
     }
     let period = entry.period.as_ref().map(|period| span("period", period)).transpose().map_err(report).ok()?;
     let complete = values.len() == times.len() && times.len() == entry.time.len() && !values.is_empty();

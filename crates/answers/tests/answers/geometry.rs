@@ -276,3 +276,24 @@ fn errors_are_reported_together_with_name_range_and_unit() {
     assert!(angle.contains("is not 90 deg, the only possible value") && angle.contains("only at 90 deg"), "{angle}");
     assert!(!angle.contains('['), "{angle}");
 }
+
+/// ISO 23509: s_mn = m_mn (π/2 + 2 (x_sm + x_hm tan α)).
+#[test]
+fn thickness_modification_and_thickness_agree_with_a_shift() -> Result<()> {
+    let design = Design::new(&["geometry.thickness_shift=0.06", "geometry.pressure_angle=22.5deg"])?;
+    let document = document(&design)?;
+    for gear in ["planet", "side_gear"] {
+        let of = |name: &str| {
+            let value = document.pointer(&format!("/{gear}/{name}/value")).and_then(Value::as_f64);
+            value.unwrap_or_else(|| panic!("{gear} {name}"))
+        };
+        let shift = of("thickness_modification_coefficient_x_sm")
+            + of("profile_shift_coefficient_x_hm") * 22.5f64.to_radians().tan();
+        let module =
+            document.pointer("/pair/mean_normal_module_m_mn/value").and_then(Value::as_f64).unwrap_or(f64::NAN);
+        let thickness = module * (std::f64::consts::FRAC_PI_2 + 2.0 * shift);
+        let found = of("mean_normal_circular_tooth_thickness_s_mn");
+        assert!((found / thickness - 1.0).abs() < 1e-9, "{gear}: {found} {thickness}");
+    }
+    Ok(())
+}

@@ -230,3 +230,21 @@ fn scenes_without_tooth_pairs_and_scenes_of_solids_too_short_are_refused() {
             .contains("scene.gear_contact = tooth")
     );
 }
+
+#[test]
+fn a_pair_that_does_not_part_is_described_at_its_largest_force() {
+    let mut scene = turn(&ToothErrorSpec::default()).expect("a scene");
+    let whole = record(&ToothErrorSpec::default());
+    // the wheels hardly turn against each other
+    scene.inputs.planet_spin *= 1e-3;
+    let part = Engagement::new(&scene, &mut Progress::silent()).expect("a pair");
+    assert!(whole.is_whole && !part.is_whole);
+    let force = |line: &[LoadedSection]| line.iter().map(LoadedSection::force).sum::<f64>();
+    let case = PatternCase { name: "part".into(), title: "part".into(), scene };
+    let found = PatternFindings::new(&case, &part).expect("findings");
+    let times: Vec<f64> = part.engagement().map(|section| section.time).collect();
+    let at = |time: f64| part.engagement().filter(|section| section.time == time).copied().collect::<Vec<_>>();
+    let largest = times.iter().map(|&time| force(&at(time))).fold(0.0, f64::max);
+    assert!(found.force == largest && largest > 1e3, "{} {largest}", found.force);
+    assert!(markdown(&[found]).contains("of its largest force"));
+}

@@ -385,3 +385,26 @@ fn with_input_ramps_a_change_is_spread_over_the_next_step_and_tables_stay_linear
     }
     Ok(())
 }
+
+#[test]
+fn values_and_files_that_are_probably_not_meant_are_named() -> Result<()> {
+    let folder = Folder::new("meant")?;
+    let notes = |rest: &str, csv: &str| folder.scene(rest, csv).map(|scene| scene.notes);
+    let table = |start: f64| {
+        format!(
+            "[set]\nleft.load_torque = {start}\n[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1]\nvalue = [7, 9]\n"
+        )
+    };
+    assert!(notes(&table(8.0), "")?[0].contains("[set] left.load_torque: a table gives this input from the start"));
+    assert!(notes(&table(7.0), "")?.is_empty());
+    let early = notes(INPUTS, "time,left.load_torque\n0,800\n0.01,810\n")?;
+    assert!(
+        early.len() == 1 && early[0].contains("it ends at 0.01 s, and its last values stay until 0.1 s"),
+        "{early:?}"
+    );
+    assert!(notes(INPUTS, "time,left.load_torque\n0,800\n0.06,810\n")?.is_empty());
+    let falling =
+        folder.wrong("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 0.3, 0.2]\nvalue = [1, 2, 3]\n", "");
+    assert!(falling.contains("time 0.2 s comes after 0.3 s"), "{falling}");
+    Ok(())
+}

@@ -88,6 +88,12 @@ def add_stop(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--stop", metavar="TIME", help="another end of the scene, such as \"0.2 s\"")
 
 
+def add_times(parser: argparse.ArgumentParser) -> None:
+    """Adds the options for another end and another communication step of the scene."""
+    add_stop(parser)
+    parser.add_argument("--step", metavar="TIME", help="another communication step of the scene, such as \"1 ms\"")
+
+
 def add_quick(parser: argparse.ArgumentParser, what: str) -> None:
     """Adds the option for a coarser answer in less time; `what` describes the difference."""
     parser.add_argument("--quick", action="store_true", help=f"a coarser answer in less time: {what}")
@@ -97,13 +103,13 @@ def add_scene(parser: argparse.ArgumentParser) -> None:
     """Adds the scene, and the options for values that differ from its own."""
     parser.add_argument("scene", help="a scene file (TOML), or the name of a shipped scene")
     add_set(parser)
-    add_stop(parser)
+    add_times(parser)
 
 
 def changes(arguments: argparse.Namespace) -> dict[str, str]:
-    """Options --set and --stop as changes of a scene in a question to the library of answers."""
-    stop = [] if arguments.stop is None else [("stop_time", arguments.stop)]
-    return once("--set", [*arguments.set, *stop])
+    """Options --set, --stop and --step as changes of a scene in a question to the library of answers."""
+    times = [(name, value) for name, value in (("stop_time", arguments.stop), ("step", arguments.step)) if value is not None]
+    return once("--set", [*arguments.set, *times])
 
 
 def add_farm(parser: argparse.ArgumentParser) -> None:

@@ -3,14 +3,14 @@
 import argparse
 
 from . import DONE
-from .arguments import add_file, add_set, add_stop, add_units, changes
+from .arguments import add_file, add_set, add_times, add_units, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Adds the arguments of the command."""
     parser.add_argument("scene", nargs="?", help="a scene file (TOML), or the name of a shipped scene; without it, list the scenes")
     add_set(parser)
-    add_stop(parser)
+    add_times(parser)
     add_units(parser)
     add_file(parser, "--ssv", "parameter set", "write the start values as a parameter set of SSP 1.0, which hosts read")
     add_file(parser, "--python", "Python script", "write a Python script that simulates the scene to the same bits as `run`")

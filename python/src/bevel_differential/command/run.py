@@ -4,7 +4,7 @@ import argparse
 from collections.abc import Callable
 
 from . import DONE
-from .arguments import add_files, add_fmu, add_set, add_stop, add_units, once
+from .arguments import add_files, add_fmu, add_set, add_times, add_units, once
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -12,7 +12,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scene", nargs="*", help="a scene file (TOML), or the name of a shipped scene; several are compared; without "
                                                  "one, list the scenes")
     add_set(parser)
-    add_stop(parser)
+    add_times(parser)
     parser.add_argument("--output", metavar="NAME", action="append",
                         help="a variable to record instead of the scene's outputs; may be repeated")
     add_units(parser)
@@ -24,14 +24,17 @@ def run(arguments: argparse.Namespace) -> int:
     """Simulates, prints a summary and writes files."""
     from ..output_file import is_parquet
     from ..scene import Scene
+    from ..values import DifferentialError
     from .plan import listed
 
     if not arguments.scene:
         print(listed("run", arguments))
         return DONE
     if len(arguments.scene) > 1:
+        if arguments.step is not None:
+            raise DifferentialError("--step: several scenes are compared at the steps of their files; run each of them alone")
         return _compare(arguments)
-    with Scene.load(arguments.scene[0], arguments.fmu, arguments.stop, arguments.unit) as scene:
+    with Scene.load(arguments.scene[0], arguments.fmu, arguments.stop, arguments.unit, arguments.step) as scene:
         record = scene.set(once("--set", arguments.set)).run(arguments.output)
         scene.fmu.check_shown(arguments.unit, (record.dtype.names or ())[1:])
         print(scene.summary(record))

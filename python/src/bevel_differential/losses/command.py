@@ -55,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
         need()
     bound = arguments.bound or (QUICK_BOUND if arguments.quick else BOUND)
     unseen = arguments.unseen if arguments.unseen is not None else QUICK_UNSEEN if arguments.quick else UNSEEN
-    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit) as scene:
+    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit, arguments.step) as scene:
         scene.set(once("--set", arguments.set))
         levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
         made = losses(scene, levels, within=arguments.within, bound=_bound(bound), unseen=unseen, seed=arguments.seed,

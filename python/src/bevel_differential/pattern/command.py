@@ -3,7 +3,7 @@
 import argparse
 
 from ..command import DONE
-from ..command.arguments import add_decimal, add_progress, add_quick, add_set, add_stop, changes
+from ..command.arguments import add_decimal, add_progress, add_quick, add_set, add_times, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -11,7 +11,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("scenes", nargs="*", metavar="scene", help="scene files or names (default: solid teeth in the study's turn, "
                                                                    "aligned and with one thing out of place at a time)")
     add_set(parser)
-    add_stop(parser)
+    add_times(parser)
     add_quick(parser, "longer steps; without a scene, aligned and with one offset, angle and crowning")
     parser.add_argument("--out", metavar="FOLDER", default="pattern", help="folder of pictures and CSV files (default: pattern)")
     add_decimal(parser)

@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..scene import Scene
     from .write import write
 
-    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit) as scene:
+    with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit, arguments.step) as scene:
         scene.set(once("--set", arguments.set))
         file = arguments.out or f"report-{scene.name}.html"
         with shown(arguments.progress) as progress:
