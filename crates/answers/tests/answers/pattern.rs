@@ -237,6 +237,7 @@ fn a_pair_that_does_not_part_is_described_at_its_largest_force() {
     let whole = record(&ToothErrorSpec::default());
     // the wheels hardly turn against each other
     scene.inputs.planet_spin *= 1e-3;
+    (scene.parameters.scene.gear_contact, scene.parameters.contact.law) = (GearContact::Tooth, ContactLaw::Line);
     let part = Engagement::new(&scene, &mut Progress::silent()).expect("a pair");
     assert!(whole.is_whole && !part.is_whole);
     let force = |line: &[LoadedSection]| line.iter().map(LoadedSection::force).sum::<f64>();

@@ -155,7 +155,7 @@ fn wrong_files_are_reported_with_key_value_unit_range_and_the_nearest_name() {
         ("[[at]]\nleft.load_torque = 0", vec!["no time"]),
         ("[[table]]\ninput = \"left.speed\"\ntime = [0]\nvalue = [0]", vec!["left.speed", "not an input"]),
         ("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1]\nvalue = [0]", vec!["2 times and 1 values"]),
-        ("[[table]]\ninput = \"left.load_torque\"\ntime = [1, 0]\nvalue = [0, 0]", vec!["must not fall"]),
+        ("[[table]]\ninput = \"left.load_torque\"\ntime = [1, 0]\nvalue = [0, 0]", vec!["comes after"]),
         (
             "[[at]]\ntime = 0.05\nleft.load_torque = 1\n[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]",
             vec!["time = 0.05", "left.load_torque follows a table"],
