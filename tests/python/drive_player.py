@@ -122,7 +122,7 @@ def play(fmu, drive, names=READ, host=None):
     rows = np.column_stack(list(sampled.values()))
     changed = np.append(True, np.any(np.diff(rows, axis=0) != 0.0, axis=1))
     slopes = np.diff(rows, axis=0) / drive["step"] if drive["slopes"] else None
-    outputs = [v.name for v in fmu.variables.values() if v.causality == "output"]
+    outputs = [v.name for v in fmu.variables.values() if v.causality == "output" and v.kind == "Real"]
     every = max(len(times) // LOOKS, 1)
     limit = GIVEN_UP + GIVEN_UP_PER_SECOND * drive["stop"]
     host = host or (Two if drive["fmi"] == "2.0" else Three)(fmu, drive)

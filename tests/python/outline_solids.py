@@ -108,7 +108,8 @@ def gears(system, of):
 
     def gear(i):
         pitch = np.arctan2(teeth[i], teeth[1 - i])
-        thickness = 0.5 * np.pi + (2.0, -2.0)[i] * shift * np.tan(pressure) - 0.5 * backlash / module
+        moved = (1.0, -1.0)[i] * (2.0 * shift * np.tan(pressure) + of("thickness_shift"))
+        thickness = 0.5 * np.pi + moved - 0.5 * backlash / module
         return Gear(teeth[i], pitch, np.arcsin(np.sin(pitch) * np.cos(pressure)), pitch + np.arctan(addenda[i] * module / outer),
                     pitch - np.arctan(dedenda[i] * module / outer), thickness / teeth[i],
                     of("root_fillet") * module / outer)

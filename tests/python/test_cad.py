@@ -24,14 +24,14 @@ POINTS = 10_000
 # the start values, and five other pairs: with bores, with 9 teeth, mitre gears with steep flanks, sharp corners, three planets
 START = {"module": 4.5e-3, "planet_teeth": 10, "side_teeth": 16, "planet_count": 2, "pressure_angle": math.radians(20.0),
          "face_width": 20e-3, "backlash": 1e-4, "root_fillet": 0.4, "planet_bore": 0.0, "side_bore": 0.0,
-         "addendum_system": "gleason"}
+         "thickness_shift": 0.0, "addendum_system": "gleason"}
 PAIRS = {
     "study": {},
     "bored": {"module": 3e-3, "planet_teeth": 12, "side_teeth": 20, "planet_count": 4, "face_width": 12e-3,
               "planet_bore": 12e-3, "side_bore": 20e-3},
     "nine": {"planet_teeth": 9, "side_teeth": 14, "planet_bore": 14e-3},
     "mitre": {"planet_teeth": 14, "side_teeth": 14, "pressure_angle": math.radians(25.0), "addendum_system": "standard"},
-    "sharp": {"planet_teeth": 16, "side_teeth": 40, "root_fillet": 0.0},
+    "sharp": {"planet_teeth": 16, "side_teeth": 40, "root_fillet": 0.0, "thickness_shift": 0.0259},
     "three": {"planet_teeth": 10, "side_teeth": 15, "planet_count": 3, "planet_bore": 14e-3, "root_fillet": 0.2},
 }
 BOTH = pytest.mark.parametrize("i", [0, 1], ids=cad.GEARS)

@@ -76,7 +76,7 @@ def study():
     """Values of the study's pair with a pin and a shaft, by name."""
     return {"geometry.module": 4.5e-3, "geometry.planet_teeth": 10, "geometry.side_teeth": 16, "geometry.planet_count": 2,
             "geometry.pressure_angle": math.radians(20.0), "geometry.face_width": 20e-3, "geometry.backlash": 1e-4,
-            "geometry.addendum_system": 2, "geometry.planet_bore": 16e-3, "geometry.side_bore": 24e-3}
+            "geometry.addendum_system": 2, "geometry.planet_bore": 16e-3, "geometry.side_bore": 24e-3, "geometry.thickness_shift": 0.0}
 
 
 def test_quantities_are_their_closed_forms():
@@ -134,7 +134,7 @@ def test_checks_refuse_what_the_fmu_refuses_or_warns_of(fmu_file):
                       "geometry.addendum_system": int(draw.integers(1, 5)), "geometry.planet_addendum": draw.uniform(0.7, 1.6),
                       "geometry.side_addendum": draw.uniform(0.4, 1.3), "geometry.planet_dedendum": draw.uniform(0.7, 1.6),
                       "geometry.side_dedendum": draw.uniform(0.9, 1.7), "geometry.planet_bore": draw.choice([0.0, 10e-3, 16e-3]),
-                      "geometry.side_bore": draw.choice([0.0, 24e-3])}
+                      "geometry.side_bore": draw.choice([0.0, 24e-3]), "geometry.thickness_shift": draw.uniform(-0.1, 0.1)}
             pair = Pair.of(values)
             refusals = violations(pair)
             try:

@@ -75,7 +75,8 @@ def test_a_coupled_loop_has_the_bits_of_single_calls_also_from_a_restored_state_
             found.append([*begin, *rest])
     assert found[0] == found[1]
     # the loop moves, and more than one value is compared
-    assert all(len({row[place] for row in found[1]}) > 40 for place in range(len(SHOWN)))
+    # the advice changes its state once
+    assert all(len({row[place] for row in found[1]}) > (1 if name == "coupling.advice_state" else 40) for place, name in enumerate(SHOWN))
 
 
 def test_an_input_grows_by_its_rate_within_its_step_and_is_held_in_the_next(opened):
@@ -110,7 +111,7 @@ def test_outputs_are_numbers_in_a_separate_list(opened):
     first = port.step([300.0, 900.0], SIZE)
     kept = [*first]
     second = port.step([300.0, 100.0], SIZE)
-    assert first == kept != second and all(type(value) is float for value in first)
+    assert first == kept != second and all(type(value) is (int if name == "coupling.advice_state" else float) for value, name in zip(first, SHOWN))
     second[0] = math.nan
     assert port.read()[0] == opened.get(SHOWN[0])
 

@@ -15,7 +15,7 @@ def warned(fmu_file, values, stop, step=1e-3):
     """Warnings of a run, and its record."""
     with warnings.catch_warnings(record=True) as found:
         warnings.simplefilter("always")
-        record = Differential(values, fmu=fmu_file).run(["torque_bias_ratio", "left.shaft_torque", "right.shaft_torque"], stop=stop, step=step)
+        record = Differential(values, fmu=fmu_file).run(outputs=["left.shaft_torque", "right.shaft_torque"], stop=stop, step=step)
     return [str(each.message) for each in found], record
 
 

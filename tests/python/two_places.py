@@ -178,7 +178,8 @@ def places(scene, o):
     addenda = [scene.outer * tan(tip - pitch) for pitch, tip, _ in gears]
     shift, thinned = addenda[0] - addenda[1], 0.5 * scene.lash / cos(scene.alpha) * scene.outer
     module = scene.p["geometry.module"]
-    half_tooth = (0.5 * pi + (shift * tan(scene.alpha) - thinned) / module) / scene.teeth[0]
+    moved = scene.p["geometry.thickness_shift"]
+    half_tooth = (0.5 * pi + moved + (shift * tan(scene.alpha) - thinned) / module) / scene.teeth[0]
     for pair in loaded(o):
         flank = 1.0 if pair["force"] > 0.0 else -1.0
         turned = flank * (o["planet[1].spin_angle"] + 2.0 * pi * pair["tooth"] / scene.teeth[0])

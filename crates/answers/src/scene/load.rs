@@ -61,6 +61,10 @@ const FIXED: &str = "is fixed: only inputs and tunable parameters change during 
 /// Keys that every scene has.
 const REQUIRED: [&str; 4] = ["description", "stop_time", "step", "outputs"];
 
+/// All keys with a value.
+const KEYS: [&str; 7] =
+    ["description", "stop_time", "step", "outputs", "input_slopes", "accept_start_values", "display_units"];
+
 /// Contents of a scene file.
 #[derive(Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -262,6 +266,10 @@ fn settings(place: &str, table: &Table, folder: Option<&Path>, problems: &mut Pr
     flatten("", table, &mut flat);
     let mut names: Vec<&str> = Vec::new();
     for (name, value) in &flat {
+        if KEYS.contains(&name.as_str()) {
+            problems.push(format!("{place} {name}: it is a key of the scene; write it above [set]"));
+            continue;
+        }
         if let Some(problem) = curve::set_twice(name, &names) {
             problems.push(format!("{place} {problem}"));
             continue;

@@ -157,6 +157,10 @@ fn wrong_files_are_reported_with_key_value_unit_range_and_the_nearest_name() {
         ("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 1]\nvalue = [0]", vec!["2 times and 1 values"]),
         ("[[table]]\ninput = \"left.load_torque\"\ntime = [1, 0]\nvalue = [0, 0]", vec!["comes after"]),
         (
+            "[set]\naccept_start_values = true",
+            vec!["[set] accept_start_values: it is a key of the scene; write it above [set]"],
+        ),
+        (
             "[[at]]\ntime = 0.05\nleft.load_torque = 1\n[[table]]\ninput = \"left.load_torque\"\ntime = [0]\nvalue = [0]",
             vec!["time = 0.05", "left.load_torque follows a table"],
         ),

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::memory::LEAST_STEPS;
 use super::port::{LAG, Port, PortStep, Shaft, energy_difference};
-use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED, Law};
+use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED, Law, WITHOUT_DOUBT_EXPLAINED};
 use super::spec::AdviceState;
 use crate::numeric::{Finite, finite};
 
@@ -180,13 +180,19 @@ impl Coupling {
     #[inline]
     pub fn growth(&self, cut: &Cut) -> Option<Growth> {
         let least = self.least_passed();
-        let is_high = |port: &Port| port.errors > HIGH * port.passed.max(least) && port.oscillation.has_period();
-        // steps that are far too long show no period
-        let is_extreme = |port: &Port| port.errors > EXTREME * port.passed.max(least);
-        let is_unstable = |port: &Port| port.growths() >= GROWTHS;
-        let has_cause =
-            |port: &Port| is_extreme(port) || self.weight >= LEAST_WEIGHT && (is_unstable(port) || is_high(port));
-        if self.weight < FEW_STEPS || !self.ports.iter().any(has_cause) {
+        let has_weight = self.weight >= LEAST_WEIGHT;
+        // steps that are far too long show no period, and soon end the run
+        let is_extreme = |port: &Port| {
+            self.weight >= FEW_STEPS
+                && port.errors > EXTREME * port.passed.max(least)
+                && port.reacts(WITHOUT_DOUBT_EXPLAINED)
+        };
+        let is_high = |port: &Port| {
+            has_weight && port.errors > HIGH * port.passed.max(least) && port.oscillation.has_period()
+                || is_extreme(port)
+        };
+        let is_unstable = |port: &Port| has_weight && port.growths() >= GROWTHS;
+        if !self.ports.iter().any(|port| is_unstable(port) || is_high(port)) {
             return None;
         }
         let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
@@ -197,9 +203,8 @@ impl Coupling {
             return Some(Growth { port, is_unstable: true });
         }
         let ratio = |port: usize| self.ports[port].ratio(least);
-        let port = reacting()
-            .filter(|&port| is_high(&self.ports[port]) || is_extreme(&self.ports[port]))
-            .max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+        let port =
+            reacting().filter(|&port| is_high(&self.ports[port])).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
         Some(Growth { port, is_unstable: false })
     }
 

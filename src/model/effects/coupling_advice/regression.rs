@@ -12,6 +12,8 @@ use crate::numeric::finite;
 pub const EXPLAINED: f64 = 0.5;
 /// Fraction above which the host certainly reacts. If u is noise, the response of the unit to u explains one half.
 pub const CERTAINLY_EXPLAINED: f64 = 0.8;
+/// Fraction above which a few steps of noise are excluded, too.
+pub const WITHOUT_DOUBT_EXPLAINED: f64 = 0.95;
 /// Weight of steps below which the regression shows nothing, because its coefficients need more data.
 const LEAST_WEIGHT: f64 = 10.0;
 /// Number of equal changes of u that the regression needs at least.
