@@ -75,8 +75,7 @@ def test_a_coupled_loop_has_the_bits_of_single_calls_also_from_a_restored_state_
             found.append([*begin, *rest])
     assert found[0] == found[1]
     # the loop moves, and more than one value is compared
-    # the advice changes its state once
-    assert all(len({row[place] for row in found[1]}) > (1 if name == "coupling.advice_state" else 40) for place, name in enumerate(SHOWN))
+    assert all(len({row[place] for row in found[1]}) > 40 for place, name in enumerate(SHOWN) if name != "coupling.advice_state")
 
 
 def test_an_input_grows_by_its_rate_within_its_step_and_is_held_in_the_next(opened):
@@ -139,7 +138,7 @@ def test_an_exchange_is_three_calls_and_looks_up_no_name(opened, monkeypatch, ha
     opened._do_step = noted("step", opened._do_step)
     slopes = noted("slopes", opened._set_rates)
     opened._set_rates = slopes
-    port = opened.port(DRIVEN, SHOWN)
+    port = opened.port(DRIVEN, [name for name in SHOWN if name != "coupling.advice_state"])
     monkeypatch.setattr(Fmu, "variable", refused)
     port.step([300.0, 900.0], SIZE, [0.0, 1.0] if has_rates else None)
     assert made == expected
