@@ -39,7 +39,7 @@ class Platform:
         self.folder = Path(fmu) if Path(fmu).is_dir() else Path(extract(str(fmu)))
         self.binary = next((self.folder / "binaries").glob("*/*"))
         self.fmu = Fmu(self.folder)
-        self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output"]
+        self.outputs = [variable.name for variable in self.fmu.variables.values() if variable.causality == "output" and variable.kind == "Real"]
 
     def close(self):
         """Ends everything that was started."""
