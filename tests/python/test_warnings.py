@@ -97,14 +97,16 @@ def test_a_command_prints_each_warning_once_to_standard_error(command, folder, f
     assert "DifferentialWarning" not in printed.err
 
 
-def test_a_sweep_passes_on_warnings_of_its_first_run(folder, fmu_file):
+def test_a_sweep_passes_on_warnings_of_its_first_run_and_others_with_their_design(folder, fmu_file):
     script = ("import sys; from bevel_differential.command import main; sys.exit(main(['sweep', '--scene', 'scene.toml', '--vary', "
               "'left.brake_torque=0, 100, 200', '--plan', 'grid', '--want', 'efficiency', '--workers', '1', "
               f"'--fmu', {fmu_file!r}]))")
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, cwd=folder)
     assert done.returncode == 0, done.stderr
-    # the first run has no brake torque
-    assert done.stderr.count(WIDE) == 1 and "left.brake_torque" not in done.stderr and WIDE not in done.stdout
+    assert done.stderr.count(WIDE) == 1 and WIDE not in done.stdout
+    # the first run has no brake torque, and the others have the same warning
+    assert len(re.findall(r"^warning: design [12]: left.brake_torque: ", done.stderr, re.MULTILINE)) == 1
+    assert done.stderr.count("left.brake_torque: ") == 1
     assert "DifferentialWarning" not in done.stderr
 
 

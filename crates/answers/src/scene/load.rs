@@ -176,7 +176,7 @@ pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Resu
         let content = supplied.contents.get(&input_file.file).map(String::as_str);
         let known = input_tables.len();
         notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
-        notes.extend(ends_early(input_file, &input_tables[known..], stop_time));
+        notes.extend(other_end(input_file, &input_tables[known..], stop_time));
     }
     let input_slopes = input_slopes(entry, &mut problems);
     if !input_slopes {
@@ -340,20 +340,26 @@ fn overridden(events: &[Event], input_tables: &[InputTable], problems: &mut Prob
     }
 }
 
-/// Remark about an input file that ends in the first half of the scene, as one whose times are in another unit.
-fn ends_early(entry: &InputFileEntry, tables: &[InputTable], stop_time: f64) -> Option<String> {
+/// Ratio of the end of an input file to the end of the scene above which a remark names both.
+const MOST_OVER: f64 = 20.0;
+
+/// Remark about an input file that ends in the first half of the scene, or long after it, as one whose times are in
+/// another unit.
+fn other_end(entry: &InputFileEntry, tables: &[InputTable], stop_time: f64) -> Option<String> {
     let end = tables
         .iter()
         .filter(|table| table.table.period.is_none())
         .filter_map(|table| table.table.times.last().copied());
-    let end = end.reduce(f64::max).filter(|end| *end < 0.5 * stop_time)?;
-    Some(format!(
-        "[[inputs]] file = \"{}\": it ends at {} s, and its last values stay until {} s; its times are in s unless their header \
-         has another unit",
-        entry.file.display(),
-        six_digits(end),
-        six_digits(stop_time)
-    ))
+    let end = end.reduce(f64::max)?;
+    let what = if end < 0.5 * stop_time {
+        format!("it ends at {} s, and its last values stay until {} s", six_digits(end), six_digits(stop_time))
+    } else if end > MOST_OVER * stop_time {
+        format!("it ends at {} s, but the scene already at {} s", six_digits(end), six_digits(stop_time))
+    } else {
+        return None;
+    };
+    let file = entry.file.display();
+    Some(format!("[[inputs]] file = \"{file}\": {what}; its times are in s unless their header has another unit"))
 }
 
 /// Remarks about inputs with a value at the start that a table replaces.

@@ -403,6 +403,8 @@ fn values_and_files_that_are_probably_not_meant_are_named() -> Result<()> {
         early.len() == 1 && early[0].contains("it ends at 0.01 s, and its last values stay until 0.1 s"),
         "{early:?}"
     );
+    let late = notes(INPUTS, "time,left.load_torque\n0,800\n60,810\n")?;
+    assert!(late.len() == 1 && late[0].contains("it ends at 60 s, but the scene already at 0.1 s"), "{late:?}");
     assert!(notes(INPUTS, "time,left.load_torque\n0,800\n0.06,810\n")?.is_empty());
     let falling =
         folder.wrong("[[table]]\ninput = \"left.load_torque\"\ntime = [0, 0.3, 0.2]\nvalue = [1, 2, 3]\n", "");

@@ -35,7 +35,8 @@ class Farm:
 
     `workers`: their number (None: one per core; 0: none, the designs run in this thread, without dask). `processes`: true if each
     worker is a process; otherwise, workers are threads of this process. `scheduler`: address of a dask scheduler whose workers are
-    used instead. `progress`: shows a bar on a terminal. Only the first run passes on warnings of the FMU, as there may be thousands.
+    used instead. `progress`: shows a bar on a terminal. The first run passes on its warnings of the FMU, and other runs the first warning of each further variable, as
+    there may be thousands.
     Results do not depend on these options."""
 
     def __init__(self, workers: int | None = None, processes: bool = True, scheduler: str | None = None, progress: bool = False):
@@ -45,6 +46,7 @@ class Farm:
         self._client: Any = None
         self._opened: Any = None
         self._warned = False
+        self._variables: set[str] = set()
 
     def __enter__(self) -> Self:
         if self.workers != 0 or self.scheduler:
@@ -69,8 +71,9 @@ class Farm:
         return _with_bar(rows, len(designs)) if self.progress and sys.stderr.isatty() else rows
 
     def _passing_on(self, rows, order):
-        """Yields the rows. Passes on the warnings of the first run in `order` that did not fail, once for this farm."""
-        place, waiting = 0, {}
+        """Yields the rows. Passes on the warnings of the first run in `order` that did not fail, and the first warning of each other
+        variable with the number of its run, once for this farm."""
+        place, waiting, later = 0, {}, []
         with closing(rows):
             for row in rows:
                 if not self._warned:
@@ -79,13 +82,29 @@ class Farm:
                         found, place = waiting[order[place]], place + 1
                         if found is not None:
                             self._warned = True
+                            self._variables.update(map(_variable, found))
                             warn(found)
+                later += [(row.run, text) for text in row.warnings or ()]
+                if self._warned:
+                    self._pass_on_others(later)
+                    later = []
                 yield row
+
+    def _pass_on_others(self, warnings):
+        for run, text in warnings:
+            if _variable(text) not in self._variables:
+                self._variables.add(_variable(text))
+                warn([f"design {run}: {text}"])
 
     @staticmethod
     def _here(task, designs):
         for run, values in designs:
             yield task.evaluate(run, values)
+
+
+def _variable(warning):
+    """Variable of a warning, or its beginning."""
+    return warning.partition(":")[0]
 
 
 class _TaskRun:
