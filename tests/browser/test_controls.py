@@ -22,7 +22,9 @@ def short(live):
 
 
 def settable(fmu):
-    return [variable for variable in fmu.variables.values() if variable.causality in ("parameter", "input")]
+    """Parameters and inputs with more than one value."""
+    return [variable for variable in fmu.variables.values() if variable.causality in ("parameter", "input")
+            and not (variable.kind == "Real" and variable.minimum is not None and variable.maximum - variable.minimum < 1e-5)]
 
 
 def text_of(number):
