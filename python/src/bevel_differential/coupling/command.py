@@ -39,8 +39,8 @@ def run(arguments: argparse.Namespace) -> int:
     for host in hosts:
         print(f"{host.port}: {host.words}")
     print(f"longest stable step: {step(made.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")
-    if made.departure:
-        print(f"the teeth do not rest at this time: a disturbance grows by a factor e in {1.0 / made.departure:.3g} s, also without a cut; "
+    if departure := made.departure:
+        print(f"the teeth do not rest at this time: a disturbance grows by a factor e in {1.0 / departure:.3g} s, also without a cut; "
               "this growth is not counted (effects.thrust_friction and other friction stop it; --at names another time)")
     if lost := made.mode():
         print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}")

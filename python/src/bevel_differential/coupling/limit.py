@@ -52,17 +52,21 @@ def _points(low, high, per_decade):
 def limit(exchange: Exchange) -> float:
     """Longest stable step [s] of an exchange; see `longest`. A motion that grows in continuous exchange, too, is not due to the steps."""
     # swings of the unit with constant torques, and of all together
-    found = np.concatenate([poles(exchange.unit.a), poles(exchange.continuous())])
+    together = poles(exchange.continuous())
+    found = np.concatenate([poles(exchange.unit.a), together])
     swings = np.abs(found.imag[np.abs(found.real) < DAMPED * np.abs(found)])
-    rate = FASTER * departure(exchange)
+    rate = FASTER * _largest_growth(together)
     return longest(lambda step: growth(exchange, step) * math.exp(-rate * step), dense=SLOW / max(swings.max(initial=0.0), SLOW))
 
 
 def departure(exchange: Exchange) -> float:
     """Rate [1/s] at which a disturbance grows in continuous exchange; 0 if it does not. Without friction, loaded teeth may leave the
     operating point as a ball leaves the top of a hill."""
-    found = poles(exchange.continuous())
-    return max(0.0, float(found.real[np.abs(found) >= RIGID].max(initial=0.0)))
+    return _largest_growth(poles(exchange.continuous()))
+
+
+def _largest_growth(found):
+    return float(found.real[np.abs(found) >= RIGID].max(initial=0.0))
 
 
 def _bisected(radius, good, bad):
