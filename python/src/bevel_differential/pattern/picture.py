@@ -152,7 +152,7 @@ def patterns(folder, data, outlines, cases, remarks):
 
 
 def words_of(data):
-    """What the pairs do, and the instant of their line loads, for captions."""
+    """Phrases for captions: the motion of the pairs, and the instant of their line loads."""
     whole = [bool(row["whole"]) for row in data["summary"]]
     engaged, rated = "one pair goes from first touch to parting", "while the pair is nearest to the pitch line"
     if all(whole):
