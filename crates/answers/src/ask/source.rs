@@ -43,7 +43,7 @@ pub struct Source {
 impl Source {
     /// Returns the scene. Warns about unused columns of its input files.
     pub fn scene(&self, progress: &mut Progress) -> Result<Scene> {
-        let supplied = load::Supplied { contents: self.contents.clone(), quantities: self.quantities.clone() };
+        let supplied = load::Supplied { contents: Some(&self.contents), quantities: &self.quantities };
         let mut scene = match &self.given {
             Some(file) => load::given(&self.name, Path::new(&self.name), file, &supplied)?,
             None => load::load_with(&find_file(&self.name, &self.scenes)?, &supplied)?,

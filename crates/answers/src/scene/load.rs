@@ -61,9 +61,8 @@ const FIXED: &str = "is fixed: only inputs and tunable parameters change during 
 /// Keys that every scene has.
 const REQUIRED: [&str; 4] = ["description", "stop_time", "step", "outputs"];
 
-/// All keys with a value.
-const KEYS: [&str; 7] =
-    ["description", "stop_time", "step", "outputs", "input_slopes", "accept_start_values", "display_units"];
+/// Other keys with a value.
+const OPTIONAL: [&str; 3] = ["input_slopes", "accept_start_values", "display_units"];
 
 /// Contents of a scene file.
 #[derive(Clone, Deserialize)]
@@ -121,12 +120,12 @@ struct InputFileEntry {
 }
 
 /// What the caller of the library adds to a scene file.
-#[derive(Clone, Default)]
-pub struct Supplied {
+#[derive(Clone, Copy, Default)]
+pub struct Supplied<'a> {
     /// Contents of input files as CSV, by the path in the scene, for files in other formats, which the caller has read.
-    pub contents: BTreeMap<PathBuf, String>,
+    pub contents: Option<&'a BTreeMap<PathBuf, String>>,
     /// Names of quantities that the caller calculates from outputs, and that a scene may name under `outputs`.
-    pub quantities: Vec<String>,
+    pub quantities: &'a [String],
 }
 
 /// Loads the scene in `file`.
@@ -173,7 +172,7 @@ pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Resu
         entry.table.iter().filter_map(|table| input_table(table, &mut problems)).collect();
     let mut notes = Vec::new();
     for input_file in &entry.inputs {
-        let content = supplied.contents.get(&input_file.file).map(String::as_str);
+        let content = supplied.contents.and_then(|contents| contents.get(&input_file.file)).map(String::as_str);
         let known = input_tables.len();
         notes.extend(add_input_file(input_file, (file, content), &mut input_tables, &mut problems));
         notes.extend(other_end(input_file, &input_tables[known..], stop_time));
@@ -182,7 +181,7 @@ pub fn given(name: &str, file: &Path, entry: &File, supplied: &Supplied) -> Resu
     if !input_slopes {
         input_tables.iter_mut().for_each(|driven| driven.table.rule = Rule::Sampled);
     }
-    let (outputs, quantities) = outputs(entry.outputs(), &supplied.quantities, &mut problems);
+    let (outputs, quantities) = outputs(entry.outputs(), supplied.quantities, &mut problems);
     let accepted = entry.accept_start_values.as_ref().map_or(Ok(Accepted::None), Accepted::read);
     let accepted = accepted.map_err(|found| problems.extend(found)).unwrap_or_default();
     let display_units = display_units(&entry.display_units, &mut problems);
@@ -266,7 +265,7 @@ fn settings(place: &str, table: &Table, folder: Option<&Path>, problems: &mut Pr
     flatten("", table, &mut flat);
     let mut names: Vec<&str> = Vec::new();
     for (name, value) in &flat {
-        if KEYS.contains(&name.as_str()) {
+        if REQUIRED.iter().chain(&OPTIONAL).any(|key| key == name) {
             problems.push(format!("{place} {name}: it is a key of the scene; write it above [set]"));
             continue;
         }
