@@ -52,7 +52,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         }
         let z = f64::from(gear.teeth);
         let thinned = spec.backlash / (2.0 * spec.module * z);
-        let shifted = if i == 0 { -spec.thickness_shift } else { spec.thickness_shift } / z;
+        let shifted = -spec.thickening(i) / z;
         // the parameter without which half a tooth would have more than the angle `half`
         let cause = |half: f64| match half + thinned {
             unthinned if unthinned > 0.0 => "geometry.backlash",

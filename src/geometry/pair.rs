@@ -68,7 +68,7 @@ impl Pair {
         let ratio = z_s * cos(pitch[0]) / (z_p * cos(pitch[1]));
         let heights = tooth_heights(spec, if z_p <= z_s { ratio } else { 1.0 / ratio });
         let x = (heights.addendum[0] - heights.addendum[1]) / (2.0 * m);
-        let gear = |i: usize, teeth: i32, shift: f64, thicker: f64| {
+        let gear = |i: usize, teeth: i32, shift: f64| {
             let z = f64::from(teeth);
             Gear {
                 teeth,
@@ -77,13 +77,13 @@ impl Pair {
                 tip: pitch[i] + atan2(heights.addendum[i], outer_cone),
                 root: pitch[i] - atan2(heights.dedendum[i], outer_cone),
                 // planar thickness at the outer pitch circle with the split x and the shift k, thinned by j_t/2
-                half_pitch: (FRAC_PI_2 + 2.0 * shift * tan(alpha) + thicker) / z - spec.backlash / (2.0 * m * z),
+                half_pitch: (FRAC_PI_2 + 2.0 * shift * tan(alpha) + spec.thickening(i)) / z
+                    - spec.backlash / (2.0 * m * z),
                 addendum: heights.addendum[i],
                 dedendum: heights.dedendum[i],
             }
         };
-        let k = spec.thickness_shift;
-        let gears = [gear(0, spec.planet_teeth, x, k), gear(1, spec.side_teeth, -x, -k)];
+        let gears = [gear(0, spec.planet_teeth, x), gear(1, spec.side_teeth, -x)];
         let pitch_arc = gears.map(|g| g.action_arc(g.pitch));
         let tip_arc = gears.map(|g| g.action_arc(g.tip));
         let base_pitch = TAU * sin(gears[0].base) / z_p;

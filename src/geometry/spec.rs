@@ -57,6 +57,13 @@ parameters! {
     }
 }
 
+impl GearSpec {
+    /// Thickness per module that each tooth of gear `i` (0 planet, 1 side gear) gains by `thickness_shift`.
+    pub fn thickening(&self, i: usize) -> f64 {
+        if i == 0 { self.thickness_shift } else { -self.thickness_shift }
+    }
+}
+
 parameters! {
     /// Switches of plain teeth, which belong to no effect.
     pub struct PlainTeeth in "effects" {

@@ -82,10 +82,8 @@ fn thicknesses() -> DimensionGroup {
     dimensions!("tooth thickness, less half of the backlash", DimensionValue::Gear,
         "profile_shift_coefficient_x_hm" "x_hm" Ratio ISO_23509, "half the difference of addenda, in modules", shift;
         "thickness_modification_coefficient_x_sm" "x_sm" Ratio ISO_23509,
-            "half the thickness shift (+ planet, - side gear), less j_et / 4 m_et for backlash", |d, i| {
-                let shift = if i == 0 { d.spec.thickness_shift } else { -d.spec.thickness_shift };
-                0.5 * shift - d.spec.backlash / (4.0 * d.pair.module)
-            };
+            "half the thickness shift (+ planet, - side gear), less j_et / 4 m_et for backlash",
+            |d, i| 0.5 * d.spec.thickening(i) - d.spec.backlash / (4.0 * d.pair.module);
         "angular_pitch_tau" "τ" Angle None, "from tooth to tooth, 360 deg / z", |d, i| d.pair.gears[i].tooth_pitch();
         "half_tooth_angle_at_pitch_circle_gamma" "γ" Angle None, "about the axis, from the middle of the tooth",
             |d, i| d.pair.gears[i].half_pitch;
