@@ -104,7 +104,7 @@ impl Simulation {
 
     /// Warning about the cut between host and unit if it is unstable, or if it changes much of the transmitted energy.
     fn costly_coupling(&self) -> Option<Problem> {
-        let coupling = self.coupling.as_ref()?;
+        let coupling = self.coupling.as_ref().filter(|coupling| coupling.is_conspicuous())?;
         let cut = self.cut_with_mobility();
         let growth = coupling.growth(&cut)?;
         let port = ["carrier", "left side", "right side"][growth.port];

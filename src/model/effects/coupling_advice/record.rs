@@ -175,36 +175,42 @@ impl Coupling {
         })
     }
 
+    /// True if the values of `port` have grown for so long that its cut is unstable, if its host reacts.
+    fn is_unstable(&self, port: &Port) -> bool {
+        self.weight >= LEAST_WEIGHT && port.growths() >= GROWTHS
+    }
+
+    /// True if the ratio of `port` is high although its values oscillate. Steps that are far too long show no period, and soon
+    /// end the run.
+    fn is_high(&self, port: &Port) -> bool {
+        let exceeds = |ratio: f64| port.errors > ratio * port.passed.max(self.least_passed());
+        self.weight >= LEAST_WEIGHT && port.oscillation.has_period() && exceeds(HIGH)
+            || self.weight >= FEW_STEPS && exceeds(EXTREME) && port.reacts(WITHOUT_DOUBT_EXPLAINED)
+    }
+
+    /// True if there may be a cause of a warning.
+    #[inline]
+    pub fn is_conspicuous(&self) -> bool {
+        self.ports.iter().any(|port| self.is_unstable(port) || self.is_high(port))
+    }
+
     /// Cause of a warning, if there is one: a swing at a port at which the host reacts grows by the cut, or its ratio is
     /// high although its values oscillate.
-    #[inline]
     pub fn growth(&self, cut: &Cut) -> Option<Growth> {
-        let least = self.least_passed();
-        let has_weight = self.weight >= LEAST_WEIGHT;
-        // steps that are far too long show no period, and soon end the run
-        let is_extreme = |port: &Port| {
-            self.weight >= FEW_STEPS
-                && port.errors > EXTREME * port.passed.max(least)
-                && port.reacts(WITHOUT_DOUBT_EXPLAINED)
-        };
-        let is_high = |port: &Port| {
-            has_weight && port.errors > HIGH * port.passed.max(least) && port.oscillation.has_period()
-                || is_extreme(port)
-        };
-        let is_unstable = |port: &Port| has_weight && port.growths() >= GROWTHS;
-        if !self.ports.iter().any(|port| is_unstable(port) || is_high(port)) {
+        if !self.is_conspicuous() {
             return None;
         }
         let reacting = || (0..PORTS).filter(|&port| self.ports[port].reacts(CERTAINLY_EXPLAINED));
         // all ports swing with the one that is unstable, which has the shortest stable step
         let stable = self.stable_steps(cut);
-        let unstable = reacting().filter(|&port| is_unstable(&self.ports[port]));
+        let unstable = reacting().filter(|&port| self.is_unstable(&self.ports[port]));
         if let Some(port) = unstable.min_by(|&a, &b| stable[a].total_cmp(&stable[b])) {
             return Some(Growth { port, is_unstable: true });
         }
+        let least = self.least_passed();
         let ratio = |port: usize| self.ports[port].ratio(least);
-        let port =
-            reacting().filter(|&port| is_high(&self.ports[port])).max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
+        let high = reacting().filter(|&port| self.is_high(&self.ports[port]));
+        let port = high.max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
         Some(Growth { port, is_unstable: false })
     }
 
