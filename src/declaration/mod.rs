@@ -14,7 +14,7 @@ pub mod units;
 pub use crate::spec::{Choice, EnumType};
 pub use access::{Field, GetChoice, Parameter, SetChoice};
 pub use condition::{Condition, Group, Groups, Need, Test, all, any, end_of, group, number};
-pub use row::{Causality, Range, Row, TYPED, Variability, row};
+pub use row::{Causality, Range, Row, Variability, row};
 pub use setting::{
     Declared, Detail, Rows, RowsOf, SIDES, Setting, TUNABLE, acts_when, add, filled, name_within, when, when_each,
 };

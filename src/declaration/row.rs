@@ -34,13 +34,13 @@ pub struct Range {
     pub max: f64,
 }
 
-/// Rounding error of a value that is typed with seven digits [unit of the variable].
-pub const TYPED: f64 = 5e-7;
+/// Rounding error of a value that is typed with seven digits, relative to the value.
+const TYPED: f64 = 1e-6;
 
 impl Range {
     /// Returns the only value of the range, if all others are rounding errors of it.
     pub fn only_value(&self) -> Option<f64> {
-        (self.max - self.min < 3.0 * TYPED).then_some((self.min + self.max) / 2.0)
+        (self.max - self.min < TYPED * self.max.abs()).then_some((self.min + self.max) / 2.0)
     }
 }
 

@@ -50,38 +50,7 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
                 gear.dedendum * MM
             ));
         }
-        let z = f64::from(gear.teeth);
-        let thinned = spec.backlash / (2.0 * spec.module * z);
-        let shifted = -spec.thickening(i) / z;
-        // the parameter without which half a tooth would have more than the angle `half`
-        let cause = |half: f64| match half + thinned {
-            unthinned if unthinned > 0.0 => "geometry.backlash",
-            unthinned if unthinned + shifted > 0.0 => "geometry.thickness_shift",
-            _ => addendum(i),
-        };
-        let (tooth, tip) = (gear.half_pitch, gear.half_angle(gear.tip));
-        if tooth <= 0.0 && tooth + thinned > 0.0 {
-            found.push(problem!(
-                cause(tooth),
-                "{:.3} mm is more than the {}'s whole tooth",
-                spec.backlash * MM,
-                NAMES[i]
-            ));
-        } else if tooth <= 0.0 {
-            found.push(problem!(
-                cause(tooth),
-                "the split between the gears leaves the {} no tooth at the pitch circle; use a more equal split",
-                NAMES[i]
-            ));
-        } else if tip <= 0.0 {
-            found.push(problem!(
-                cause(tip),
-                "the {}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm",
-                NAMES[i],
-                gear.addendum * MM,
-                (thinned + shifted) * spec.module * z * MM
-            ));
-        }
+        found.extend(thin_tooth(spec, pair, i));
         let mate = &pair.gears[1 - i];
         if gear.addendum >= mate.dedendum {
             let [tip, room] = distinct_texts([gear.addendum * MM, mate.dedendum * MM], 3);
@@ -106,6 +75,37 @@ pub fn errors(spec: &GearSpec, pair: &Pair) -> Vec<Problem> {
         ));
     }
     found
+}
+
+/// Problem of a tooth of gear `i` that has no thickness at the pitch circle or at the tip. It names the parameter without
+/// which the tooth would have some.
+fn thin_tooth(spec: &GearSpec, pair: &Pair, i: usize) -> Option<Problem> {
+    let gear = &pair.gears[i];
+    let z = f64::from(gear.teeth);
+    let (thinned, shifted) = (spec.backlash / (2.0 * spec.module * z), -spec.thickening(i) / z);
+    let cause = |half: f64| match half + thinned {
+        unthinned if unthinned > 0.0 => "geometry.backlash",
+        unthinned if unthinned + shifted > 0.0 => "geometry.thickness_shift",
+        _ => addendum(i),
+    };
+    let (tooth, tip, name) = (gear.half_pitch, gear.half_angle(gear.tip), NAMES[i]);
+    if tooth <= 0.0 && tooth + thinned > 0.0 {
+        return Some(problem!(cause(tooth), "{:.3} mm is more than the {name}'s whole tooth", spec.backlash * MM));
+    }
+    if tooth <= 0.0 {
+        return Some(problem!(
+            cause(tooth),
+            "the split between the gears leaves the {name} no tooth at the pitch circle; use a more equal split"
+        ));
+    }
+    (tip <= 0.0).then(|| {
+        problem!(
+            cause(tip),
+            "the {name}'s flanks meet below its tip cone: addendum {:.3} mm, tooth thinned by {:.3} mm",
+            gear.addendum * MM,
+            (thinned + shifted) * spec.module * z * MM
+        )
+    })
 }
 
 /// Warnings about a pair that can be built.

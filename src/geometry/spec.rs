@@ -1,9 +1,11 @@
 //! User parameters of the gears, the inputs of all geometry formulas.
 
-use crate::declaration::TYPED;
 use crate::declaration::prelude::*;
 use crate::drives::{GearContact, Scene};
 use crate::numeric::FRAC_PI_2;
+
+/// Accuracy to which a right angle can be typed [rad].
+const TYPED: f64 = 5e-7;
 
 choices! {
     /// Rule that splits the working depth into addenda and fixes the clearance.
