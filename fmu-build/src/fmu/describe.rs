@@ -8,7 +8,8 @@ use bevel_differential::fmi2::{Category, EVENT_INDICATORS, OUTPUT_ORDER};
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::units::{self, DisplayUnit, Unit};
 use bevel_differential::variables::{
-    Access, Causality, EnumType, MODEL_NAME, Table, Variability, Variable, guid, real_start, table, value_of,
+    Access, Causality, EnumType, MODEL_NAME, OutputSource, Table, Variability, Variable, guid, real_start, table,
+    value_of,
 };
 use clap::Args;
 
@@ -281,19 +282,18 @@ fn description(row: &Variable, choices: Choices) -> String {
 
 fn variable_type(row: &Variable, is_reinit: bool, choices: Choices) -> Element {
     let mut defaults = Parameters::default();
-    if let Some(kind) = row.access.enumeration() {
-        let start = value_of(row, &defaults, &Inputs::ZERO);
-        let element = match choices {
-            Choices::Integers => {
-                let values = || kind.choices.iter().map(|choice| choice.value);
-                Element::new("Integer").with_some("min", values().min()).with_some("max", values().max())
-            }
-            Choices::Enumerations => Element::new("Enumeration").with("declaredType", kind.name),
-        };
-        return element.with_some("start", start);
-    }
     match row.access {
-        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => Element::new("Real")
+        Access::Enumeration(kind, ..) | Access::Output(OutputSource::Choice(kind, _)) => {
+            let values = || kind.choices.iter().map(|choice| choice.value);
+            let element = match choices {
+                Choices::Integers => {
+                    Element::new("Integer").with_some("min", values().min()).with_some("max", values().max())
+                }
+                Choices::Enumerations => Element::new("Enumeration").with("declaredType", kind.name),
+            };
+            element.with_some("start", value_of(row, &defaults, &Inputs::ZERO))
+        }
+        Access::Real(_) | Access::Input(_) | Access::Output(_) => Element::new("Real")
             .with_some("declaredType", (is_relative(row) && choices == Choices::Enumerations).then_some(DIFFERENCE))
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))

@@ -5,7 +5,7 @@ use bevel_differential::fmi3::variables::{Added, HAPPENINGS, Item, added, held, 
 use bevel_differential::instance::OUTPUT_ORDER;
 use bevel_differential::model::{Inputs, Parameters};
 use bevel_differential::variables::{
-    Access, Causality, MODEL_NAME, Table, Variable, guid, real_start, table, units, value_of,
+    Access, Causality, MODEL_NAME, OutputSource, Table, Variable, guid, real_start, table, units, value_of,
 };
 
 use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
@@ -81,8 +81,8 @@ fn named(kind: &'static str, reference: usize, name: &str, description: &str) ->
 fn variable(reference: usize, row: &Variable) -> Element {
     let is_structural = reference == planet_count() as usize;
     let kind = match row.access {
-        _ if row.access.enumeration().is_some() => "Enumeration",
-        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => "Float64",
+        Access::Enumeration(..) | Access::Output(OutputSource::Choice(..)) => "Enumeration",
+        Access::Real(_) | Access::Input(_) | Access::Output(_) => "Float64",
         Access::Integer(_) if is_structural => "UInt64",
         Access::Integer(_) => "Int32",
         Access::Boolean(_) => "Boolean",
@@ -93,12 +93,12 @@ fn variable(reference: usize, row: &Variable) -> Element {
         .with("variability", if held(reference).is_some() { "discrete" } else { variability(row) })
         .with_some("initial", calculated.then_some("calculated"));
     let mut defaults = Parameters::default();
-    if let Some(kind) = row.access.enumeration() {
-        let start = value_of(row, &defaults, &Inputs::ZERO);
-        return element.with("declaredType", kind.name).with_some("start", start);
-    }
     match row.access {
-        Access::Real(_) | Access::Input(_) | Access::Output(_) | Access::Enumeration(..) => element
+        Access::Enumeration(kind, ..) | Access::Output(OutputSource::Choice(kind, _)) => {
+            let start = value_of(row, &defaults, &Inputs::ZERO);
+            element.with("declaredType", kind.name).with_some("start", start)
+        }
+        Access::Real(_) | Access::Input(_) | Access::Output(_) => element
             .with_some("unit", row.unit.map(|unit| unit.name))
             .with_some("displayUnit", row.display.map(|shown| shown.name))
             .with_some("declaredType", is_relative(row).then_some(DIFFERENCE))

@@ -60,7 +60,7 @@ struct FigureQuestion {
     phase: Option<usize>,
 }
 
-/// Why the accuracy of a quantity of the caller is unknown.
+/// Reason to leave out quantities that the caller calculates.
 const NOT_EXAMINED: &str = "it is calculated from outputs after a run, and only the accuracy of outputs is examined";
 
 /// Request for the canonical name of a statistic and for the angle by which an order is counted.

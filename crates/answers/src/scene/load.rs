@@ -119,7 +119,7 @@ struct InputFileEntry {
     wheel_radius: Option<Value>,
 }
 
-/// What the caller of the library adds to a scene file.
+/// Data that the caller of the library adds to a scene file.
 #[derive(Clone, Copy, Default)]
 pub struct Supplied<'a> {
     /// Contents of input files as CSV, by the path in the scene, for files in other formats, which the caller has read.
@@ -133,7 +133,7 @@ pub fn load(file: &Path) -> Result<Scene> {
     load_with(file, &Supplied::default())
 }
 
-/// Loads the scene in `file`, with what the caller adds.
+/// Loads the scene in `file`, with the data of the caller.
 pub fn load_with(file: &Path, supplied: &Supplied) -> Result<Scene> {
     let shown = shown(file);
     let text = std::fs::read_to_string(file).map_err(|why| {

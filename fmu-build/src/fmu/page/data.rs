@@ -3,7 +3,7 @@
 use anyhow::{Context, Result};
 use bevel_differential::model::effects::EffectEntry;
 use bevel_differential::model::{EFFECTS, Inputs, Parameters};
-use bevel_differential::variables::{Access, Variable, guid, table};
+use bevel_differential::variables::{Access, OutputSource, Variable, guid, table};
 use serde_json::{Map, Value, json};
 
 use crate::fmu::describe::{causality, variability};
@@ -33,7 +33,7 @@ fn of_variable(reference: usize, row: &'static Variable) -> Value {
         Access::Boolean(field) => ("Boolean", json!(*field(&mut parameters))),
         Access::Enumeration(_, get, _) => ("Enumeration", json!(get(&parameters))),
         Access::Input(field) => ("Real", json!(*field(&mut inputs))),
-        Access::Output(_) if row.access.enumeration().is_some() => ("Enumeration", Value::Null),
+        Access::Output(OutputSource::Choice(..)) => ("Enumeration", Value::Null),
         Access::Output(_) => ("Real", Value::Null),
     };
     let choices = row.access.enumeration().map_or(&[][..], |kind| kind.choices);
