@@ -206,6 +206,17 @@ def test_the_advice_is_at_most_the_longest_stable_step(fmu, ports, stiffness, da
         assert advised and max(advised) < 1.2 * stable
 
 
+@pytest.mark.parametrize("stiffness", [9000.0, 500.0])
+def test_the_advice_on_lines_is_limited_by_a_damper_at_the_carrier(fmu, stiffness):
+    scene = Scene("free", stop=1.0, step=1e-3, outputs=["left.speed"], set=FREE, fmu=fmu.file)
+    stable = coupling(scene, [Spring.spring("carrier", stiffness, 400.0, 1e3, reads="both")], "gauss-seidel", "lines").limit
+    # 400 N.m.s/rad at an inertia of 3 kg.m2: J/c is 7.5 ms
+    assert stable == pytest.approx(7.5e-3, rel=0.03)
+    host = Host(stiffness, 400.0, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time), sign=-1.0)
+    run = couple(fmu, {"carrier": host}, 0.5 * stable, 1.0, lines=True)
+    assert run.advice[-1] == pytest.approx(stable, rel=0.05)
+
+
 def test_a_step_that_is_far_too_long_is_reported_before_the_run_fails(fmu):
     # the limit is 1.1 ms
     hosts = {port: Host(17400.0, 10.0, 79.0) for port in ("left", "right")}

@@ -263,4 +263,24 @@ mod tests {
         let found = difference([1.0, 4.0, 9.0, 16.0], line_mean, (1.0, true), 0.0);
         assert!((found - exact).abs() < 1e-14, "{found} {exact}");
     }
+
+    /// A spring k with a damper c at an inertia J, held at once: 2 c/k; a damper: 2 J/c, and one step later J/c; on lines, J/c.
+    #[test]
+    fn stable_steps_of_torques_have_their_closed_forms() {
+        let (k, c, j) = (9000.0, 12.0, 5.0);
+        let of = |is_line: bool, delay: f64, rates: [f64; 2]| {
+            Port { is_line, ..Port::default() }.stable_step_of_torque(delay, rates)
+        };
+        let close = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
+        close(of(false, 0.0, [k / j, c / j]), 2.0 * c / k);
+        close(of(false, 1.0, [k / j, c / j]), c / k / 1.5);
+        close(of(false, 0.0, [0.0, c / j]), 2.0 * j / c);
+        close(of(false, 1.0, [0.0, c / j]), j / c);
+        close(of(true, 0.0, [0.0, c / j]), j / c);
+        // 1 + (ω h)⁴/4 = 1 + τ ω² h/2
+        let (rate, ahead) = (sqrt(k / j), c / k);
+        let h = of(true, 0.0, [k / j, c / j]);
+        close((rate * h).powi(4) / 4.0, ahead * rate * rate * h / 2.0);
+        assert_eq!(of(false, 0.0, [0.0; 2]), f64::INFINITY);
+    }
 }
