@@ -63,6 +63,7 @@ def test_the_summary_is_in_the_usual_units(fmu_file):
     ("stop_time = \"20.3 ms\"", "stop_time = \"20.3 mm\"", ["stop_time", "ms"]),
     ("stop_time = \"20.3 ms\"", "", ["missing: stop_time", "a scene has description, stop_time, step and outputs"]),
     ("step =", "stop =", ["unknown field `stop`", "`step`"]),
+    ("[[table]]", "[[table]]\ngeometry.module = \"5 mm\"", ["unknown field `geometry`", "belong in the table [set]"]),
     ("geometry.planet_teeth", "geometry.planet_tooth", ["[set]", "geometry.planet_tooth", "did you mean geometry.planet_teeth"]),
     ("\"0.1 N.m\"", "\"0.1 kg\"", ["right.load_torque", "unit kg", "N.m"]),
     ("time = \"3.7 ms\"", "time = \"30.7 ms\"", ["0.0307 s", "outside"]),

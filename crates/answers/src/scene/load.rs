@@ -38,7 +38,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result};
 use bevel_differential::model::{Inputs, Parameters};
-use bevel_differential::variables::{Access, Variable};
+use bevel_differential::variables::{Access, Variable, table};
 use schedule::{MOST, Rule, Schedule};
 use serde::Deserialize;
 use toml::{Table, Value};
@@ -143,13 +143,23 @@ pub fn load_with(file: &Path, supplied: &Supplied) -> Result<Scene> {
         })
     })?;
     let name = file.file_stem().and_then(|stem| stem.to_str()).unwrap_or("scene");
-    let entry = toml::from_str(&text).map_err(|why| question_error(why.to_string()));
+    let entry = toml::from_str(&text).map_err(|why| question_error(unreadable(&why)));
     entry.and_then(|entry| given(name, file, &entry, supplied)).with_context(|| shown)
 }
 
 /// Reads the scene `name` from the TOML `text` of `file`.
 pub fn parse(name: &str, file: &Path, text: &str) -> Result<Scene> {
-    given(name, file, &toml::from_str(text).map_err(|why| question_error(why.to_string()))?, &Supplied::default())
+    given(name, file, &toml::from_str(text).map_err(|why| question_error(unreadable(&why)))?, &Supplied::default())
+}
+
+/// Says why a scene is no TOML, and where the group of a variable belongs if one is in the wrong table.
+fn unreadable(why: &toml::de::Error) -> String {
+    let group = why.message().strip_prefix("unknown field `").and_then(|rest| rest.split('`').next());
+    let is_group = |group: &&str| table().rows.iter().any(|row| row.name.split('.').next() == Some(group));
+    match group.filter(is_group) {
+        Some(group) => format!("{}variables such as those of {group} belong in the table [set]", why),
+        None => why.to_string(),
+    }
 }
 
 /// Creates the scene `name` from the contents of a scene file. Paths in `entry` are relative to the folder of `file`.

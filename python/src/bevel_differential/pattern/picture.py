@@ -218,6 +218,7 @@ def lines(folder, data, outlines, cases, of_documentation):
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
     figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
     colours, scale = colormaps[PRESSURE], Normalize(0.0, top_of(data, cases))
+    whole = {row["case"]: bool(row["whole"]) for row in data["summary"]}
     for column, name in enumerate(chosen):
         rows = [row for row in data["contacts"] if row["case"] == name]
         followed = sorted({row["time"] for row in rows if row["followed"]})
@@ -230,7 +231,7 @@ def lines(folder, data, outlines, cases, of_documentation):
                 line = [row for row in now if (row["planet_tooth"], row["side_tooth"]) == pair]
                 draw_line(axes, line, outlines[name]["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
             share = (time - picks[0]) / ((picks[-1] - picks[0]) or 1.0)
-            axes.set_title(f"{names[name]}, {100.0 * share:.0f} % of the engagement, {1e-3 * force_of(now):.1f} kN in all",
+            axes.set_title(f"{names[name]}, {100.0 * share:.0f} % of {'the engagement' if whole[name] else 'its part'}, {1e-3 * force_of(now):.1f} kN in all",
                            fontsize=11, loc="left")
     for axes in grid[:, 0]:
         axes.set_ylabel("height, mm")

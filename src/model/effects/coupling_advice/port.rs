@@ -1,9 +1,11 @@
 //! One port: energy error of a step, the sums of its errors, and the steps that they allow.
 
+use std::f64::consts::SQRT_2;
+
 use serde::{Deserialize, Serialize};
 
 use super::memory::{LEAST_STEPS, Oscillation};
-use super::regression::{Law, Regression};
+use super::regression::{EXPLAINED, Law, Regression, WELL_EXPLAINED};
 use super::swing::Swing;
 use crate::numeric::{finite, pow, quotient, sqrt};
 
@@ -14,6 +16,10 @@ const FILTER: f64 = 8.0;
 const LEAST_FILTER_STEPS: f64 = 10.0;
 /// Rate of the port, relative to the fastest one before, below which it stands still.
 const STILL: f64 = 1e-4;
+/// Number of standard errors above which a damper is certain.
+const CERTAIN: f64 = 3.0;
+/// Number of steps of Newton's method.
+const NEWTON_STEPS: u32 = 6;
 /// Number of successive still steps after which the port does not move.
 const STILL_STEPS: u32 = 5;
 
@@ -115,13 +121,15 @@ pub struct Port {
     is_line: bool,
     /// Reaction of the host.
     regression: Regression,
+    /// Last law of the host that explained nearly all changes of u. A motion that has decayed does not show the law.
+    known: Option<Law>,
     /// Oscillation of u.
     pub oscillation: Oscillation,
     /// Swings of the torque.
     swing: Swing,
 }
 
-finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, oscillation, swing; still, is_line });
+finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, known, oscillation, swing; still, is_line });
 
 impl Port {
     /// Adds the second of four `steps` of a host with `delay`. Its energy error is `error` [J], and its torque is the
@@ -151,6 +159,7 @@ impl Port {
         let filter = (memory / FILTER).max(LEAST_FILTER_STEPS * h);
         let values = [answer(steps, delay), moved, changed];
         self.regression.add(given, values, memory / (memory + h), filter / (filter + h));
+        self.known = self.regression.law(WELL_EXPLAINED).or(self.known);
         self.oscillation.add(given, h);
         self.swing.add(if is_shaft { moved / h } else { given }, h, (delay, is_line));
         self.is_line = is_line;
@@ -184,22 +193,32 @@ impl Port {
         if a + b > 0.0 { 2.0 * c / (a + sqrt(a * a + 4.0 * b * c)) } else { f64::INFINITY }
     }
 
-    /// Law of the host, if the motion explains at least the `fraction` of the changes of u.
-    pub fn law(&self, fraction: f64) -> Option<Law> {
-        self.regression.law(fraction)
+    /// Law of a host that reacts or has reacted. `sign` is 1 for a load and −1 for a drive.
+    pub fn law(&self, sign: f64) -> Option<Law> {
+        let law = self.known.or_else(|| self.regression.law(EXPLAINED))?;
+        Some(Law { per_movement: sign * law.per_movement, per_rate: sign * law.per_rate, ..law })
+    }
+
+    /// True if the law shows a stable step: that of a load with a damper, in a motion that oscillates. A motion that the host
+    /// alone causes shows another law.
+    pub fn is_sure(&self, sign: f64, is_shaft: bool) -> bool {
+        self.oscillation.has_period()
+            && (is_shaft || self.law(sign).is_some_and(|law| law.per_rate > CERTAIN * law.rate_error))
     }
 
     /// Longest stable step [s] of a host with `delay` that sets a torque. Its springs give the unit the `rates` ω² [1/s²], and
     /// its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
     ///
     /// A spring with a damper acts the time τ = λ/ω² ahead. Held inputs act (½ + `delay`) h late, so springs are stable up to
-    /// (½ + `delay`) h = τ, and dampers up to (1 + `delay`) λ h = 2. The line through the last two values is a two-step
-    /// Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up to λ h = 1.
+    /// (½ + `delay`) h = τ, and dampers up to (1 + `delay`) λ h = 2. The line through two values is a two-step Adams-Bashforth
+    /// method: see [`line_limit`] for springs; dampers are stable up to λ h = 1, or 2 (√2 − 1) if the values are one step old.
     pub fn stable_step_of_torque(&self, delay: f64, [spring, damper]: [f64; 2]) -> f64 {
         let quotient = |a, b| quotient(a, b).unwrap_or(f64::INFINITY);
         let ahead = quotient(damper, spring);
         if self.is_line {
-            limit(line_limit(ahead, sqrt(spring))).min(limit(quotient(1.0, damper)))
+            let late = delay.max(0.0);
+            let damped = quotient(1.0, (1.0 + late * (0.5 * SQRT_2 - 0.5)) * damper);
+            limit(line_limit(ahead, sqrt(spring), late)).min(limit(damped))
         } else {
             limit(quotient(ahead, 0.5 + delay)).min(limit(quotient(2.0, (1.0 + delay) * damper)))
         }
@@ -210,13 +229,15 @@ impl Port {
     ///
     /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts the
     /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `delay`) h = τ and up to ω h = 2.
-    pub fn stable_step_of_speed(&self, delay: f64, shaft: Shaft) -> f64 {
-        let Some(law) = self.law(0.0).filter(|law| law.per_movement > 0.0) else { return f64::INFINITY };
-        let Law { per_movement, per_rate } = law;
+    pub fn stable_step_of_speed(&self, delay: f64, shaft: Shaft, law: &Law) -> f64 {
+        let Law { per_movement, per_rate, .. } = *law;
+        if per_movement <= 0.0 {
+            return f64::INFINITY;
+        }
         let ahead = shaft.damping / shaft.stiffness + per_rate.max(0.0) / per_movement;
         let rate = sqrt(shaft.stiffness * per_movement);
         if self.is_line {
-            limit(line_limit(ahead, rate))
+            limit(line_limit(ahead, rate, delay.max(0.0)))
         } else {
             limit(quotient(ahead, 0.5 + delay).unwrap_or(f64::INFINITY).min(2.0 / rate))
         }
@@ -224,9 +245,21 @@ impl Port {
 }
 
 /// Longest stable step [s] of a two-step Adams-Bashforth method on an oscillation with the `rate` ω [1/s] and damping that
-/// acts the time τ `ahead` [s]: the factor 1 + (ω h)⁴/4 in a step must not exceed the damping 1 + τ ω² h/2.
-fn line_limit(ahead: f64, rate: f64) -> f64 {
-    if rate > 0.0 { pow(2.0 * ahead * rate, 1.0 / 3.0) / rate } else { f64::INFINITY }
+/// acts the time τ `ahead` [s], if its values are `late` steps old. The factor 1 + `late` (ω h)²/2 + (ω h)⁴/4 in a step must not
+/// exceed the damping 1 + τ ω² h/2. Newton's method finds the step from above.
+fn line_limit(ahead: f64, rate: f64, late: f64) -> f64 {
+    if rate <= 0.0 || !ahead.is_finite() {
+        return f64::INFINITY;
+    }
+    let square = rate * rate;
+    let mut step = pow(2.0 * ahead * rate, 1.0 / 3.0) / rate;
+    for _ in 0..NEWTON_STEPS {
+        let slope = late + 1.5 * square * step * step;
+        if slope > 0.0 {
+            step -= (late * step + 0.5 * square * step * step * step - ahead) / slope;
+        }
+    }
+    step
 }
 
 /// Returns a limit. Without any damping, no step is stable; a growing swing then reports the unstable cut.
@@ -277,10 +310,14 @@ mod tests {
         close(of(false, 0.0, [0.0, c / j]), 2.0 * j / c);
         close(of(false, 1.0, [0.0, c / j]), j / c);
         close(of(true, 0.0, [0.0, c / j]), j / c);
+        close(of(true, 1.0, [0.0, c / j]), 2.0 * (SQRT_2 - 1.0) * j / c);
         // 1 + (ω h)⁴/4 = 1 + τ ω² h/2
         let (rate, ahead) = (sqrt(k / j), c / k);
         let h = of(true, 0.0, [k / j, c / j]);
         close((rate * h).powi(4) / 4.0, ahead * rate * rate * h / 2.0);
+        // values that are one step old act as late as a damper of k h
+        let late = of(true, 1.0, [k / j, c / j]);
+        close(rate * rate * late * late / 2.0 + (rate * late).powi(4) / 4.0, ahead * rate * rate * late / 2.0);
         assert_eq!(of(false, 0.0, [0.0; 2]), f64::INFINITY);
     }
 }

@@ -24,6 +24,8 @@ const EXTREME: f64 = 0.5;
 const FEW_STEPS: f64 = 12.0;
 /// Number of successive swings with growth after which the cut is unstable: four periods.
 const GROWTHS: u32 = 8;
+/// Ratio of the advice to the present step that is not exceeded while the longest stable step is unknown.
+const UNSURE: f64 = 2.0;
 /// Fraction of the energy through all ports that is the lower bound of the denominator of each port's ratio.
 const LEAST_SHARE: f64 = 0.05;
 
@@ -147,6 +149,9 @@ impl Coupling {
         let by_ratio =
             reacting().map(|port| self.ports[port].step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
         let stable = reacting().map(|port| steps[port]).fold(f64::INFINITY, f64::min);
+        let is_sure = |port: usize| self.ports[port].is_sure(SIGNS[port], cut.shafts[port].is_some());
+        // far longer steps than the present ones may be unstable
+        let stable = if reacting().all(is_sure) { stable } else { stable.min(UNSURE * self.step()) };
         if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
             return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);
         }
@@ -156,17 +161,14 @@ impl Coupling {
     /// Longest stable step of each port [s]. Springs and dampers at several ports that move each other act together; the
     /// sum over the ports is an upper bound of their rates.
     fn stable_steps(&self, cut: &Cut) -> [f64; PORTS] {
-        let laws: [Law; PORTS] = std::array::from_fn(|port| {
-            let law = self.ports[port].law(EXPLAINED).unwrap_or_default();
-            // torque drives the carrier and loads the sides
-            Law { per_movement: SIGNS[port] * law.per_movement, per_rate: SIGNS[port] * law.per_rate }
-        });
+        // torque drives the carrier and loads the sides
+        let laws: [Law; PORTS] = std::array::from_fn(|port| self.ports[port].law(SIGNS[port]).unwrap_or_default());
         std::array::from_fn(|port| {
             let together = |of: fn(&Law) -> f64| -> f64 {
                 laws.iter().zip(cut.mobility[port]).map(|(law, mobility)| mobility.abs() * of(law).max(0.0)).sum()
             };
             match cut.shafts[port] {
-                Some(shaft) => self.ports[port].stable_step_of_speed(cut.delay, shaft),
+                Some(shaft) => self.ports[port].stable_step_of_speed(cut.delay, shaft, &laws[port]),
                 None => {
                     let rates = [together(|law| law.per_movement), together(|law| law.per_rate)];
                     self.ports[port].stable_step_of_torque(cut.delay, rates)

@@ -6,12 +6,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::finite;
+use crate::numeric::{finite, sqrt};
 
 /// Fraction of the changes of u that the motion must explain if the host reacts.
 pub const EXPLAINED: f64 = 0.5;
 /// Fraction above which the host certainly reacts. If u is noise, the response of the unit to u explains one half.
 pub const CERTAINLY_EXPLAINED: f64 = 0.8;
+/// Fraction above which the law of the host is well known.
+pub const WELL_EXPLAINED: f64 = 0.98;
 /// Fraction above which a few steps of noise are excluded, too.
 pub const WITHOUT_DOUBT_EXPLAINED: f64 = 0.95;
 /// Weight of steps below which the regression shows nothing, because its coefficients need more data.
@@ -46,13 +48,17 @@ pub struct Regression {
 finite!(Regression { slow, slow_weight, weight, means, products, fourth, magnitude });
 
 /// Law of a host that reacts: Δu = `per_movement` x + `per_rate` y.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Law {
     /// Change of u per movement of the port [N·m/rad, or rad/s per N·m·s].
     pub per_movement: f64,
     /// Change of u per change of the rate [N·m·s/rad, or rad/s per N·m].
     pub per_rate: f64,
+    /// Standard error of `per_rate`, in its unit.
+    pub rate_error: f64,
 }
+
+finite!(Law { per_movement, per_rate, rate_error });
 
 impl Regression {
     /// Adds a step in which the host's value is `given`, with its [Δu, x, y]. Sums are multiplied by `keep`, and the slow
@@ -105,7 +111,10 @@ impl Regression {
             if by_movement * ux >= by_rate * uy { [by_movement, 0.0] } else { [0.0, by_rate] }
         };
         let explained = (per_movement * ux + per_rate * uy) / uu;
-        (explained >= fraction).then_some(Law { per_movement, per_rate })
+        // what the motion does not explain, as noise
+        let noise = (1.0 - explained).max(0.0) * uu / self.weight;
+        let rate_error = if determinant > 0.0 { sqrt(noise * xx / determinant) } else { 0.0 };
+        (explained >= fraction).then_some(Law { per_movement, per_rate, rate_error })
     }
 }
 
