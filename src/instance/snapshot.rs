@@ -3,15 +3,11 @@
 //! Serialised form, little-endian: magic (8 bytes), format version (u32), hash of the interface's GUID (u64), length of
 //! the payload (u64), payload (postcard), and FNV-1a checksum of everything before it (u64).
 
-use std::sync::Arc;
-
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::instance::tolerance_row;
 use super::{CallError, CallResult, Discrete, Experiment, Interface, Kind, Phase};
-use crate::model::{
-    Accepted, Coupling, GearCache, Given, InputDerivatives, Inputs, Parameters, Simulation, State, Watched,
-};
+use crate::model::{Accepted, GearCache, Given, InputDerivatives, Inputs, Memories, Parameters, Simulation, State};
 use crate::numeric::Finite;
 use crate::problem::{self, Problem};
 use crate::variables::unset::SetValues;
@@ -78,21 +74,7 @@ impl Snapshot {
 /// Data of a simulation that are serialised after its snapshot: everything that does not follow from the parameters.
 /// The data are boxed, because they are large for a small stack. The inputs are those of the simulation, which may
 /// differ from the host's values.
-type Running = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>, Option<Record>);
-
-/// First two parts of [`Running`].
-type Stored = (Option<Box<((State, Watched), Inputs)>>, Option<Box<Accepted>>);
-
-/// Record of the exchange with the host. It is read in a separate function, because its frame is large for a small
-/// stack.
-struct Record(Arc<Coupling>);
-
-impl<'de> Deserialize<'de> for Record {
-    #[inline(never)]
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Coupling::deserialize(from).map(|coupling| Self(Arc::new(coupling)))
-    }
-}
+type Running = (Option<Box<((State, Memories), Inputs)>>, Option<Box<Accepted>>);
 
 impl Snapshot {
     /// Starts a simulation from the parameters and inputs. Fails with every problem found.
@@ -138,29 +120,24 @@ impl Snapshot {
     #[inline(never)] // its frame is large for a small stack
     fn rebuild(&mut self, cache: &GearCache) -> Result<(), String> {
         let running = self.simulation.as_ref().filter(|_| self.phase != Phase::Initialization);
-        let state = running.map(|s| Box::new(((*s.state(), s.watched().clone()), *s.inputs())));
+        let state = running.map(|s| Box::new(((*s.state(), s.memories().clone()), *s.inputs())));
         let accepted = running.and_then(Simulation::accepted).map(|accepted| Box::new(*accepted));
-        let coupling = running.and_then(Simulation::coupling).map(|coupling| Record(coupling.clone()));
         self.simulation = None;
-        self.resume((state, accepted, coupling), cache)
+        self.resume((state, accepted), cache)
     }
 
     /// Continues a `running` simulation, if there is one, with the present parameters.
     fn resume(&mut self, running: Running, cache: &GearCache) -> Result<(), String> {
-        if let (Some(running), accepted, coupling) = running {
-            let ((state, watched), inputs) = *running;
+        if let (Some(running), accepted) = running {
+            let ((state, memories), inputs) = *running;
             let parameters = self.effective(&self.parameters);
-            let resumed = Simulation::resume_with(&parameters, &inputs, (state, Some(watched)), &given(cache));
+            let resumed = Simulation::resume_with(&parameters, &inputs, (state, Some(memories)), &given(cache));
             let mut resumed = resumed.map_err(|p| problem::list(&p))?;
             // steps with input ramps pass the derivatives themselves
             if self.kind == Kind::CoSimulation && !resumed.ramps_inputs() {
                 resumed.set_input_derivatives(self.input_derivatives);
             }
-            self.simulation = Some(
-                resumed
-                    .from_accepted(accepted.map(|accepted| *accepted))
-                    .with_coupling(coupling.map(|record| record.0)),
-            );
+            self.simulation = Some(resumed.from_accepted(accepted.map(|accepted| *accepted)));
         }
         Ok(())
     }
@@ -171,8 +148,9 @@ impl Snapshot {
         let mut parameters = *parameters;
         let own_steps = self.kind == Kind::CoSimulation;
         parameters.solver.merge_planets &= own_steps;
-        parameters.effects.mesh_history &= own_steps;
-        parameters.effects.coupling_advice &= own_steps;
+        if !own_steps {
+            parameters.effects = parameters.effects.without_own_steps();
+        }
         parameters.solver.input_ramp &= own_steps;
         parameters
     }
@@ -181,11 +159,8 @@ impl Snapshot {
     pub fn to_bytes(&self) -> Result<Vec<u8>, String> {
         // same layout as `Running`
         let simulation = self.simulation.as_ref();
-        let running = (
-            simulation.map(|s| ((s.state(), s.watched()), s.inputs())),
-            simulation.and_then(Simulation::accepted),
-            simulation.and_then(Simulation::coupling).map(|coupling| &**coupling),
-        );
+        let running =
+            (simulation.map(|s| ((s.state(), s.memories()), s.inputs())), simulation.and_then(Simulation::accepted));
         let payload =
             postcard::to_allocvec(&(self, running)).map_err(|e| format!("the state cannot be serialised: {e}"))?;
         let mut bytes = Vec::with_capacity(HEADER + payload.len() + size_of::<u64>());
@@ -200,35 +175,22 @@ impl Snapshot {
 
     /// Reads a snapshot from `bytes`. Fails with the reason if they cannot be used.
     pub fn from_bytes(bytes: &[u8], cache: &GearCache) -> Result<Self, String> {
-        let (mut snapshot, (running, accepted), rest) = Self::read(open(bytes)?)?;
-        let running = (running, accepted, Self::read_record(rest)?);
+        let (mut snapshot, running) = Self::read(open(bytes)?)?;
         snapshot.check(&running)?;
         snapshot.resume(running, cache)?;
         Ok(*snapshot)
     }
 
-    /// Reads the content of a payload up to the record of the exchange. Returns the rest as well.
+    /// Reads a payload.
     #[inline(never)]
-    fn read(payload: &[u8]) -> Result<(Box<Self>, Stored, &[u8]), String> {
+    fn read(payload: &[u8]) -> Result<(Box<Self>, Running), String> {
         let read = postcard::take_from_bytes(payload);
-        let ((snapshot, stored), rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
-        Ok((snapshot, stored, rest))
-    }
-
-    /// Reads the record of the exchange with the host from the `rest` of a payload. It is read after the frame of
-    /// [`Self::read`] is free, for a small stack.
-    #[inline(never)]
-    fn read_record(rest: &[u8]) -> Result<Option<Record>, String> {
-        let read = postcard::take_from_bytes(rest);
-        let (record, rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
-        if !rest.is_empty() {
-            return Err(format!("the state has {} bytes too many", rest.len()));
-        }
-        Ok(record)
+        let (content, rest) = read.map_err(|e| format!("the state cannot be read: {e}"))?;
+        if rest.is_empty() { Ok(content) } else { Err(format!("the state has {} bytes too many", rest.len())) }
     }
 
     /// Checks that all values are valid, which the checksum cannot show.
-    fn check(&self, (state, accepted, coupling): &Running) -> Result<(), String> {
+    fn check(&self, (state, accepted): &Running) -> Result<(), String> {
         let Self {
             version,
             kind,
@@ -252,7 +214,6 @@ impl Snapshot {
         if !start_time.is_finite()
             || stop_time.is_some_and(|stop| stop.is_nan() || stop < *start_time)
             || state.as_ref().is_some_and(|both| !both.0.0.is_valid() || !both.0.1.is_valid())
-            || coupling.as_ref().is_some_and(|record| !record.0.is_valid())
             || !(accepted.as_deref().is_none_or(Finite::is_finite)
                 && input_derivatives.is_finite()
                 && discrete.is_finite())

@@ -200,10 +200,10 @@ fn the_ledger_at_a_point_equals_that_of_a_run_that_ends_there() {
             assert!(heats && damages, "{} at {stop}: {a:?} {b:?}", scene.name);
             assert!(close(a.energy_residual, b.energy_residual), "{} at {stop}: {a:?} {b:?}", scene.name);
             // reading does not change the simulation
-            let read = (*within.state(), within.watched().clone());
+            let read = (*within.state(), within.memories().clone());
             within.ledger();
             within.forces();
-            assert_eq!((*within.state(), within.watched().clone()), read);
+            assert_eq!((*within.state(), within.memories().clone()), read);
         }
     }
 }
@@ -268,13 +268,13 @@ fn a_copy_within_a_step_continues_with_the_same_bits() {
         let mut simulation = scene.start();
         simulation.advance(0.0104).unwrap();
         assert!(simulation.state().pending_step.is_some(), "{}", scene.name);
-        let state = (*simulation.state(), Some(simulation.watched().clone()));
+        let state = (*simulation.state(), Some(simulation.memories().clone()));
         let copy = Simulation::resume_with(&scene.parameters, &scene.inputs, state, &Given::default()).unwrap();
         for mut other in [simulation.clone(), copy] {
             other.advance(0.02).unwrap();
             let mut same = simulation.clone();
             same.advance(0.02).unwrap();
-            assert_eq!((same.state(), same.watched()), (other.state(), other.watched()), "{}", scene.name);
+            assert_eq!((same.state(), same.memories()), (other.state(), other.memories()), "{}", scene.name);
         }
     }
 }

@@ -14,7 +14,7 @@ fn outcome(p: &Parameters, cache: Option<&GearCache>) -> String {
     let warnings = format!("{:?}", simulation.warnings());
     let stepped = simulation.advance(1e-4);
     let forces = *simulation.forces();
-    format!("{warnings} {stepped:?} {forces:?} {:?}", (simulation.state(), simulation.watched()))
+    format!("{warnings} {stepped:?} {forces:?} {:?}", (simulation.state(), simulation.memories()))
 }
 
 /// Scenes that together fill every part of the cache.

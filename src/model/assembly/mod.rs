@@ -15,5 +15,5 @@ pub mod teeth;
 pub use body_effects::BodyEffects;
 pub use ideal::{Ideal, IdealMotion};
 pub use inertias::Inertias;
-pub use model::{Gears, Given, Model, Watch};
+pub use model::{Gears, Given, Model};
 pub use teeth::{EffectTerms, SIGMA, Teeth};

@@ -53,8 +53,8 @@ pub struct Model {
     pub merged: Option<Box<Teeth>>,
     /// Thermal network, if the scene has the effect `warm_up`.
     pub thermal: Option<Box<Network<HEATS>>>,
-    /// Records of steps in addition to the ledger, if the scene needs any.
-    pub watch: Option<Box<Watch>>,
+    /// Stress and fatigue, if the scene has the effect `strength`.
+    pub strength: Option<Box<GearStrength>>,
     /// Index of each degree of freedom.
     pub layout: Layout,
     /// Periods of the positions: a tooth pitch, or a turn for the carrier [rad].
@@ -100,8 +100,8 @@ impl Model {
         }
         let gears = match plan.contact {
             GearContact::Ideal => {
-                // warming up is recorded step by step, but the closed form has no steps
-                body_effects.has_effects |= parameters.effects.warm_up;
+                // the closed form has no steps that an effect could record
+                body_effects.has_effects |= parameters.effects.record_steps();
                 Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
             }
             GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
@@ -114,13 +114,10 @@ impl Model {
             _ => None,
         };
         let strength = if BUILT && parameters.effects.strength {
-            Some(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?)
+            Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
         } else {
             None
         };
-        let keeps_mesh_history = BUILT && parameters.effects.mesh_history;
-        let watch =
-            (strength.is_some() || keeps_mesh_history).then(|| Box::new(Watch { strength, keeps_mesh_history }));
         let thermal = (BUILT && parameters.effects.warm_up).then(|| Box::new(network(parameters, &masses)));
         Ok(Self {
             parameters: *parameters,
@@ -129,7 +126,7 @@ impl Model {
             ideal,
             gears,
             merged,
-            watch,
+            strength,
             layout: plan.layout(),
             periods: plan.periods(&pair),
             warnings,
@@ -143,11 +140,6 @@ impl Model {
             Gears::Ideal(ideal) => &ideal.body_effects,
             Gears::Teeth(teeth) => &teeth.effect_terms.body_effects,
         }
-    }
-
-    /// Stress and fatigue, if the scene has the effect `strength`.
-    pub fn strength(&self) -> Option<&GearStrength> {
-        self.watch.as_ref()?.strength.as_ref()
     }
 
     /// Applies the tunable parameters of `parameters`. All other parameters must be unchanged.
@@ -224,19 +216,10 @@ fn teeth(
         in_detail,
     };
     let effect_terms = EffectTerms {
-        is_watched: BUILT && (p.effects.warm_up || p.effects.strength || p.effects.mesh_history),
+        records_steps: BUILT && p.effects.record_steps(),
         friction_heat_index: friction.map_or(CONTACT_HEAT, |f| f.heat_index),
         planet_mass_moment: ideal.inertia.planet_mass_moment,
         body_effects,
     };
     Teeth::new(pair, contact, plan, &ideal.inertia, deflection_limit, effect_terms)
-}
-
-/// Records of steps in addition to the ledger.
-#[derive(Clone, Debug)]
-pub struct Watch {
-    /// Stress and fatigue.
-    pub strength: Option<GearStrength>,
-    /// True if peak-to-peak values over mesh cycles are recorded.
-    pub keeps_mesh_history: bool,
 }

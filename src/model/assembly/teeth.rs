@@ -42,7 +42,7 @@ impl Teeth {
     pub fn merged(&self) -> Option<Box<Self>> {
         let plan = self.plan.with_merged_planets()?;
         let is_plain = !self.effect_terms.body_effects.has_effects
-            && !self.effect_terms.is_watched
+            && !self.effect_terms.records_steps
             && self.layout.plain() == Some(false)
             && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
@@ -77,7 +77,7 @@ impl Teeth {
             }
         }
         Self {
-            records_more: !contact.mesh.engagement.corner_contact() || effect_terms.is_watched,
+            records_more: !contact.mesh.engagement.corner_contact() || effect_terms.records_steps,
             contact,
             plan,
             layout,
@@ -96,7 +96,7 @@ impl Teeth {
 #[derive(Clone, Debug)]
 pub struct EffectTerms {
     /// True if steps update temperatures, damage or histories, which cause no forces themselves.
-    pub is_watched: bool,
+    pub records_steps: bool,
     /// Index of the heat of friction along the flanks.
     pub friction_heat_index: usize,
     /// Mass of a planet times the distance of its centre of mass from the carrier's axis [kg·m].

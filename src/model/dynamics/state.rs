@@ -1,5 +1,5 @@
 //! State of a simulation: all that changes during a run, except the damage of teeth and values over mesh cycles
-//! (`Watched`). The state is small and `Copy`, so that a snapshot is an assignment.
+//! (`Memories`). The state is small and `Copy`, so that a snapshot is an assignment.
 
 use serde::{Deserialize, Serialize};
 

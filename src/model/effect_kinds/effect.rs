@@ -142,6 +142,12 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
     const NEEDS: Option<Needs> = None;
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
+    /// True if it is friction that differs with the sense of rolling, and so biases the torque.
+    const BIASES_TORQUE: bool = false;
+    /// Name of its limit of p·v, if it has one.
+    const PV_LIMIT: Option<&'static str> = None;
+    /// True if it records steps.
+    const RECORDS_STEPS: bool = false;
     /// Values that make the effect visible in an example: names of variables with values in SI units.
     const EXAMPLE: &'static [(&'static str, f64)] = &[];
 

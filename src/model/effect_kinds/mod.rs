@@ -12,6 +12,7 @@ pub mod friction;
 pub mod friction_part;
 pub mod friction_source;
 pub mod friction_state;
+pub mod memory;
 pub mod pressed;
 pub mod ramps;
 pub mod slip_law;
@@ -28,6 +29,7 @@ pub use friction_source::{
     FrictionSource, PlanetFriction, SideFriction, SurfaceKind, SurfaceTemperature, WheelFriction,
 };
 pub use friction_state::{FrictionState, Mode};
+pub use memory::{Memory, Remembered};
 pub use pressed::{Pressed, PvLimit, Surface};
 pub use ramps::Ramps;
 pub use slip_law::SlipLaw;

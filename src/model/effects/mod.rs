@@ -27,7 +27,7 @@ use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
 use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, RowsOf, Setting, row};
 use crate::friction::ToothFrictionSpec;
 use crate::geometry::PlainTeeth;
-use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Needs, Reading};
+use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Memory, Needs, Reading, Remembered};
 
 /// Entry of an effect in the list [`EFFECTS`].
 #[derive(Clone, Copy, Debug)]
@@ -42,6 +42,8 @@ pub struct EffectEntry {
     pub needs: Option<Needs>,
     /// True if the effect may act although its switch is off.
     pub may_act_unswitched: bool,
+    /// Name of its limit of p·v, if it has one.
+    pub pv_limit: Option<&'static str>,
     /// Heat in the ledger; `None` if the effect dissipates nothing.
     pub heat: Option<Heat>,
     /// Outputs in addition to the heat.
@@ -58,6 +60,7 @@ impl EffectEntry {
             switch,
             needs: E::NEEDS,
             may_act_unswitched: E::MAY_ACT_UNSWITCHED,
+            pv_limit: E::PV_LIMIT,
             heat: E::HEAT,
             readings: E::READINGS,
             example: E::EXAMPLE,
@@ -80,7 +83,7 @@ fn switch<E: Declare>(name: &'static str, at: Field<Effects, bool>) -> Row<Param
 }
 
 macro_rules! effects {
-    (switched { $($name:ident: $effect:ty,)+ } commanded { $($command:ident: $commanded:ty,)+ }) => {
+    (switched { $($name:ident: $effect:ty $([$memory:ty])?,)+ } commanded { $($command:ident: $commanded:ty,)+ }) => {
         /// Switches of plain teeth and of the effects.
         #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
         pub struct Effects {
@@ -106,6 +109,21 @@ macro_rules! effects {
                 self.switches().filter_map(|(name, on)| on.then_some(name))
             }
 
+            /// True if an effect that is on biases the torque by friction.
+            pub fn bias_torque(&self) -> bool {
+                false $(|| self.$name && <$effect>::BIASES_TORQUE)+
+            }
+
+            /// True if an effect that is on records steps.
+            pub fn record_steps(&self) -> bool {
+                false $(|| self.$name && <$effect>::RECORDS_STEPS)+
+            }
+
+            /// The switches under the integration of the host, which computes the motion between completed steps.
+            pub fn without_own_steps(&self) -> Self {
+                Self { $($name: self.$name && !matches!(<$effect>::when(), Some(Condition::OwnSteps)),)+ ..*self }
+            }
+
             /// True if the effect with the parameters of type `kind` is on; `None` if there is no such effect.
             pub fn is_on(&self, kind: TypeId) -> Option<bool> {
                 $(if kind == TypeId::of::<$effect>() {
@@ -123,6 +141,53 @@ macro_rules! effects {
             $(pub $command: $commanded,)+
         }
 
+
+        /// Memories of the effects that are on.
+        #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[allow(missing_docs)]
+        pub struct Memories {
+            $($(pub $name: Remembered<$memory>,)?)+
+        }
+
+        /// What [`Memories::roll_back`] needs in addition to what the memories keep themselves.
+        #[derive(Clone, Copy)]
+        pub struct Checkpoints {
+            $($($name: Option<<$memory as Memory>::Checkpoint>,)?)+
+        }
+
+        impl Memories {
+            /// True if a simulation can continue from these memories.
+            pub fn is_valid(&self) -> bool {
+                true $($(&& self.$name.get().is_none_or(<$memory>::is_valid))?)+
+            }
+
+            /// Name of an effect whose memory cannot replace that at the `start` of a new run of the same scene.
+            pub fn misfit(&self, start: &Self) -> Option<&'static str> {
+                $($(if !Remembered::<$memory>::fits(&self.$name, &start.$name) {
+                    return Some(concat!("effects.", stringify!($name)));
+                })?)+
+                None
+            }
+
+            /// Remembers the present values for [`Self::roll_back`].
+            pub fn checkpoint(&mut self) -> Checkpoints {
+                Checkpoints { $($($name: self.$name.get_mut().map(<$memory>::checkpoint),)?)+ }
+            }
+
+            /// Returns to the values at the last checkpoint.
+            pub fn roll_back(&mut self, to: Checkpoints) {
+                $($(if let (Some(memory), Some(to)) = (self.$name.get_mut(), to.$name) {
+                    <$memory>::roll_back(memory, to);
+                })?)+
+            }
+
+            /// Forgets what depends on tunable parameters, because they have changed.
+            pub fn tuned(&mut self) {
+                $($(if let Some(memory) = self.$name.get_mut() {
+                    <$memory>::tuned(memory);
+                })?)+
+            }
+        }
 
         /// All effects, in the order in which they are set up.
         pub const EFFECTS: &[EffectEntry] = &[
@@ -200,12 +265,12 @@ effects! {
         pin_compliance: pin_compliance::PinComplianceSpec,
         bearing_drag: bearing_drag::BearingDragSpec,
         final_drive: final_drive::FinalDriveSpec,
-        strength: strength::StrengthSpec,
+        strength: strength::StrengthSpec [strength::Fatigue],
         wheel_brake: wheel_brake::WheelBrakeSpec,
         body_compliance: body_compliance::BodyComplianceSpec,
-        mesh_history: mesh_history::MeshHistorySpec,
+        mesh_history: mesh_history::MeshHistorySpec [mesh_history::MeshHistory],
         warm_up: warm_up::WarmUpSpec,
-        coupling_advice: coupling_advice::CouplingAdviceSpec,
+        coupling_advice: coupling_advice::CouplingAdviceSpec [coupling_advice::Coupling],
     }
     commanded {
         lock: lock::LockSpec,

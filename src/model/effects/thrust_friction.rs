@@ -62,6 +62,8 @@ parameters! {
 impl Declare for ThrustFrictionSpec {
     const DESCRIPTION: &'static str =
         "Friction of thrust washers and pins, with stiction: the torque bias of an open differential";
+    const BIASES_TORQUE: bool = true;
+    const PV_LIMIT: Option<&'static str> = Some("thrust_friction.pv_limit");
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.thrust",
         description: "Heat of thrust washers and pins since the start",

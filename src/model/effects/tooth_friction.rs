@@ -9,6 +9,7 @@ use crate::problem::Problem;
 
 impl Declare for ToothFrictionSpec {
     const DESCRIPTION: &'static str = "Friction along the flanks: Coulomb-Stribeck or one of three published laws";
+    const BIASES_TORQUE: bool = true;
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.tooth_friction",
         description: "Heat of friction along the flanks since the start",

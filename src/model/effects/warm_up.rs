@@ -69,6 +69,7 @@ const DIFFERENCES: Range = Range { min: -400.0, max: 400.0 };
 impl Declare for WarmUpSpec {
     const DESCRIPTION: &'static str =
         "Temperatures of oil, gears, clutch packs, washers and case, from the friction heat";
+    const RECORDS_STEPS: bool = true;
     const READINGS: &'static [Reading] = readings! {
         /// Temperature of the oil; oil.temperature without effects.warm_up
         "temperature.oil": KELVIN | DEG_C, ByStep;
@@ -115,6 +116,17 @@ pub const AMBIENT_CHANGE: &str = "warm_up.ambient_change";
 pub const SUMP_CHANGE: &str = "warm_up.sump_change";
 /// Largest change of both temperatures [K].
 const MOST_CHANGE: f64 = 500.0;
+
+/// Name of a thermal node, and the parameter by which its heat leaves.
+pub fn node_and_path(node: usize) -> (&'static str, &'static str) {
+    match node {
+        GEARS => ("gears", "warm_up.gears_to_oil"),
+        CLUTCH => ("clutch packs", "warm_up.clutch_to_oil"),
+        WASHERS => ("washers", "warm_up.washers_to_oil"),
+        CASE => ("case", "warm_up.case_to_ambient"),
+        _ => ("oil", "warm_up.oil_to_case"),
+    }
+}
 
 impl Effect for WarmUpSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {

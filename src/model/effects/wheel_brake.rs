@@ -49,6 +49,7 @@ const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
     const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";
+    const PV_LIMIT: Option<&'static str> = Some("wheel_brake.pv_limit");
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
     const READINGS: &'static [Reading] = readings! {

@@ -45,7 +45,7 @@ impl Simulation {
     /// Moves to `states`, except imposed motions, which follow their commands. If a step is pending, it is first
     /// completed up to the present time.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
-        complete(&self.model, (&mut self.state, Some(&mut self.watched)));
+        complete(&self.model, (&mut self.state, Some(&mut self.memories)));
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {
@@ -85,7 +85,7 @@ impl Simulation {
     pub fn complete_step(&mut self) -> Result<bool, StepFailure> {
         let Some(from) = self.accepted else { return Ok(false) };
         let model = &*self.model;
-        let (inputs, state, watched) = (&self.inputs, &mut self.state, &mut self.watched);
+        let (inputs, state, memories) = (&self.inputs, &mut self.state, &mut self.memories);
         let mut is_due = false;
         let h = state.time() - from.time;
         if h > 0.0 {
@@ -104,8 +104,14 @@ impl Simulation {
                 let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
-                    let sums =
-                        &mut LedgerSums { begin: from.time, work, heat, thermal, torque_means, watched: Some(watched) };
+                    let sums = &mut LedgerSums {
+                        begin: from.time,
+                        work,
+                        heat,
+                        thermal,
+                        torque_means,
+                        memories: Some(memories),
+                    };
                     equations.record(model, (&step, None), sums);
                     if sums.thermal.is_update_due() {
                         sums.thermal.use_temperatures();

@@ -235,7 +235,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
     let mut flash = 0.0f64;
     for g in 0..plan.groups().len() {
-        if let Some(strength) = model.strength() {
+        if let Some(strength) = &model.strength {
             equations.pair_loads(pair, point, g, |s, load| {
                 strength.add_load(&mut stress[g][s], load);
                 strength.add_pressure(&mut stress[g][s], load);
@@ -251,7 +251,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
             } else {
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
             }
-            if let Some(strength) = model.strength() {
+            if let Some(strength) = &model.strength {
                 // damping is distributed over the face differently from the elastic load
                 equations.loads_over_the_face(point, g, s, |load, line_load| {
                     if let Some(line_load) = line_load {
@@ -270,7 +270,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
             }
         }
     }
-    if let Some(strength) = model.strength() {
+    if let Some(strength) = &model.strength {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
         let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
         strength.read_stresses(meshes, readings);

@@ -19,23 +19,21 @@ impl Simulation {
 
     /// Ledger and solver statistics.
     pub fn ledger(&mut self) -> LedgerReadings {
-        if let (Some(strength), Some(fatigue)) = (self.model.strength(), &mut self.watched.fatigue) {
-            strength.remember(fatigue.make_mut());
+        if let (Some(strength), Some(fatigue)) = (&self.model.strength, self.memories.strength.get_mut()) {
+            strength.remember(fatigue);
         }
         self.read_completed(Self::ledger_at)
     }
 
     /// Ledger in `state`, in which the pending step is completed up to the present.
     fn ledger_at(&self, state: &State) -> LedgerReadings {
-        let (s, watched) = (&self.state.statistics, &self.watched);
+        let (s, memories) = (&self.state.statistics, &self.memories);
         let mut readings = [0.0; STEP_READINGS];
-        if let (Some(strength), Some(fatigue)) = (self.model.strength(), &watched.fatigue) {
+        if let (Some(strength), Some(fatigue)) = (&self.model.strength, memories.strength.get()) {
             strength.read_damage(fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
         }
-        if self.model.watch.as_ref().is_some_and(|watch| watch.keeps_mesh_history) {
-            watched
-                .mesh_history
-                .read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+        if let Some(history) = memories.mesh_history.get() {
+            history.read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
         }
         let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
         thermal[..NODES].copy_from_slice(&state.thermal.temperatures());

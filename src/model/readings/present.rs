@@ -59,15 +59,14 @@ impl Simulation {
         shown
     }
 
-    /// Reads the state and the watched values with the pending step completed up to the present. The simulation itself
+    /// Reads the state and the memories with the pending step completed up to the present. The simulation itself
     /// is unchanged.
     pub(in crate::model) fn read_completed<T>(&mut self, read: impl FnOnce(&Self, &State) -> T) -> T {
-        let (mut state, last_loads) = (self.state, self.watched.last_loads);
-        let checkpoint = self.watched.checkpoint();
-        complete(&self.model, (&mut state, Some(&mut self.watched)));
+        let mut state = self.state;
+        let checkpoint = self.memories.checkpoint();
+        complete(&self.model, (&mut state, Some(&mut self.memories)));
         let found = read(self, &state);
-        self.watched.roll_back(checkpoint);
-        self.watched.last_loads = last_loads;
+        self.memories.roll_back(checkpoint);
         found
     }
 }

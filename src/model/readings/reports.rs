@@ -6,6 +6,7 @@ use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::{IdealEquations, Largest};
 use crate::model::effect_kinds::{FrictionSource, Surface};
+use crate::model::effects::EFFECTS;
 use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::outputs::pv::each_pv;
@@ -13,13 +14,6 @@ use crate::model::run::{Simulation, effort, six_digits};
 use crate::model::scene::{MAX_PLANETS, Method};
 use crate::numeric::PI;
 use crate::problem::{Problem, distinct_texts};
-
-/// Effects and their limits of p·v.
-const PV_LIMITS: [(&str, &str); 3] = [
-    ("thrust_friction", "thrust_friction.pv_limit"),
-    ("limited_slip", "limited_slip.pv_limit"),
-    ("wheel_brake", "wheel_brake.pv_limit"),
-];
 
 /// Inputs that change outside temperatures, and the names of these temperatures in messages.
 const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "the sump")];
@@ -38,7 +32,7 @@ const SPINS: [&str; MAX_PLANETS] =
 pub struct Reported {
     friction_law: bool,
     stress: [bool; Stressed::ALL.len()],
-    pv: [bool; PV_LIMITS.len()],
+    pv: [bool; EFFECTS.len()],
     outside: [bool; OUTSIDE.len()],
     end: bool,
     rattle: bool,
@@ -56,9 +50,9 @@ impl Simulation {
             reported.friction_law = true;
             found.push(problem);
         }
-        if self.model.strength().is_some() {
+        if self.model.strength.is_some() {
             for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
-                if let Some(overload) = self.watched.fatigue.as_ref().and_then(|of| of.tally.overloads.of(what)) {
+                if let Some(overload) = self.memories.strength.get().and_then(|of| of.tally.overloads.of(what)) {
                     *reported = true;
                     found.push(overload.warning(what, &self.model.ideal.plan));
                 }
@@ -82,8 +76,8 @@ impl Simulation {
             reported.rattle = true;
             found.push(problem);
         }
-        for ((effect, variable), reported) in PV_LIMITS.into_iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
-            if let Some(problem) = self.above_pv_limit(effect, variable) {
+        for (effect, reported) in EFFECTS.iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
+            if let Some(problem) = effect.pv_limit.and_then(|limit| self.above_pv_limit(effect.name, limit)) {
                 *reported = true;
                 found.push(problem);
             }
@@ -104,7 +98,7 @@ impl Simulation {
 
     /// Warning about the cut between host and unit if it is unstable, or if it changes much of the transmitted energy.
     fn costly_coupling(&self) -> Option<Problem> {
-        let coupling = self.coupling.as_ref().filter(|coupling| coupling.is_conspicuous())?;
+        let coupling = self.memories.coupling_advice.get().filter(|coupling| coupling.is_conspicuous())?;
         let cut = self.cut_with_mobility();
         let growth = coupling.growth(&cut)?;
         let port = ["carrier", "left side", "right side"][growth.port];
@@ -224,8 +218,8 @@ impl Simulation {
     /// Warning if safety and damage include a start that was not in equilibrium, with the times of the smallest safety
     /// factors.
     fn counted_start(&mut self) -> Option<Problem> {
-        self.model.strength()?;
-        let tally = self.read_completed(|simulation, _| simulation.watched.fatigue.as_ref().map(|of| of.tally));
+        self.model.strength.as_ref()?;
+        let tally = self.read_completed(|simulation, _| simulation.memories.strength.get().map(|of| of.tally));
         let Tally { utilisation, counts_start, .. } = tally?;
         if !counts_start || utilisation.root.share == 0.0 {
             return None;
@@ -245,7 +239,7 @@ impl Simulation {
 
     /// Warning if planets have rolled, but no tooth of them from the mesh with one side gear to the mesh with the other.
     fn short_rolling(&self) -> Option<Problem> {
-        self.model.strength()?;
+        self.model.strength.as_ref()?;
         let rolled = self.motion().spin_angle.into_iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));
         let pitch = self.model.pair.gears[0].tooth_pitch();
         (rolled > pitch && rolled < PI).then(|| {

@@ -3,24 +3,17 @@
 //! Positions do not jump at communication points, so the end of a step is also the start of the next one. Between
 //! them, the input is constant or follows its derivatives, so its mean is exact.
 
-use std::sync::Arc;
-
 use super::{Simulation, StepFailure};
 use crate::model::dynamics::event::AdvanceOptions;
-use crate::model::effect_kinds::{BUILT, Changes};
+use crate::model::effect_kinds::Changes;
 use crate::model::effects::coupling_advice::{Coupling, Cut, PORTS, PortStep, Shaft};
 use crate::model::scene::{CARRIER, Inputs};
+use crate::model::setup::STEP_READINGS;
 use crate::model::setup::effect_outputs::places_of;
-use crate::model::setup::{Parameters, STEP_READINGS};
 use crate::numeric::quotient;
 
 /// Positions and their rates of all ports.
 type Places = [[f64; 2]; PORTS];
-
-/// Record of a new simulation with `parameters`, if its scene has the effect.
-pub fn new_record(parameters: &Parameters) -> Option<Arc<Coupling>> {
-    (BUILT && parameters.effects.coupling_advice).then(Arc::default)
-}
 
 /// Value of `inputs` at each port: torques, or the speeds of sides driven by speed.
 fn given(inputs: &Inputs, side_imposed: [bool; 2]) -> [f64; PORTS] {
@@ -38,29 +31,28 @@ impl Simulation {
         let before = given(&self.inputs, side_imposed);
         let derivatives = self.state.input_derivatives.as_ref();
         let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
-        if let Some(coupling) = &self.coupling
-            && coupling.last.is_none()
-        {
-            let last = Some((self.time(), self.places()));
-            self.coupling.iter_mut().for_each(|coupling| Arc::make_mut(coupling).last = last);
+        let start = (self.time(), self.places());
+        if let Some(coupling) = self.memories.coupling_advice.get_mut() {
+            coupling.last.get_or_insert(start);
         }
         let begin = self.time();
         self.advance_unrecorded(until, options)?;
         // a part of a communication step belongs to the record of the whole step
-        if !options.is_part
-            && let Some(mut coupling) = self.coupling.take()
-        {
-            self.record(Arc::make_mut(&mut coupling), before, (begin, rates));
-            self.coupling = Some(coupling);
+        if !options.is_part {
+            let mut memory = std::mem::take(&mut self.memories.coupling_advice);
+            if let Some(coupling) = memory.get_mut() {
+                self.record(coupling, before, (begin, rates));
+            }
+            self.memories.coupling_advice = memory;
         }
         Ok(())
     }
 
     /// Notes which inputs `follow` derivatives in a step in which the others ramp: 1 for each of them.
     pub(super) fn note_ramps(&mut self, follow: &Inputs) {
-        if let Some(coupling) = &mut self.coupling {
+        if let Some(coupling) = self.memories.coupling_advice.get_mut() {
             let follows = given(follow, self.model.ideal.plan.side_imposed);
-            Arc::make_mut(coupling).follows = follows.map(|follows| follows != 0.0);
+            coupling.follows = follows.map(|follows| follows != 0.0);
         }
     }
 
@@ -97,7 +89,12 @@ impl Simulation {
             let (stiffness, damping) = (specs.half_shaft.stiffness[s], specs.half_shaft.damping[s]);
             imposed[s].then_some(Shaft { stiffness, damping })
         };
-        Cut { delay: specs.coupling_advice.host_delay, shafts: [None, shaft(0), shaft(1)], ..Cut::default() }
+        Cut {
+            delay: specs.coupling_advice.host_delay,
+            is_ramp: self.ramps_inputs(),
+            shafts: [None, shaft(0), shaft(1)],
+            ..Cut::default()
+        }
     }
 
     /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears, and the
@@ -161,24 +158,11 @@ impl Simulation {
 
     /// Sets the readings of the effect in the ledger.
     pub(in crate::model) fn read_coupling(&self, readings: &mut [f64; STEP_READINGS]) {
-        let Some(coupling) = &self.coupling else { return };
+        let Some(coupling) = self.memories.coupling_advice.get() else { return };
         let readings = &mut readings[const { places_of("coupling_advice", Changes::ByStep) }];
         readings[..PORTS].copy_from_slice(&coupling.errors());
         let wanted = self.model.parameters.specs.coupling_advice.wanted_ratio;
         let (step, state) = coupling.advice(wanted, &self.cut_with_mobility());
         readings[PORTS..].copy_from_slice(&[coupling.ratio(), step, f64::from(state as u8)]);
-    }
-
-    /// Record of the exchange with the host, for snapshots.
-    pub fn coupling(&self) -> Option<&Arc<Coupling>> {
-        self.coupling.as_ref()
-    }
-
-    /// Returns the simulation with `coupling` as the record of its exchange with the host, if its scene has one.
-    pub fn with_coupling(mut self, coupling: Option<Arc<Coupling>>) -> Self {
-        if self.coupling.is_some() && coupling.is_some() {
-            self.coupling = coupling;
-        }
-        self
     }
 }

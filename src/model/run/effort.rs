@@ -6,7 +6,7 @@ use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
-use crate::model::effect_kinds::Mode;
+use crate::model::effect_kinds::{FrictionSource, Mode};
 use crate::model::scene::{
     ATTACHED, CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout,
 };
@@ -89,7 +89,9 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
             "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
             at.v[i],
             rates[i],
-            friction_on(state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k))
+            friction_on(&model.body_effects().friction, state, i, |k| FrictionEquations::<N>::freedom_of(
+                &equations, k
+            ))
         )
     })
 }
@@ -117,17 +119,18 @@ const SIDES: [&str; 2] = ["left", "right"];
 
 /// Names the dry friction that holds or brakes the body of degree of freedom `i`. Empty if none acts. `freedom_of`
 /// gives the degree of freedom of each body that may stick.
-fn friction_on(state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> String {
+fn friction_on(sources: &[FrictionSource], state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> String {
     (0..FRICTION_BODIES)
         .filter(|&k| state.friction[k].stiffness > 0.0 && freedom_of(k) == i)
         .map(|k| {
             let does = if state.friction[k].mode == Mode::Stuck { "holds" } else { "brakes" };
-            let what = match k {
-                0..FRICTION_PLANETS => "a clutch, a washer or the lock",
-                FRICTION_PLANETS..FRICTION_WHEELS => "its pins or washers (effects.thrust_friction)",
-                _ => "the brake (effects.wheel_brake)",
+            let rubs = |source: &&FrictionSource| match k {
+                0..FRICTION_PLANETS => source.side.stiffness > 0.0,
+                FRICTION_PLANETS..FRICTION_WHEELS => source.planet.stiffness > 0.0,
+                _ => source.wheel.is_some(),
             };
-            format!("; {what} {does} it")
+            let names: Vec<&str> = sources.iter().filter(rubs).map(|source| source.effect).collect();
+            format!("; {} {does} it", names.join(" or "))
         })
         .collect()
 }
@@ -173,8 +176,12 @@ mod tests {
         );
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
         with_equations!(&model, &state, &inputs, |equations| {
-            let friction = |i: usize| friction_on(&state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k));
-            assert_eq!(friction(1), "; the brake (effects.wheel_brake) holds it");
+            let friction = |i: usize| {
+                friction_on(&model.body_effects().friction, &state, i, |k| {
+                    FrictionEquations::<N>::freedom_of(&equations, k)
+                })
+            };
+            assert_eq!(friction(1), "; wheel_brake holds it");
             assert_eq!(friction(CARRIER), "");
         });
         let before = state.statistics;

@@ -14,7 +14,6 @@
 use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
-use super::watching::Watched;
 use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
@@ -25,6 +24,7 @@ use crate::model::dynamics::shape::{
     Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithEffects, WithEnds,
 };
 use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
+use crate::model::effects::Memories;
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
 /// Longest interval before positions are wrapped and the integrator's clock is reset [s].
@@ -52,7 +52,7 @@ pub struct Integration<'a> {
     /// step.
     pub change: Option<(f64, f64)>,
     /// Fatigue damage and mesh history, to which completed steps add; `None` if nothing reads them.
-    pub watched: Option<&'a mut Watched>,
+    pub memories: Option<&'a mut Memories>,
 }
 
 /// Integrates `state` until the pending step contains the clock's `now`, the equations end, or the clock must be reset.
@@ -150,7 +150,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_returned, pauses, inputs, change, mut watched } = integration;
+    let Integration { clock, begin, is_returned, pauses, inputs, change, mut memories } = integration;
     let before = state.statistics;
     let mut course = Course {
         longest: LONGEST,
@@ -182,7 +182,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
-        let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, watched: watched.as_deref_mut() };
+        let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, memories: memories.as_deref_mut() };
         // records an accepted step and decides whether the method stops
         let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
             if !is_returned {
@@ -262,7 +262,7 @@ const RADAU_IN_STEPS: usize = 8;
 pub fn budget(model: &Model) -> u64 {
     let Gears::Teeth(teeth) = &model.gears else { return BUDGET / IDEAL as u64 };
     let work = teeth.contact.work(model.parameters.solid.facets as usize, teeth.layout.groups);
-    let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.is_watched;
+    let has_effects = teeth.effect_terms.body_effects.has_effects || teeth.effect_terms.records_steps;
     let effects = if has_effects { EFFECTS } else { 0 };
     // the cost of small matrices is proportional to their number of entries
     let freedoms = teeth.layout.count();

@@ -2,7 +2,7 @@
 
 use super::completed_step::{CompletedStep, StepMotion};
 use super::failure::ExcessiveDeflection;
-use super::watching::{Watched, watch_step};
+use super::watching::watch_step;
 use crate::integrate::{Curve, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
@@ -11,6 +11,7 @@ use crate::model::dynamics::shaft_means::{CycleCounter, StepCurves, TorqueMeans}
 use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
 use crate::model::effect_kinds::BUILT;
+use crate::model::effects::Memories;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
@@ -30,7 +31,7 @@ pub struct LedgerSums<'a> {
     /// Means of the shaft torques over mesh cycles.
     pub torque_means: &'a mut TorqueMeans,
     /// Damage of the teeth and values over mesh cycles; `None` if nothing reads them.
-    pub watched: Option<&'a mut Watched>,
+    pub memories: Option<&'a mut Memories>,
 }
 
 /// Equations whose completed steps can be recorded in the ledger.
@@ -137,9 +138,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if BUILT {
             warm_up(model, &self.applied, step, sums);
         }
-        if let (true, Some(watch), Some(watched)) = (BUILT, &model.watch, &mut sums.watched) {
+        if let (true, Some(memories)) = (BUILT, &mut sums.memories) {
             let completed = StepMotion::new(self, (step, motion), sums.begin);
-            watch_step(&self.largest(), (model, watch), &completed, watched);
+            watch_step(&self.largest(), model, &completed, memories);
         }
     }
 }

@@ -41,6 +41,5 @@ pub use failure::{StepFailure, six_digits};
 pub use input_ramp::HostInputs;
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use simulation::Simulation;
-pub use watching::Watched;
 #[cfg(test)]
 pub use widened::Widened;

@@ -8,11 +8,11 @@
 use super::events::{apply_changes, break_tooth};
 use super::integration::{self, Integration, LONGEST_INTERVAL};
 use super::timeline::{self, Stop};
-use super::watching::Watched;
 use super::{StepFailure, change, imposed};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::event::{AdvanceOptions, Pause};
 use crate::model::dynamics::{Clock, State};
+use crate::model::effects::Memories;
 use crate::model::scene::{Inputs, Method};
 
 /// Time of a communication step during which the limit of attempts grows [s]: an hour.
@@ -31,9 +31,9 @@ fn extend(budget: &mut u64, model: &Model, advanced: f64, remaining: f64) {
 }
 
 /// Restarts the integration at the present, because inputs or something else have changed.
-pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &mut Watched)) {
+pub fn restart(model: &Model, inputs: &Inputs, (state, memories): (&mut State, &mut Memories)) {
     let is_jump = state.pending_step.is_some();
-    complete(model, (state, Some(watched)));
+    complete(model, (state, Some(memories)));
     if is_jump {
         state.control.jump(None);
     }
@@ -44,8 +44,8 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, watched): (&mut State, &m
 }
 
 /// Completes the pending step up to the present, under the inputs that acted in it. Also switches friction that is due
-/// to switch at the present. Without `watched`, damage and mesh history are left out.
-pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watched>)) {
+/// to switch at the present. Without `memories`, damage and mesh history are left out.
+pub fn complete(model: &Model, (state, memories): (&mut State, Option<&mut Memories>)) {
     let Some(pending_step) = &state.pending_step else { return };
     let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
     clock.end = clock.now;
@@ -60,7 +60,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watche
         pauses: false,
         inputs: &inputs,
         change: None,
-        watched,
+        memories,
     };
     let outcome = integration::integrate(model, state, integration, &mut budget);
     if outcome.is_err() || clock.time != clock.now {
@@ -78,7 +78,7 @@ pub fn complete(model: &Model, (state, watched): (&mut State, Option<&mut Watche
 /// step fails; the time is then the last one that was reached.
 pub fn integrate(
     model: &Model,
-    (inputs, state, watched): (&mut Inputs, &mut State, &mut Watched),
+    (inputs, state, memories): (&mut Inputs, &mut State, &mut Memories),
     (until, options, mut jump): (f64, AdvanceOptions, Option<f64>),
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
@@ -86,9 +86,9 @@ pub fn integrate(
         let (begin, events) = (state.time(), state.events.count());
         let stop = timeline::next_stop(model, state, until);
         let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
-            step_to_stop(model, inputs, (state, watched), stop, &mut budget)
+            step_to_stop(model, inputs, (state, memories), stop, &mut budget)
         } else {
-            step_past_stop(model, inputs, (state, watched), (stop, options, jump.take()), &mut budget)
+            step_past_stop(model, inputs, (state, memories), (stop, options, jump.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
@@ -116,7 +116,7 @@ pub fn integrate(
 fn step_to_stop(
     model: &Model,
     inputs: &Inputs,
-    (state, watched): (&mut State, &mut Watched),
+    (state, memories): (&mut State, &mut Memories),
     stop: Stop,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
@@ -125,7 +125,7 @@ fn step_to_stop(
     let mut clock = Clock { now: length, ..Clock::new(length, f64::INFINITY) };
     let (mut outcome, mut extended) = (Ok(()), 0.0);
     while clock.time < clock.now && outcome.is_ok() {
-        outcome = integrate_interval(model, inputs, (state, watched), (&mut clock, begin, false, None), budget);
+        outcome = integrate_interval(model, inputs, (state, memories), (&mut clock, begin, false, None), budget);
         if clock.time - extended >= LONGEST_INTERVAL {
             extend(budget, model, clock.time, length - clock.time);
             extended = clock.time;
@@ -140,7 +140,7 @@ fn step_to_stop(
 fn step_past_stop(
     model: &Model,
     inputs: &Inputs,
-    (state, watched): (&mut State, &mut Watched),
+    (state, memories): (&mut State, &mut Memories),
     (stop, options, jump): (Stop, AdvanceOptions, Option<f64>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
@@ -154,7 +154,7 @@ fn step_past_stop(
     // one iteration per interval of the clock
     loop {
         let at = (&mut clock, begin, options.pauses, change.take());
-        let outcome = integrate_interval(model, inputs, (state, watched), at, budget);
+        let outcome = integrate_interval(model, inputs, (state, memories), at, budget);
         let mut reached = clock.time;
         if let Some(pending_step) = &state.pending_step {
             pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
@@ -198,11 +198,12 @@ fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepF
 fn integrate_interval(
     model: &Model,
     inputs: &Inputs,
-    (state, watched): (&mut State, &mut Watched),
+    (state, memories): (&mut State, &mut Memories),
     (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let integration = Integration { clock, begin, is_returned: false, pauses, inputs, change, watched: Some(watched) };
+    let integration =
+        Integration { clock, begin, is_returned: false, pauses, inputs, change, memories: Some(memories) };
     if let Some(teeth) = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout)) {
         let outcome = integration::integrate_teeth(teeth, model, state, integration, budget);
         state.let_others_follow(&model.layout);

@@ -5,15 +5,13 @@ use std::sync::Arc;
 use crate::FULL;
 
 use super::accepted::Accepted;
-use super::coupling::new_record;
 use super::integration::RESOLUTION;
 use super::progress::{self, restart};
-use super::watching::Watched;
-use super::{StepFailure, change, timeline};
+use super::{StepFailure, change, timeline, watching};
 use crate::model::assembly::{Gears, Given, Model};
 use crate::model::dynamics::State;
 use crate::model::dynamics::event::{AdvanceOptions, Events, Pause};
-use crate::model::effects::coupling_advice::Coupling;
+use crate::model::effects::Memories;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};
 use crate::model::setup::Parameters;
@@ -25,17 +23,14 @@ use crate::problem::Problem;
 pub struct Simulation {
     pub(in crate::model) model: Arc<Model>,
     pub(in crate::model) state: State,
-    /// Fatigue damage and mesh history of the completed steps.
-    pub(in crate::model) watched: Watched,
+    /// Memories of the effects that are on.
+    pub(in crate::model) memories: Memories,
     /// Inputs that act from now on.
     pub(in crate::model) inputs: Inputs,
     /// Cache of the forces under the present inputs; `None` after a change.
     pub(in crate::model) forces: Option<Forces>,
     /// End of the last step that the host's solver completed, in model exchange.
     pub(in crate::model) accepted: Option<Accepted>,
-    /// Record of the exchange with the host, in scenes with advice about the communication step. Copies of the
-    /// simulation share it until one of them steps.
-    pub(in crate::model) coupling: Option<Arc<Coupling>>,
 }
 
 /// Effect of the inputs on the integration at the start of a step.
@@ -53,28 +48,27 @@ enum Beginning {
 }
 
 impl Simulation {
-    /// Simulation of `parameters` that continues from `state`, without damage and mesh history. Fails with all problems
+    /// Simulation of `parameters` that continues from `state`, without earlier memories. Fails with all problems
     /// of the parameters.
     pub fn resume(parameters: &Parameters, inputs: &Inputs, state: State) -> Result<Self, Vec<Problem>> {
         Self::resume_with(parameters, inputs, (state, None), &Given::default())
     }
 
-    /// Simulation of `parameters` that continues from `state`, with the damage and the mesh history in `watched`, or
-    /// without. `given` contains optional data. Fails with all problems of the parameters, or if the damage belongs to
-    /// other gears.
+    /// Simulation of `parameters` that continues from `state`, with the `memories`, or without earlier ones. `given` contains
+    /// optional data. Fails with all problems of the parameters, or if a memory belongs to another scene.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
-        (state, watched): (State, Option<Watched>),
+        (state, memories): (State, Option<Memories>),
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let model = Arc::new(Model::new(parameters, given)?);
-        let watched = watched.unwrap_or_else(|| Watched::new(&model, state.time(), true));
-        if !watched.fits(&model) {
-            return Err(vec![Problem::new("effects.strength", "the saved damage belongs to other gears")]);
+        let start = watching::at_start(&model, state.time(), true);
+        let memories = memories.unwrap_or_else(|| start.clone());
+        if let Some(effect) = memories.misfit(&start) {
+            return Err(vec![Problem::new(effect, "its saved memory belongs to another scene")]);
         }
-        let coupling = new_record(parameters);
-        Ok(Self { model, state, watched, inputs: *inputs, forces: None, accepted: None, coupling })
+        Ok(Self { model, state, memories, inputs: *inputs, forces: None, accepted: None })
     }
 
     /// Sets the inputs that act from now on.
@@ -112,7 +106,7 @@ impl Simulation {
 
     /// Applies changed tunable parameters.
     pub fn tune(&mut self, parameters: &Parameters) {
-        progress::complete(&self.model, (&mut self.state, Some(&mut self.watched)));
+        progress::complete(&self.model, (&mut self.state, Some(&mut self.memories)));
         Arc::make_mut(&mut self.model).tune(parameters);
         if self.model.thermal.is_none() {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
@@ -120,7 +114,7 @@ impl Simulation {
         // the next step restarts the integration under the new parameters
         self.state.control.jump(None);
         self.state.pause = None;
-        self.watched.last_loads = None;
+        self.memories.tuned();
         self.forces = None;
     }
 
@@ -161,12 +155,12 @@ impl Simulation {
     }
 
     fn begin_under_inputs(&mut self) -> Beginning {
-        let Self { model, state, watched, inputs, .. } = self;
+        let Self { model, state, memories, inputs, .. } = self;
         if let Some(jump) = change::jump_within(model, inputs, state) {
             return Beginning::Within(jump);
         }
         let count = state.events.count();
-        restart(model, inputs, (state, watched));
+        restart(model, inputs, (state, memories));
         state.pause = Some(Pause { now: 0.0, time: state.time(), inputs: *inputs });
         self.forces = None;
         if state.events.count() == count { Beginning::Silent } else { Beginning::Event }
@@ -178,7 +172,7 @@ impl Simulation {
     /// the last good time.
     #[inline]
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
-        if self.coupling.is_some() {
+        if self.memories.coupling_advice.is_on() {
             return self.advance_recorded(until, options);
         }
         self.advance_unrecorded(until, options)
@@ -188,7 +182,7 @@ impl Simulation {
     pub(super) fn advance_unrecorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         let beginning = self.begin_step();
-        let Self { model, state, watched, inputs, .. } = self;
+        let Self { model, state, memories, inputs, .. } = self;
         let model = &**model;
         let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
         // the pending step may already contain the requested time
@@ -227,19 +221,19 @@ impl Simulation {
             return Ok(());
         }
         let before = (*inputs, *state);
-        let checkpoint = watched.checkpoint();
-        let mut outcome = progress::integrate(model, (inputs, state, watched), (until, options, jump));
+        let checkpoint = memories.checkpoint();
+        let mut outcome = progress::integrate(model, (inputs, state, memories), (until, options, jump));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // the pending step cannot be completed: restart at the present, from where another step may succeed
             (*inputs, *state) = before;
-            watched.roll_back(checkpoint);
-            restart(model, inputs, (state, watched));
-            outcome = progress::integrate(model, (inputs, state, watched), (until, options, None));
+            memories.roll_back(checkpoint);
+            restart(model, inputs, (state, memories));
+            outcome = progress::integrate(model, (inputs, state, memories), (until, options, None));
         }
         if outcome.is_ok() && !state.is_valid_without_pending_step() {
             outcome = Err(StepFailure::not_finite(state.time()));
             (*inputs, *state) = before;
-            watched.roll_back(checkpoint);
+            memories.roll_back(checkpoint);
         }
         outcome
     }
@@ -288,8 +282,8 @@ impl Simulation {
         &self.state
     }
 
-    /// Fatigue damage and mesh history, for snapshots.
-    pub fn watched(&self) -> &Watched {
-        &self.watched
+    /// Memories of the effects that are on, for snapshots.
+    pub fn memories(&self) -> &Memories {
+        &self.memories
     }
 }

@@ -2,123 +2,28 @@
 //! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
 //! count. Without dense output, extremes are those at the ends of the steps.
 
-use std::sync::Arc;
-
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
-
 use super::completed_step::StepMotion;
 use crate::integrate::{Curve, Point};
-use crate::model::assembly::{Model, Watch};
+use crate::model::assembly::Model;
 use crate::model::dynamics::{Largest, MAX_SIZE};
+use crate::model::effect_kinds::BUILT;
+use crate::model::effects::Memories;
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RatedPlanet, RatedStep, Sample};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
-use crate::numeric::Finite;
+use crate::model::setup::Parameters;
 
-/// Fatigue damage of the teeth, and peak-to-peak values over mesh cycles.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Watched {
-    /// Fatigue damage of the teeth, in scenes with strength. Copies share it until one of them changes it.
-    pub fatigue: Option<SharedFatigue>,
-    /// Peak-to-peak values over mesh cycles.
-    pub mesh_history: MeshHistory,
-    /// Cache of the loads at the start of the next step. Saved states omit it, because loads follow from the state.
-    #[serde(skip)]
-    pub last_loads: Option<LastLoads>,
-}
-
-/// Loads of the teeth at the end of a step.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LastLoads {
-    /// Point at the end of the step.
-    pub at: Point<MAX_SIZE>,
-    /// Number of planet groups, and true if a tooth is broken. Together with the point, both determine the loads.
-    pub teeth: (usize, bool),
-    /// Loads at this point.
-    pub loads: Sample,
-}
-
-/// Damage that copies of a simulation share.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SharedFatigue(Arc<Fatigue>);
-
-impl SharedFatigue {
-    /// Shares `fatigue`.
-    pub fn new(fatigue: Fatigue) -> Self {
-        Self(Arc::new(fatigue))
-    }
-
-    /// Damage, to be changed. It is copied if another copy of the simulation shares it.
-    pub fn make_mut(&mut self) -> &mut Fatigue {
-        Arc::make_mut(&mut self.0)
-    }
-}
-
-impl std::ops::Deref for SharedFatigue {
-    type Target = Fatigue;
-
-    fn deref(&self) -> &Fatigue {
-        &self.0
-    }
-}
-
-impl Serialize for SharedFatigue {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        self.0.serialize(serializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for SharedFatigue {
-    #[inline(never)] // its frame is large for a small stack
-    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        Fatigue::deserialize(from).map(Self::new)
-    }
-}
-
-/// Watched values to which [`Watched::roll_back`] returns, besides those that the damage remembers itself.
-#[derive(Clone, Copy)]
-pub struct Checkpoint(MeshHistory);
-
-impl Watched {
-    /// Returns watched values of a run of `model` that begins at `start` [s].
-    pub fn new(model: &Model, start: f64, in_equilibrium: bool) -> Self {
-        let fatigue = model.strength().map(|strength| {
-            let later = model.parameters.specs.strength.rate_from;
-            SharedFatigue::new(strength.fatigue(model.layout.groups, (start, later), in_equilibrium))
-        });
-        Self { fatigue, ..Self::default() }
-    }
-
-    /// True if a simulation can continue from these values.
-    pub fn is_valid(&self) -> bool {
-        // the cache is not saved
-        let Self { fatigue, mesh_history, last_loads: _ } = self;
-        fatigue.as_deref().is_none_or(Finite::is_finite) && mesh_history.is_valid()
-    }
-
-    /// True if these values belong to a run of `model`.
-    pub fn fits(&self, model: &Model) -> bool {
-        match (model.strength(), &self.fatigue) {
-            (Some(strength), Some(fatigue)) => strength.fits(fatigue, model.layout.groups),
-            (strength, fatigue) => strength.is_none() && fatigue.is_none(),
-        }
-    }
-
-    /// Remembers the present values for [`Self::roll_back`].
-    pub fn checkpoint(&mut self) -> Checkpoint {
-        if let Some(fatigue) = &mut self.fatigue {
-            fatigue.make_mut().set_checkpoint();
-        }
-        Checkpoint(self.mesh_history)
-    }
-
-    /// Returns to the values at `checkpoint`, the last one.
-    pub fn roll_back(&mut self, Checkpoint(mesh_history): Checkpoint) {
-        if let Some(fatigue) = &mut self.fatigue {
-            fatigue.make_mut().roll_back();
-        }
-        (self.mesh_history, self.last_loads) = (mesh_history, None);
+/// Memories at the start of a run of `model` at `start` [s].
+pub fn at_start(model: &Model, start: f64, in_equilibrium: bool) -> Memories {
+    let Parameters { effects, specs, .. } = &model.parameters;
+    let damage = |strength: &GearStrength| {
+        strength.fatigue(model.layout.groups, (start, specs.strength.rate_from), in_equilibrium)
+    };
+    Memories {
+        strength: model.strength.as_deref().map(damage).into(),
+        mesh_history: (BUILT && effects.mesh_history).then(Default::default).into(),
+        coupling_advice: (BUILT && effects.coupling_advice).then(Default::default).into(),
     }
 }
 
@@ -127,12 +32,12 @@ impl Watched {
 /// Not inlined, so that the loop over the steps is the same in every scene.
 #[cold]
 #[inline(never)]
-pub fn watch_step(equations: &Largest, (model, watch): (&Model, &Watch), step: &StepMotion, watched: &mut Watched) {
-    if let (Some(strength), Some(fatigue)) = (&watch.strength, &mut watched.fatigue) {
-        count_fatigue(equations, (model, strength), step, (fatigue.make_mut(), &mut watched.last_loads));
+pub fn watch_step(equations: &Largest, model: &Model, step: &StepMotion, memories: &mut Memories) {
+    if let (Some(strength), Some(fatigue)) = (&model.strength, memories.strength.get_mut()) {
+        count_fatigue(equations, (model, strength), step, fatigue);
     }
-    if watch.keeps_mesh_history {
-        add_to_history(equations, model, step, &mut watched.mesh_history);
+    if let Some(history) = memories.mesh_history.get_mut() {
+        add_to_history(equations, model, step, history);
     }
 }
 
@@ -145,7 +50,7 @@ fn count_fatigue(
     equations: &Largest,
     (model, strength): (&Model, &GearStrength),
     step: &StepMotion,
-    (fatigue, last): (&mut Fatigue, &mut Option<LastLoads>),
+    fatigue: &mut Fatigue,
 ) {
     let StepMotion { h, begin, extension, accepted_fraction, ends_only } = step;
     let from = ((fatigue.tally.from - begin) / h).clamp(0.0, 1.0);
@@ -181,13 +86,14 @@ fn count_fatigue(
         }
     };
     let teeth = (groups, equations.is_tooth_broken);
-    let are_known = last.as_ref().is_some_and(|last| from == 0.0 && last.teeth == teeth && last.at == extension.start);
-    let last = last.get_or_insert_default();
+    let Some(mut last) = fatigue.last_loads.take() else { return };
+    let are_known = from == 0.0 && last.teeth == teeth && last.at == extension.start;
     let (planets, count) = rated_planets(equations, model);
     let numbers = &equations.teeth.contact.perfect;
     let mut rated = RatedStep { begin: *begin, h: *h, from, planets: &planets[..count], numbers, sample: &mut sample };
     strength.count(fatigue, &mut rated, &mut last.loads, are_known);
     (last.at, last.teeth) = (extension.at(*accepted_fraction), teeth);
+    fatigue.last_loads = Some(last);
 }
 
 /// Planets whose teeth are rated, and their number. The equations may have planets in one group that the model treats

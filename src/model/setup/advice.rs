@@ -13,11 +13,10 @@ pub fn warnings(p: &Parameters) -> Vec<Problem> {
 /// Warning if friction has no visible torque bias because both loads and the spin are given. Friction then changes only
 /// the torque that imposes the spin.
 fn imposed_bias(p: &Parameters) -> Option<Problem> {
-    let (scene, effects) = (&p.scene, &p.effects);
-    let has_friction = effects.tooth_friction || effects.thrust_friction || effects.limited_slip;
+    let scene = &p.scene;
     let imposed =
         scene.planet_spin == PlanetSpin::Imposed && [scene.left_drive, scene.right_drive] == [SideDrive::Torque; 2];
-    (has_friction && imposed).then(|| {
+    (p.effects.bias_torque() && imposed).then(|| {
         Problem::new(
             "torque_bias_ratio",
             "it is the ratio of left.load_torque and right.load_torque, regardless of friction: with \

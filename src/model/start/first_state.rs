@@ -5,9 +5,8 @@ use std::sync::Arc;
 use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
 use crate::model::dynamics::{Largest, State};
-use crate::model::run::coupling::new_record;
 use crate::model::run::events::{apply_changes, break_tooth};
-use crate::model::run::{Simulation, Watched, imposed};
+use crate::model::run::{Simulation, imposed, watching};
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
 use crate::model::setup::{HEATS, Parameters};
 use crate::model::thermal::Thermal;
@@ -72,9 +71,7 @@ impl Simulation {
         simulation.state.work = 0.0;
         simulation.state.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
-        // the exchange with the host begins now
-        simulation.coupling = new_record(parameters);
-        simulation.watched = Watched::new(&simulation.model, time, in_equilibrium);
+        simulation.memories = watching::at_start(&simulation.model, time, in_equilibrium);
         Ok(simulation)
     }
 }

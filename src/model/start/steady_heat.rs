@@ -7,10 +7,12 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use crate::declaration::units::TEMPERATURES;
+use crate::model::effects::Memories;
+use crate::model::effects::warm_up::node_and_path;
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
 use crate::model::thermal::steady::{CycleMeans, Steady};
-use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, Thermal, WASHERS};
+use crate::model::thermal::{NODES, Network, OIL, Thermal};
 use crate::problem::Problem;
 
 /// Difference of temperatures above which there are two steady states [K].
@@ -32,7 +34,8 @@ impl Simulation {
         network.around = network.around.changed(self.inputs.changes_outside());
         let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
-        (model.thermal, model.watch) = (None, None);
+        (model.thermal, model.strength) = (None, None);
+        still.memories = Memories::default();
         let mut influential = model.body_effects().influential_nodes();
         // a given sump temperature does not change
         influential.retain(|&node| node != OIL || network.around.sump.is_none());
@@ -110,13 +113,7 @@ fn no_steady_heat(end: Steady) -> String {
     let Steady::Beyond(node, temperature) = end else {
         return "no steady temperatures were found; scene.start = equilibrium begins at oil.temperature instead".into();
     };
-    let (name, path) = match node {
-        GEARS => ("gears", "warm_up.gears_to_oil"),
-        CLUTCH => ("clutch packs", "warm_up.clutch_to_oil"),
-        WASHERS => ("washers", "warm_up.washers_to_oil"),
-        CASE => ("case", "warm_up.case_to_ambient"),
-        _ => ("oil", "warm_up.oil_to_case"),
-    };
+    let (name, path) = node_and_path(node);
     format!(
         "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, by \
          which their heat leaves, or lower the friction",

@@ -12,7 +12,7 @@ use crate::mirror::scene::{Scene, Step};
 use alternatives::{Requirement, alternatives};
 use bevel_differential::contact::ContactLaw;
 use bevel_differential::declaration::Condition;
-use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation};
+use bevel_differential::model::{GearCache, GearContact, Given, HostInputs, Inputs, Parameters, Simulation, Start};
 use bevel_differential::problem::Problem;
 use bevel_differential::variables::effective::{Situation, has_effect};
 use bevel_differential::variables::{Access, Range, Variable, number, table};
@@ -287,6 +287,10 @@ fn on_level(run: &mut Run, (contact, law): (GearContact, ContactLaw)) {
     let p = &mut run.parameters;
     (p.scene.gear_contact, p.contact.law) = (contact, law);
     p.effects.teeth.corner_contact |= contact == GearContact::Solid;
+    // the cycles of this start would take minutes
+    if contact == GearContact::Solid && p.scene.start == Start::SteadyHeat {
+        p.scene.start = Start::Equilibrium;
+    }
     for _ in 0..8 {
         let Err(problems) = run.started() else { return };
         for problem in problems {

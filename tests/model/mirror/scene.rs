@@ -32,6 +32,9 @@ pub struct Scene {
     pub nudge: f64,
 }
 
+/// Number of evaluations after which a course is long enough. Few scenes need more, and they would take most of the time.
+const MOST_EVALUATIONS: u64 = 40_000;
+
 /// Values of all outputs at the start and after each step.
 pub struct Course {
     pub times: Vec<f64>,
@@ -44,6 +47,8 @@ pub struct Course {
     pub switched: usize,
     /// Error message, if the course ended early.
     pub failure: Option<String>,
+    /// Number of steps within which the solver has evaluated the tooth forces at most [`MOST_EVALUATIONS`] times.
+    pub cheap_steps: usize,
 }
 
 /// Rows of outputs and local variables, except single tooth pairs. Those are read from only one mesh, which has no
@@ -94,7 +99,8 @@ impl Scene {
         };
         let (start, layout) = (*simulation.state(), simulation.plan().layout());
         let values = vec![read(&mut simulation)];
-        let mut course = Course { times: vec![0.0], values, start, layout, switched: usize::MAX, failure: None };
+        let mut course =
+            Course { times: vec![0.0], values, start, layout, switched: usize::MAX, failure: None, cheap_steps: 0 };
         self.nudge(&mut simulation);
         let mut time = 0.0;
         for step in &self.steps {
@@ -106,6 +112,9 @@ impl Scene {
                 break;
             }
             let state = simulation.state();
+            if state.statistics.evaluations <= MOST_EVALUATIONS {
+                course.cheap_steps += 1;
+            }
             let modes = state.friction.iter().zip(&start.friction).all(|(now, then)| now.mode == then.mode);
             if !modes || state.statistics.rejected_switch > 0 {
                 course.switched = course.switched.min(course.times.len());

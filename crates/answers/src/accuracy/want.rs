@@ -66,11 +66,15 @@ impl Want {
     }
 
     /// Size of 100 % in the reference: the rms value for means and rms values, the largest magnitude for values and
-    /// extremes, and the statistic itself for swings, orders and times.
+    /// extremes, and the statistic itself for swings, orders, times and ratios. A ratio such as a safety factor is very
+    /// large where nothing is loaded, which says nothing about its other values.
     pub fn scale(&self, scene: &Scene, reference: &Record) -> Result<f64, String> {
         let size = |output: usize| {
             let of = |statistic: Statistic| statistic.of(reference, output);
+            let is_ratio = scene.outputs[output].unit.is_some_and(|unit| unit.name == "1");
+            let itself = if is_ratio { of(self.statistic)?.abs() } else { 0.0 };
             Ok::<_, String>(match self.statistic {
+                _ if itself > 0.0 => itself,
                 Statistic::Mean | Statistic::Rms => of(Statistic::Rms)?,
                 Statistic::Min | Statistic::Max | Statistic::Final => {
                     of(Statistic::Min)?.abs().max(of(Statistic::Max)?.abs())

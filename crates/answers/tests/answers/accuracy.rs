@@ -158,6 +158,11 @@ fn a_scene_that_sets_the_stiffness_of_its_law_keeps_this_law() {
 fn outputs_of_strength_are_included_only_if_wanted() {
     let found = asked(TEETH, &["stress.contact_max:max"], 0.05);
     assert!(found.choice().expect("a setting").scene.parameters.effects.strength);
+    // a safety factor is 1000 at the start, where nothing is loaded yet
+    let found = asked(TEETH, &["safety.root_min:final"], 0.005);
+    let (trial, reference) = (found.choice().expect("a setting"), &found.reference);
+    assert!(trial.scene.parameters.effects.strength);
+    assert!((trial.values[0] / reference.values[0] - 1.0).abs() < 0.005, "{:?} {:?}", trial.values, reference.values);
     let found = asked(TEETH, &["left.speed:max"], 0.05);
     assert!(matches!(role(&found, "strength"), Role::NotAsked));
 }

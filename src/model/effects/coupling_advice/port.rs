@@ -132,10 +132,10 @@ pub struct Port {
 finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, known, oscillation, swing; still, is_line });
 
 impl Port {
-    /// Adds the second of four `steps` of a host with `delay`. Its energy error is `error` [J], and its torque is the
+    /// Adds the second of four `steps` of a host with `delay`, whose values act `lag` steps late. Its energy error is `error` [J], and its torque is the
     /// rate of the movement if the port `is_shaft`, or else the host's value. Old errors are multiplied by `keep`.
     #[inline]
-    pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), delay: f64, keep: f64) {
+    pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), [delay, lag]: [f64; 2], keep: f64) {
         let PortStep { given, moved, changed, h, is_line, .. } = *steps[1];
         self.error += error;
         self.passed = keep * self.passed + steps[1].passed().abs();
@@ -161,7 +161,7 @@ impl Port {
         self.regression.add(given, values, memory / (memory + h), filter / (filter + h));
         self.known = self.regression.law(WELL_EXPLAINED).or(self.known);
         self.oscillation.add(given, h);
-        self.swing.add(if is_shaft { moved / h } else { given }, h, (delay, is_line));
+        self.swing.add(if is_shaft { moved / h } else { given }, h, (lag, is_line));
         self.is_line = is_line;
     }
 
@@ -206,30 +206,31 @@ impl Port {
             && (is_shaft || self.law(sign).is_some_and(|law| law.per_rate > CERTAIN * law.rate_error))
     }
 
-    /// Longest stable step [s] of a host with `delay` that sets a torque. Its springs give the unit the `rates` ω² [1/s²], and
-    /// its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
+    /// Longest stable step [s] of a host that sets a torque, which acts `lag` steps late. Its springs give the unit the
+    /// `rates` ω² [1/s²], and its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
     ///
-    /// A spring with a damper acts the time τ = λ/ω² ahead. Held inputs act (½ + `delay`) h late, so springs are stable up to
-    /// (½ + `delay`) h = τ, and dampers up to (1 + `delay`) λ h = 2. The line through two values is a two-step Adams-Bashforth
-    /// method: see [`line_limit`] for springs; dampers are stable up to λ h = 1, or 2 (√2 − 1) if the values are one step old.
-    pub fn stable_step_of_torque(&self, delay: f64, [spring, damper]: [f64; 2]) -> f64 {
+    /// A spring with a damper acts the time τ = λ/ω² ahead. With a = (ω h)²/2 and b = λ h, held inputs are stable if
+    /// b > (1 + 2 `lag`) a + `lag` b², a lower bound that is exact without lag, and if (1 + `lag`) b < 2. The line through two
+    /// values is a two-step Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up to λ h = 1, or
+    /// 2 (√2 − 1) if the values are one step old.
+    pub fn stable_step_of_torque(&self, lag: f64, [spring, damper]: [f64; 2]) -> f64 {
         let quotient = |a, b| quotient(a, b).unwrap_or(f64::INFINITY);
-        let ahead = quotient(damper, spring);
+        let late = lag.max(0.0);
         if self.is_line {
-            let late = delay.max(0.0);
             let damped = quotient(1.0, (1.0 + late * (0.5 * SQRT_2 - 0.5)) * damper);
-            limit(line_limit(ahead, sqrt(spring), late)).min(limit(damped))
+            limit(line_limit(quotient(damper, spring), sqrt(spring), late)).min(limit(damped))
         } else {
-            limit(quotient(ahead, 0.5 + delay)).min(limit(quotient(2.0, (1.0 + delay) * damper)))
+            let sprung = quotient(damper, (0.5 + lag) * spring + late * damper * damper);
+            limit(sprung).min(limit(quotient(2.0, (1.0 + lag) * damper)))
         }
     }
 
-    /// Longest stable step [s] of a host with `delay` that sets the speed behind the unit's `shaft` k, c. It is infinite if the
+    /// Longest stable step [s] of a host that sets the speed behind the unit's `shaft` k, c, which acts `lag` steps late. It is infinite if the
     /// cut shows no limit.
     ///
     /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts the
-    /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `delay`) h = τ and up to ω h = 2.
-    pub fn stable_step_of_speed(&self, delay: f64, shaft: Shaft, law: &Law) -> f64 {
+    /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `lag`) h = τ and up to ω h = 2.
+    pub fn stable_step_of_speed(&self, lag: f64, shaft: Shaft, law: &Law) -> f64 {
         let Law { per_movement, per_rate, .. } = *law;
         if per_movement <= 0.0 {
             return f64::INFINITY;
@@ -237,9 +238,9 @@ impl Port {
         let ahead = shaft.damping / shaft.stiffness + per_rate.max(0.0) / per_movement;
         let rate = sqrt(shaft.stiffness * per_movement);
         if self.is_line {
-            limit(line_limit(ahead, rate, delay.max(0.0)))
+            limit(line_limit(ahead, rate, lag.max(0.0)))
         } else {
-            limit(quotient(ahead, 0.5 + delay).unwrap_or(f64::INFINITY).min(2.0 / rate))
+            limit(quotient(ahead, 0.5 + lag).unwrap_or(f64::INFINITY).min(2.0 / rate))
         }
     }
 }
@@ -306,9 +307,15 @@ mod tests {
         };
         let close = |found: f64, wanted: f64| assert!((found / wanted - 1.0).abs() < 1e-12, "{found} {wanted}");
         close(of(false, 0.0, [k / j, c / j]), 2.0 * c / k);
-        close(of(false, 1.0, [k / j, c / j]), c / k / 1.5);
         close(of(false, 0.0, [0.0, c / j]), 2.0 * j / c);
         close(of(false, 1.0, [0.0, c / j]), j / c);
+        // Jury's criterion for one step of delay: b - 3 a = (b - a)²
+        for c in [3.0, 12.0, 60.0] {
+            let h = of(false, 1.0, [k / j, c / j]);
+            let [a, b] = [0.5 * h * h * k / j, h * c / j];
+            let excess = b - 3.0 * a - (b - a) * (b - a);
+            assert!((0.0..0.2 * b).contains(&excess), "{c}: {excess} {b}");
+        }
         close(of(true, 0.0, [0.0, c / j]), j / c);
         close(of(true, 1.0, [0.0, c / j]), 2.0 * (SQRT_2 - 1.0) * j / c);
         // 1 + (ω h)⁴/4 = 1 + τ ω² h/2

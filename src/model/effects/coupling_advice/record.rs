@@ -6,6 +6,7 @@ use super::memory::LEAST_STEPS;
 use super::port::{LAG, Port, PortStep, Shaft, energy_difference};
 use super::regression::{CERTAINLY_EXPLAINED, EXPLAINED, Law, WITHOUT_DOUBT_EXPLAINED};
 use super::spec::AdviceState;
+use crate::model::effect_kinds::Memory;
 use crate::numeric::{Finite, finite};
 
 /// Number of ports: carrier, left side, right side.
@@ -37,11 +38,20 @@ pub type Places = [[f64; 2]; PORTS];
 pub struct Cut {
     /// Delay of the host's answer in communication steps.
     pub delay: f64,
+    /// True if the unit ramps held inputs, so that they act half a step later.
+    pub is_ramp: bool,
     /// Half-shaft behind each port; `None` at a port driven by torque.
     pub shafts: [Option<Shaft>; PORTS],
     /// Accelerations of the ports under a torque at each port that is driven by torque [1/(kg·m²)]. They are needed
     /// only for the longest stable steps.
     pub mobility: [[f64; PORTS]; PORTS],
+}
+
+impl Cut {
+    /// Delay of the host's answer and of the unit's ramps, in communication steps.
+    fn lag(&self) -> f64 {
+        self.delay + if self.is_ramp { 0.5 } else { 0.0 }
+    }
 }
 
 /// Record of the exchange between host and unit.
@@ -106,7 +116,7 @@ impl Coupling {
             let steps = places.map(|place| &steps[place]);
             if steps[1].h > 0.0 {
                 let error = SIGNS[k] * energy_difference(steps, cut.delay, has_earlier);
-                port.add(steps, (error, cut.shafts[k].is_some()), cut.delay, keep);
+                port.add(steps, (error, cut.shafts[k].is_some()), [cut.delay, cut.lag()], keep);
             }
         }
     }
@@ -168,10 +178,10 @@ impl Coupling {
                 laws.iter().zip(cut.mobility[port]).map(|(law, mobility)| mobility.abs() * of(law).max(0.0)).sum()
             };
             match cut.shafts[port] {
-                Some(shaft) => self.ports[port].stable_step_of_speed(cut.delay, shaft, &laws[port]),
+                Some(shaft) => self.ports[port].stable_step_of_speed(cut.lag(), shaft, &laws[port]),
                 None => {
                     let rates = [together(|law| law.per_movement), together(|law| law.per_rate)];
-                    self.ports[port].stable_step_of_torque(cut.delay, rates)
+                    self.ports[port].stable_step_of_torque(cut.lag(), rates)
                 }
             }
         })
@@ -215,10 +225,18 @@ impl Coupling {
         let port = high.max_by(|&a, &b| ratio(a).total_cmp(&ratio(b)))?;
         Some(Growth { port, is_unstable: false })
     }
+}
 
-    /// True if a simulation can continue from these numbers.
-    pub fn is_valid(&self) -> bool {
-        Finite::is_finite(self) && self.weight >= 0.0
+impl Memory for Coupling {
+    /// The record changes only with whole communication steps.
+    type Checkpoint = ();
+
+    fn checkpoint(&mut self) {}
+
+    fn roll_back(&mut self, (): ()) {}
+
+    fn is_valid(&self) -> bool {
+        self.is_finite() && self.weight >= 0.0
     }
 }
 

@@ -78,6 +78,8 @@ pub const CLUTCH_HEAT: Heat = Heat {
 impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
         "Clutch packs on the side gears: preload, ramps, viscous torque, or a measured curve; with stiction";
+    const BIASES_TORQUE: bool = true;
+    const PV_LIMIT: Option<&'static str> = Some("limited_slip.pv_limit");
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);
     const EXAMPLE: &'static [(&'static str, f64)] = &[("limited_slip.preload", 50.0)];
     const READINGS: &'static [Reading] = readings! {

@@ -8,6 +8,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::integrate::Curve;
+use crate::model::effect_kinds::Memory;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS, Plan};
 use crate::numeric::Finite;
 
@@ -80,9 +81,20 @@ impl MeshHistory {
             errors.copy_from_slice(&self.last[first..first + 2]);
         }
     }
+}
 
-    /// True if a simulation can continue from these numbers.
-    pub fn is_valid(&self) -> bool {
+impl Memory for MeshHistory {
+    type Checkpoint = Self;
+
+    fn checkpoint(&mut self) -> Self {
+        *self
+    }
+
+    fn roll_back(&mut self, to: Self) {
+        *self = to;
+    }
+
+    fn is_valid(&self) -> bool {
         let Self { rolled, extremes, last } = self;
         rolled.abs() < 1.0 && extremes.is_finite() && last.is_finite()
     }

@@ -12,6 +12,7 @@ parameters! {
 impl Declare for MeshHistorySpec {
     const DESCRIPTION: &'static str =
         "Peak-to-peak side speeds and transmission errors over the last whole mesh cycle; co-simulation only";
+    const RECORDS_STEPS: bool = true;
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
         why: "it follows from the motion of teeth against each other",

@@ -5,8 +5,12 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::along_step::Sample;
 use super::overload::{Overload, Overloads, Stressed};
 use super::utilisation::Utilisation;
+use crate::integrate::Point;
+use crate::model::dynamics::MAX_SIZE;
+use crate::model::effect_kinds::Memory;
 use crate::model::scene::MAX_GROUPS;
 use crate::numeric::{Finite, finite};
 use crate::strength::{Bending, RatedPoint, Rating, ToothHistory, ToothInMesh};
@@ -51,6 +55,19 @@ impl Tally {
     }
 }
 
+/// Loads of the teeth at the end of a step: a cache for the start of the next one. Saved states omit it, because loads
+/// follow from the state.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LastLoads {
+    /// Point at the end of the step.
+    pub at: Point<MAX_SIZE>,
+    /// Number of planet groups, 0 without loads, and true if a tooth is broken. Together with the point, both determine
+    /// the loads.
+    pub teeth: (usize, bool),
+    /// Loads at this point.
+    pub loads: Sample,
+}
+
 /// Damage of the teeth so far.
 #[derive(Debug)]
 pub struct Fatigue {
@@ -67,6 +84,10 @@ pub struct Fatigue {
     checkpoint: u64,
     /// Numbers of teeth of planet and side gear.
     counts: [usize; 2],
+    /// Loads at the end of the last step; `None` only while they are in use.
+    pub last_loads: Option<Box<LastLoads>>,
+    /// These loads at the last checkpoint.
+    last_loads_before: Box<LastLoads>,
 }
 
 impl Fatigue {
@@ -81,13 +102,9 @@ impl Fatigue {
 
     fn of(tally: Tally, teeth: Vec<ToothHistory>, counts: [usize; 2]) -> Self {
         let (undo, changed) = (Vec::with_capacity(teeth.len()), vec![0; teeth.len()]);
-        Self { tally, tally_before: tally, teeth, undo, changed, checkpoint: 1, counts }
-    }
-
-    /// True if this is the damage of the gears of `rating` with `groups` groups of planets.
-    pub fn fits(&self, rating: &Rating, groups: usize) -> bool {
-        let [planet, side] = rating.teeth;
-        self.counts == rating.teeth && self.teeth.len() == groups * planet + 2 * side
+        let (last_loads, last_loads_before) = (Some(Box::default()), Box::default());
+        let tally_before = tally;
+        Self { tally, tally_before, teeth, undo, changed, checkpoint: 1, counts, last_loads, last_loads_before }
     }
 
     /// Index of a planet's tooth, by group of planets.
@@ -120,22 +137,6 @@ impl Fatigue {
         tooth
     }
 
-    /// Remembers the present damage for [`Self::roll_back`].
-    pub fn set_checkpoint(&mut self) {
-        self.tally_before = self.tally;
-        self.checkpoint += 1;
-        self.undo.clear();
-    }
-
-    /// Returns to the damage at the last checkpoint.
-    pub fn roll_back(&mut self) {
-        self.tally = self.tally_before;
-        for (index, tooth) in self.undo.drain(..) {
-            self.teeth[index] = tooth;
-        }
-        self.checkpoint += 1;
-    }
-
     /// Remembers the damage of all roots, so that it is computed only once after each change.
     pub fn remember(&mut self, bending: &Bending) {
         self.teeth.iter_mut().for_each(|tooth| tooth.remember(bending));
@@ -155,6 +156,39 @@ impl Fatigue {
             largest = largest.max(roots.largest_open);
         }
         (sums, largest)
+    }
+}
+
+impl Memory for Fatigue {
+    type Checkpoint = ();
+
+    fn checkpoint(&mut self) {
+        self.tally_before = self.tally;
+        self.last_loads.iter().for_each(|loads| *self.last_loads_before = **loads);
+        self.checkpoint += 1;
+        self.undo.clear();
+    }
+
+    fn roll_back(&mut self, (): ()) {
+        self.tally = self.tally_before;
+        self.last_loads.iter_mut().for_each(|loads| **loads = *self.last_loads_before);
+        for (index, tooth) in self.undo.drain(..) {
+            self.teeth[index] = tooth;
+        }
+        self.checkpoint += 1;
+    }
+
+    fn is_valid(&self) -> bool {
+        self.is_finite()
+    }
+
+    /// True if both belong to the same gears.
+    fn fits(&self, start: &Self) -> bool {
+        (self.counts, self.teeth.len()) == (start.counts, start.teeth.len())
+    }
+
+    fn tuned(&mut self) {
+        self.last_loads.iter_mut().for_each(|loads| **loads = LastLoads::default());
     }
 }
 

@@ -79,11 +79,6 @@ impl GearStrength {
         fatigue.remember(&self.rating.bending);
     }
 
-    /// True if `fatigue` is the damage of these gears with `groups` groups of planets.
-    pub fn fits(&self, fatigue: &Fatigue, groups: usize) -> bool {
-        fatigue.fits(&self.rating, groups)
-    }
-
     /// Adds the load of a pair to the load of its mesh. The stress of a root follows from the force of the pair and the
     /// height at which it acts. One spring for all teeth has no pairs: its stress is that of method B1.
     pub fn add_load(&self, mesh: &mut MeshLoad, load: &PairLoad) {

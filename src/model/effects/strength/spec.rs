@@ -53,6 +53,7 @@ impl StrengthSpec {
 
 impl Declare for StrengthSpec {
     const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, Miner damage, and flash temperature";
+    const RECORDS_STEPS: bool = true;
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
         why: "it follows from the forces of the meshes",
