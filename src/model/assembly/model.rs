@@ -14,8 +14,9 @@ use crate::model::effect_kinds::body_friction::PARTS;
 use crate::model::effect_kinds::{BUILT, Friction, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
-use crate::model::setup::{ALL_HEATS, CONTACT_HEAT, HEATS, Parameters, SceneEffects, advice, validation};
+use crate::model::setup::{CONTACT_HEAT, HEATS, Parameters, SceneEffects, advice, validation};
 use crate::model::thermal::Network;
+use crate::model::thermal::of_scene::network;
 use crate::problem::Problem;
 
 /// Representation of the gears.
@@ -118,7 +119,7 @@ impl Model {
         } else {
             None
         };
-        let thermal = (BUILT && parameters.effects.warm_up).then(|| Box::new(network(parameters, &masses)));
+        let thermal = network(parameters, &masses);
         Ok(Self {
             parameters: *parameters,
             thermal,
@@ -145,9 +146,7 @@ impl Model {
     /// Applies the tunable parameters of `parameters`. All other parameters must be unchanged.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
-        if let Some(thermal) = &mut self.thermal {
-            **thermal = network(parameters, &self.masses);
-        }
+        self.thermal = network(parameters, &self.masses);
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
             Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),
@@ -166,13 +165,6 @@ impl Model {
             }
         }
     }
-}
-
-/// Thermal network of a scene whose planet and side gear have the given `masses`.
-fn network(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
-    let [planet, side] = masses.map(|gear| gear.mass);
-    let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
-    p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.output))
 }
 
 /// Influence of effects on single teeth. Solid teeth include their errors directly.

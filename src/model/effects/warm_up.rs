@@ -117,17 +117,6 @@ pub const SUMP_CHANGE: &str = "warm_up.sump_change";
 /// Largest change of both temperatures [K].
 const MOST_CHANGE: f64 = 500.0;
 
-/// Name of a thermal node, and the parameter by which its heat leaves.
-pub fn node_and_path(node: usize) -> (&'static str, &'static str) {
-    match node {
-        GEARS => ("gears", "warm_up.gears_to_oil"),
-        CLUTCH => ("clutch packs", "warm_up.clutch_to_oil"),
-        WASHERS => ("washers", "warm_up.washers_to_oil"),
-        CASE => ("case", "warm_up.case_to_ambient"),
-        _ => ("oil", "warm_up.oil_to_case"),
-    }
-}
-
 impl Effect for WarmUpSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
         let Range { min: coldest, max: hottest } = TEMPERATURES;

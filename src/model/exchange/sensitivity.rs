@@ -11,17 +11,15 @@ use crate::integrate::SecondOrder;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::FrictionEquations;
 use crate::model::dynamics::with_equations;
-use crate::model::effect_kinds::Changes;
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::PairLines;
 use crate::model::outputs::{LedgerReadings, Motion};
 use crate::model::run::Simulation;
 use crate::model::run::imposed::{add_impulse, imposed_speeds};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
-use crate::model::setup::effect_outputs::places_of;
 use crate::model::setup::{HEATS, STEP_READINGS};
 use crate::model::thermal::network::Rates;
-use crate::model::thermal::{NODES, Network};
+use crate::model::thermal::{NODES, Network, of_scene};
 
 /// Distance between neighbouring points along a direction, in natural magnitudes.
 const APART: f64 = 3e-5;
@@ -126,8 +124,7 @@ impl Simulation {
 
     /// Rates of the temperatures [K/s].
     pub fn temperature_rates(&self) -> [f64; NODES] {
-        let rates = &self.ledger_rates().readings[const { places_of("warm_up", Changes::ByStep) }];
-        std::array::from_fn(|node| rates[node])
+        of_scene::temperatures(&self.ledger_rates().readings)
     }
 
     /// Derivatives of angles and speeds along `direction`.
@@ -176,9 +173,8 @@ impl Simulation {
         let mut readings = [0.0; STEP_READINGS];
         if let Some(network) = &self.model.thermal {
             let Rates { temperatures, given_off } = self.thermal_rates(network, &heat);
-            let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
-            thermal[..NODES].copy_from_slice(&temperatures);
-            thermal[NODES..].copy_from_slice(&[network.absorbed(&temperatures), given_off]);
+            let heat = [network.absorbed(&temperatures), given_off];
+            of_scene::set_readings(&mut readings, &temperatures, Some(heat));
         }
         LedgerReadings { heat, readings, ..LedgerReadings::default() }
     }

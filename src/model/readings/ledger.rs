@@ -1,14 +1,12 @@
 //! The ledger, and statistics of the solver.
 
 use crate::model::dynamics::State;
-use crate::model::effect_kinds::Changes;
 use crate::model::outputs::LedgerReadings;
 use crate::model::run::Simulation;
 use crate::model::run::events::energy;
 use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 use crate::model::setup::STEP_READINGS;
-use crate::model::setup::effect_outputs::places_of;
-use crate::model::thermal::NODES;
+use crate::model::thermal::of_scene;
 
 impl Simulation {
     /// Kinetic and stored energy at the end of the last step in the ledger [J].
@@ -19,27 +17,18 @@ impl Simulation {
 
     /// Ledger and solver statistics.
     pub fn ledger(&mut self) -> LedgerReadings {
-        if let (Some(strength), Some(fatigue)) = (&self.model.strength, self.memories.strength.get_mut()) {
-            strength.remember(fatigue);
-        }
+        self.remember_damage();
         self.read_completed(Self::ledger_at)
     }
 
     /// Ledger in `state`, in which the pending step is completed up to the present.
     fn ledger_at(&self, state: &State) -> LedgerReadings {
-        let (s, memories) = (&self.state.statistics, &self.memories);
+        let s = &self.state.statistics;
         let mut readings = [0.0; STEP_READINGS];
-        if let (Some(strength), Some(fatigue)) = (&self.model.strength, memories.strength.get()) {
-            strength.read_damage(fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
-        }
-        if let Some(history) = memories.mesh_history.get() {
-            history.read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
-        }
-        let thermal = &mut readings[const { places_of("warm_up", Changes::ByStep) }];
-        thermal[..NODES].copy_from_slice(&state.thermal.temperatures());
-        if let Some(network) = &self.model.thermal {
-            thermal[NODES..].copy_from_slice(&[network.stored(&state.thermal), state.thermal.given_off]);
-        }
+        self.read_damage_and_history(&mut readings);
+        let network = self.model.thermal.as_deref();
+        let heat = network.map(|network| [network.stored(&state.thermal), state.thermal.given_off]);
+        of_scene::set_readings(&mut readings, &state.thermal.temperatures(), heat);
         self.read_coupling(&mut readings);
         // held bodies follow the recorded events, because completing the step may switch friction before its event is
         // recorded

@@ -36,9 +36,9 @@ fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Opt
 
 /// Inputs that have an effect in the scene. All others are set to zero, so that a value without effect changes no step.
 fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
-    let (plan, parameters) = (&model.ideal.plan, &model.parameters);
+    let plan = &model.ideal.plan;
     let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
-    let is_warm = model.thermal.is_some();
+    let around = model.thermal.as_ref().map(|network| network.around);
     Inputs {
         carrier_speed: given(plan.carrier_imposed, inputs.carrier_speed),
         carrier_torque: given(!plan.carrier_imposed, inputs.carrier_torque),
@@ -47,9 +47,9 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
         planet_spin: given(plan.spin_imposed, inputs.planet_spin),
         lock: inputs.lock,
         brake_torque: inputs.brake_torque.map(|torque| given(model.body_effects().has_brakes, torque)),
-        fault: given(parameters.effects.tooth_fault, inputs.fault),
-        ambient_change: given(is_warm, inputs.ambient_change),
-        sump_change: given(is_warm && parameters.specs.warm_up.sump_given, inputs.sump_change),
+        fault: given(timeline::may_break_tooth(model), inputs.fault),
+        ambient_change: given(around.is_some(), inputs.ambient_change),
+        sump_change: given(around.is_some_and(|around| around.sump.is_some()), inputs.sump_change),
     }
 }
 

@@ -22,6 +22,12 @@ fn given(inputs: &Inputs, side_imposed: [bool; 2]) -> [f64; PORTS] {
 }
 
 impl Simulation {
+    /// True if the exchange with the host is recorded.
+    #[inline]
+    pub(super) fn records_exchange(&self) -> bool {
+        self.memories.coupling_advice.is_on()
+    }
+
     /// Advances as [`Simulation::advance_by`] does, and records the exchange. A part of a communication step is
     /// recorded with its end.
     #[cold]

@@ -172,7 +172,7 @@ impl Simulation {
     /// the last good time.
     #[inline]
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
-        if self.memories.coupling_advice.is_on() {
+        if self.records_exchange() {
             return self.advance_recorded(until, options);
         }
         self.advance_unrecorded(until, options)

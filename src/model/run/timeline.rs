@@ -38,16 +38,24 @@ fn resolution(time: f64) -> f64 {
 /// Time of the next change of the equations that the host does not cause [s]: the onset of the tooth fault, if it is
 /// still to come.
 pub fn next_change(model: &Model, state: &State) -> Option<f64> {
-    let p = &model.parameters;
-    let onset = p.specs.tooth_fault.time().filter(|_| p.effects.tooth_fault && !state.is_tooth_broken);
+    let onset = onset(model).filter(|_| may_break_tooth(model) && !state.is_tooth_broken);
     onset.filter(|&onset| !has_come(onset, state))
+}
+
+/// True if a tooth of the scene may break.
+pub fn may_break_tooth(model: &Model) -> bool {
+    model.parameters.effects.tooth_fault
+}
+
+/// Time at which a tooth breaks by itself [s], if it does.
+fn onset(model: &Model) -> Option<f64> {
+    model.parameters.specs.tooth_fault.time()
 }
 
 /// True if a tooth breaks now, because its time has come or the fault input triggers it.
 pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let p = &model.parameters;
-    let has_come = || p.specs.tooth_fault.time().is_some_and(|onset| has_come(onset, state));
-    p.effects.tooth_fault && !state.is_tooth_broken && (inputs.fault > 0.5 || has_come())
+    let has_come = || onset(model).is_some_and(|onset| has_come(onset, state));
+    may_break_tooth(model) && !state.is_tooth_broken && (inputs.fault > 0.5 || has_come())
 }
 
 /// True if `time` [s] has been reached, within the rounding of times.

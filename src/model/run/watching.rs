@@ -2,17 +2,19 @@
 //! side speeds and transmission errors over mesh cycles. Both use the dense output, so that extremes within steps
 //! count. Without dense output, extremes are those at the ends of the steps.
 
+use super::Simulation;
 use super::completed_step::StepMotion;
 use crate::integrate::{Curve, Point};
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Largest, MAX_SIZE};
-use crate::model::effect_kinds::BUILT;
+use crate::model::effect_kinds::{BUILT, Changes};
 use crate::model::effects::Memories;
 use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RatedPlanet, RatedStep, Sample};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
-use crate::model::setup::Parameters;
+use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::{Parameters, STEP_READINGS};
 
 /// Memories at the start of a run of `model` at `start` [s].
 pub fn at_start(model: &Model, start: f64, in_equilibrium: bool) -> Memories {
@@ -24,6 +26,25 @@ pub fn at_start(model: &Model, start: f64, in_equilibrium: bool) -> Memories {
         strength: model.strength.as_deref().map(damage).into(),
         mesh_history: (BUILT && effects.mesh_history).then(Default::default).into(),
         coupling_advice: (BUILT && effects.coupling_advice).then(Default::default).into(),
+    }
+}
+
+impl Simulation {
+    /// Remembers the damage of all teeth, because it is read.
+    pub(in crate::model) fn remember_damage(&mut self) {
+        if let (Some(strength), Some(fatigue)) = (&self.model.strength, self.memories.strength.get_mut()) {
+            strength.remember(fatigue);
+        }
+    }
+
+    /// Sets the readings of damage and mesh history.
+    pub(in crate::model) fn read_damage_and_history(&self, readings: &mut [f64; STEP_READINGS]) {
+        if let (Some(strength), Some(fatigue)) = (&self.model.strength, self.memories.strength.get()) {
+            strength.read_damage(fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
+        }
+        if let Some(history) = self.memories.mesh_history.get() {
+            history.read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+        }
     }
 }
 

@@ -5,7 +5,8 @@ use crate::FULL;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
 use crate::model::effect_kinds::BUILT;
-use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive, Start};
+use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive};
+use crate::model::thermal::of_scene::constant_temperatures;
 use crate::problem::Problem;
 
 /// All contradictions in `p`.
@@ -60,12 +61,7 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     {
         found.push(problem);
     }
-    if scene.start == Start::SteadyHeat && !p.effects.warm_up {
-        found.push(Problem::new(
-            "scene.start",
-            "steady_heat needs temperatures that change: set effects.warm_up = true",
-        ));
-    }
+    found.extend(constant_temperatures(p));
     if scene.gear_contact == GearContact::Solid {
         if contact.law != ContactLaw::Impact {
             found.push(Problem::new(

@@ -9,7 +9,7 @@ use crate::model::run::events::{apply_changes, break_tooth};
 use crate::model::run::{Simulation, imposed, watching};
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
 use crate::model::setup::{HEATS, Parameters};
-use crate::model::thermal::Thermal;
+use crate::model::thermal::of_scene;
 use crate::problem::Problem;
 
 /// Size of the first attempted step after a start [s]. It resolves the fastest motion of stiff teeth, and the
@@ -32,14 +32,7 @@ impl Simulation {
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
         let (model, state) = (&simulation.model, &mut simulation.state);
-        let oil = parameters.oil.temperature;
-        state.thermal = match &model.thermal {
-            Some(network) => {
-                let sump = network.around.changed(inputs.changes_outside()).sump;
-                Thermal::at(parameters.specs.warm_up.temperatures_at_start(sump.unwrap_or(oil)))
-            }
-            None => Thermal::uniform(oil),
-        };
+        state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start
         break_tooth(model, inputs, state);

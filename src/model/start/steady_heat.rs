@@ -8,11 +8,10 @@ use std::sync::Arc;
 
 use crate::declaration::units::TEMPERATURES;
 use crate::model::effects::Memories;
-use crate::model::effects::warm_up::node_and_path;
 use crate::model::run::Simulation;
 use crate::model::setup::HEATS;
 use crate::model::thermal::steady::{CycleMeans, Steady};
-use crate::model::thermal::{NODES, Network, OIL, Thermal};
+use crate::model::thermal::{NODES, Network, OIL, Thermal, of_scene};
 use crate::problem::Problem;
 
 /// Difference of temperatures above which there are two steady states [K].
@@ -42,7 +41,7 @@ impl Simulation {
         let attempts = Cell::new(0.0);
         let heats = |at: &[f64; NODES]| still.cycle(&network, at, &attempts);
         let cold = network.around.ambient.min(self.model.parameters.oil.temperature);
-        let length = self.model.parameters.specs.warm_up.cycle;
+        let length = of_scene::cycle(&self.model.parameters);
         let not_periodic = |at: &[f64; NODES]| still.not_periodic(&network, at, length);
         let found = network.steady(cold, &influential, heats);
         let temperatures = match found {
@@ -77,7 +76,7 @@ impl Simulation {
     fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<CycleMeans, Problem> {
         let mut run = Box::new(self.clone());
         run.state.thermal = Thermal::at(*at);
-        let (begin, length) = (self.time(), self.model.parameters.specs.warm_up.cycle);
+        let (begin, length) = (self.time(), of_scene::cycle(&self.model.parameters));
         let [from, to] = [1.0, 2.0].map(|part| -> Result<_, Problem> {
             let moved = run.advance(begin + part * length);
             moved.map_err(|failure| problem!(START, "the cycle whose heat is to balance cannot be run: {failure}"))?;
@@ -87,7 +86,7 @@ impl Simulation {
         attempts.set(attempts.get() + to.steps + to.rejected);
         if attempts.get() > MOST_ATTEMPTS {
             return Err(problem!(
-                "warm_up.cycle",
+                of_scene::CYCLE,
                 "{length} s: the cycles that scene.start = steady_heat runs take more than {MOST_ATTEMPTS:e} steps; shorten it, or \
                  set scene.start = equilibrium"
             ));
@@ -113,7 +112,7 @@ fn no_steady_heat(end: Steady) -> String {
     let Steady::Beyond(node, temperature) = end else {
         return "no steady temperatures were found; scene.start = equilibrium begins at oil.temperature instead".into();
     };
-    let (name, path) = node_and_path(node);
+    let (name, path) = of_scene::node_and_path(node);
     format!(
         "there are no steady temperatures from {:.0} to {:.0} degC: the {name} would reach {:.4e} degC; raise {path}, by \
          which their heat leaves, or lower the friction",

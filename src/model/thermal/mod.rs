@@ -4,6 +4,7 @@ pub mod network;
 #[cfg(test)]
 #[path = "tests/network.rs"]
 mod network_tests;
+pub mod of_scene;
 pub mod steady;
 #[cfg(test)]
 #[path = "tests/steady.rs"]

@@ -21,6 +21,8 @@ def run(arguments: argparse.Namespace) -> int:
     out = Path(arguments.out)
     copies = {file: out / name / file.name for name, patterns in FOLDERS.items() for pattern in patterns
               for file in sorted((folder() / name).glob(pattern))}
+    if not copies:
+        raise DifferentialError(f"the examples are missing in {folder()}; install the package again")
     there = [str(copy) for copy in copies.values() if copy.exists()]
     if there:
         raise DifferentialError(f"{', '.join(there)} {'is' if len(there) == 1 else 'are'} there already; name another folder by --out")

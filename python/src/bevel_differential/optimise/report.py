@@ -1,7 +1,7 @@
 """Report of a front: tables, a picture, and chosen designs for other programs, as scene files and gears."""
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from math import isnan
 
 import pandas as pd
@@ -60,6 +60,14 @@ def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], pr
         numbers = ", ".join(str(each.run) for each in better[:8])
         return f"{name}: {len(better)} of {len(best)} designs of the front are better in all objectives (run {numbers}){checks}."
     return f"{name}: no design of the front is better in all objectives{checks}."
+
+
+def failing(chosen: Sequence[DesignRow]) -> Iterator[str]:
+    """Sentences about safety factors below 1 of the chosen designs."""
+    for letter, row in zip(LETTERS, chosen):
+        below = [f"{want.split(':')[0]} = {value:.3g}" for want, value in row.figures.items() if want.startswith("safety.") and value < 1.0]
+        if below:
+            yield f"{letter} fails: {', '.join(below)} is below 1."
 
 
 def _unless(cells, nothing, label, compared):
