@@ -209,6 +209,19 @@ def test_the_advice_is_at_most_the_longest_stable_step(fmu, ports, stiffness, da
         assert max(advised, default=0.0) < 1.2 * stable
 
 
+@pytest.mark.parametrize("delay, ramp", [(1, False), (0, True), (1, True)])
+@pytest.mark.parametrize("stiffness, damping", [(9000.0, 5.0), (8000.0, 50.0)])
+def test_the_advice_knows_that_late_hosts_and_ramps_allow_shorter_steps(fmu, stiffness, damping, delay, ramp):
+    values = {"solver.input_ramp": ramp, "inertia.left_end": 0.1, "carrier.torque_command": 20.0}
+    scene = Scene("free", stop=1.0, step=1e-3, outputs=["left.speed"], set=FREE | values, fmu=fmu.file)
+    spring = Spring.spring("left", stiffness, damping, 1e3, reads="both")
+    stable = coupling(scene, [spring], "jacobi" if delay else "gauss-seidel", "held").limit
+    host = Host(stiffness, damping, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time))
+    run = couple(fmu, {"left": host}, 0.2 * stable, max(200.0 * stable, 0.5), delay=delay, values=values)
+    advised = [advice for advice in run.advice[40:] if advice > 0.0]
+    assert advised and max(advised) < 1.05 * stable
+
+
 def test_a_step_that_is_far_too_long_is_reported_before_the_run_fails(fmu):
     # the limit is 1.1 ms
     hosts = {port: Host(17400.0, 10.0, 79.0) for port in ("left", "right")}
