@@ -44,6 +44,16 @@ def test_without_delay_the_limit_of_an_inertia_on_a_spring_is_that_of_the_hand_c
     assert swings < 0.45 if c / k < j / c else swings == pytest.approx(0.5, rel=0.01)
 
 
+@pytest.mark.parametrize("j, k, c", [(1.0, 9000.0, 12.0), (2.0, 1e5, 90.0)])
+def test_beyond_the_limit_a_swing_doubles_as_the_hand_calculation_says(j, k, c):
+    # det M = 1 - h c/j + h2 k/(2 j) is the square of the growth in a step
+    step = 4.0 * c / k
+    made = stability(inertia(j), [Host.spring("left", k, c, reads="both")], GAUSS_SEIDEL)
+    growth = sqrt(1.0 - step * c / j + step**2 * k / (2.0 * j))
+    assert made.doubling(step) == pytest.approx(step * log(2.0) / log(growth), rel=1e-6)
+    assert made.doubling(0.9 * made.limit) == inf
+
+
 def test_one_step_later_the_limit_is_two_thirds_of_damping_by_stiffness():
     made = stability(inertia(1.0), [Host.spring("left", 9000.0, 12.0, reads="both")], JACOBI)
     assert made.limit == pytest.approx(0.885e-3, abs=5e-7)

@@ -63,6 +63,11 @@ class Coupling:
         # just above the limit, so that the growing motion is the largest
         return None if math.isinf(self.limit) else mode(self.exchange, 1.001 * self.limit or USUAL)
 
+    def doubling(self, step: float) -> float:
+        """Time in which the fastest motion doubles in steps of `step` [s], s; infinite if no motion grows."""
+        factor = self.growth(step)
+        return step * math.log(2.0) / math.log(factor) if factor > 1.0 else math.inf
+
     def apparent(self) -> dict[str, Apparent]:
         """Apparent inertia and stiffness of each port at the longest step; the torques of other ports are constant."""
         found, rate = {}, 1.0 / self.step

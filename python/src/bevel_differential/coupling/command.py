@@ -43,7 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
         print(f"the teeth do not rest at this time: a disturbance grows by a factor e in {1.0 / departure:.3g} s, also without a cut; "
               "this growth is not counted (effects.thrust_friction and other friction stop it; --at names another time)")
     if lost := made.mode():
-        print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}")
+        twice = 2.0 * made.step
+        print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}; in steps of {step(twice)}, it doubles in "
+              f"{made.doubling(twice):.3g} s")
     print(f"\nas the hosts see the ports in steps of {step(made.step)}:")
     rows = [(port, f"{found.inertia:.4g}", f"{found.stiffness:.4g}") for port, found in made.apparent().items()]
     print("\n".join(aligned([("port", "inertia, kg.m2", "stiffness, N.m/rad"), *rows], 1)))
