@@ -149,6 +149,12 @@ def test_failures_are_listed_by_message_the_most_frequent_first(capsys):
     assert [line.split()[0] for line in lines[2:4]] == ["2", "2"] and all("geometry.module" in line for line in lines[2:4])
 
 
+@pytest.mark.parametrize("command", ["run", "plan"])
+def test_without_a_scene_the_scenes_are_listed(command, capsys):
+    assert main([command]) == 0
+    assert {line.split()[0] for line in capsys.readouterr().out.splitlines()} >= {"clunk", "study_turning"}
+
+
 @pytest.mark.parametrize("arguments, parts", [
     (["swep"], ["swep", "did you mean sweep"]),
     (["loads"], ["scene", "loads --help"]),

@@ -3,7 +3,7 @@
 import argparse
 
 from . import DONE
-from .arguments import add_file, add_set, add_times, add_units, changes
+from .arguments import DECIMAL, add_file, add_set, add_times, add_units, changes
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -39,7 +39,9 @@ def listed(command: str, arguments: argparse.Namespace) -> str:
     from ..text import aligned
     from ..values import DifferentialError
 
-    given = [f"--{name}" for name, value in vars(arguments).items() if name != "fmu" and value]
+    # the decimal sign has a start value
+    given = [f"--{name.replace('_', '-')}" for name, value in vars(arguments).items()
+             if name != "fmu" and value and (name, value) != (DECIMAL, "point")]
     if given:
         raise DifferentialError(f"{', '.join(given)}: name a scene; `bevel-differential {command}` lists them", kind="use")
     return "\n".join(aligned([(scene["name"], scene["description"]) for scene in ask({"ask": "scenes", "scenes": scenes()})["scenes"]]))
