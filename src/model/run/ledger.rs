@@ -2,7 +2,7 @@
 
 use super::completed_step::{CompletedStep, StepMotion};
 use super::failure::ExcessiveDeflection;
-use super::watching::watch_step;
+use super::watching::{self, watch_step};
 use crate::integrate::{Curve, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
@@ -138,7 +138,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if BUILT {
             warm_up(model, &self.applied, step, sums);
         }
-        if let (true, Some(memories)) = (BUILT, &mut sums.memories) {
+        if let (true, Some(memories)) = (BUILT, &mut sums.memories)
+            && watching::records_steps(model, memories)
+        {
             let completed = StepMotion::new(self, (step, motion), sums.begin);
             watch_step(&self.largest(), model, &completed, memories);
         }

@@ -48,6 +48,12 @@ impl Simulation {
     }
 }
 
+/// True if damage or mesh history record steps.
+#[inline]
+pub fn records_steps(model: &Model, memories: &Memories) -> bool {
+    model.strength.is_some() || memories.mesh_history.is_on()
+}
+
 /// Adds a completed step to damage and history, if the scene needs them.
 ///
 /// Not inlined, so that the loop over the steps is the same in every scene.
