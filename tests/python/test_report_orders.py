@@ -109,6 +109,13 @@ def test_a_run_up_of_a_scene_driven_by_torques_leaves_the_planets_free_and_says_
     assert np.argmax(here[:3]) == np.argmax(there) == 0
 
 
+def test_a_heavy_wheel_does_not_add_its_inertia_to_the_load_of_the_run_up(simulated):
+    run = simulated("torque_bias", {"scene.right_drive": "torque", "scene.carrier_drive": "speed", "right.load_torque": "835 N.m",
+                                    "effects.half_shaft": True, "inertia.right_end": 300.0})
+    # the carrier accelerates by 2 rad/s2
+    assert run_up(run).loads[1] == pytest.approx(run.mean("right.shaft_torque"), rel=0.01)
+
+
 def test_a_run_up_at_imposed_spin_has_even_orders_only_if_planets_are_half_a_pitch_apart(simulated):
     """In step, the odd orders of neighbouring planets have opposite signs, so that they cancel at the side gear."""
     up, here, there = orders_of(simulated("study_turning", OUT_OF_PHASE))

@@ -21,7 +21,7 @@ LIMIT = 1e-7
 LIMITS = {"safety.": 1e-5, "damage.": 10.0 * LIMIT, "locking_value": 10.0 * LIMIT, "torque_bias_ratio": 10.0 * LIMIT}
 # smallest change that counts as an effect of a constant, far above remaining errors of rounding and of the solver's tolerance
 SEEN = 1e-6
-SEED, SCENES, POINTS = 21, 36, 6
+SEED, SCENES, POINTS = 21, 24, 6
 # numbers of literals in the interface
 ADAPTIVE, FIXED_STEP, GLEASON, EXPLICIT = 1, 2, 2, 4
 # error control is not homogeneous (below), so motions are resolved more finely than they are compared

@@ -83,7 +83,7 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     for turns in (TURNS, FEWER):
         # all speeds rise at a constant rate, so the turns are mean spin times duration
         seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
-        record = _simulate(run.scene, values, commands, seconds, step, MOST if turns > FEWER else np.inf, progress)
+        record = _simulate(run.scene, values, commands, _of_wheels(run, ratio, imposed), seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
             break
     left, right = (mean_over_time(record[name], record["time"]) for name in SHAFTS)
@@ -109,6 +109,14 @@ def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, f
     difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
     speeds = dict(zip(DRIVES, (1.0, 1.0 + difference, 1.0 - difference, ratio)))
     return {DRIVES[name][2]: speeds[name] for name in imposed}
+
+
+def _of_wheels(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
+    """Torque that accelerates each wheel driven by torque over the acceleration of the carrier, by the name of its load, kg·m²."""
+    difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
+    parts = {"left": 1.0 + difference, "right": 1.0 - difference}
+    return {f"{side}.load_torque": part * float(run.value(f"inertia.{side}_end")) for side, part in parts.items()
+            if f"the {side} wheel's speed" not in imposed}
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:
@@ -167,9 +175,10 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
     return found
 
 
-def _simulate(scene: Scene, values, commands, seconds, step, most, progress):
-    """Simulates with inputs that change linearly, which the FMU follows between communication points. Returns None if the first tenth
-    predicts more than `most` evaluations."""
+def _simulate(scene: Scene, values, commands, wheels, seconds, step, most, progress):
+    """Simulates with inputs that change linearly, which the FMU follows between communication points. `wheels`: by load, the torque that
+    accelerates its wheel over the carrier's acceleration; the load is that much smaller. Returns None if the first tenth predicts more
+    than `most` evaluations."""
     points = int(np.ceil(seconds / step))
     rate = (FASTEST - SLOWEST) / (seconds - 0.5 * BEGINNING)
     record = np.empty(points + 1, [("time", float), *((name, float) for name in RECORDED)])
@@ -181,6 +190,7 @@ def _simulate(scene: Scene, values, commands, seconds, step, most, progress):
             if (point - 1) * step <= BEGINNING + step:
                 slope = rate * 0.5 * (1.0 - np.cos(np.pi * min((point - 0.5) * step / BEGINNING, 1.0)))
                 instance.set_slopes({name: part * slope for name, part in commands.items()})
+                instance.set({name: values[name] - inertia * slope for name, inertia in wheels.items()})
             instance.step(step)
             record[point] = (instance.time, *instance.read(RECORDED))
             if point % 1000 == 0:

@@ -199,11 +199,12 @@ impl Port {
         Some(Law { per_movement: sign * law.per_movement, per_rate: sign * law.per_rate, ..law })
     }
 
-    /// True if the law shows a stable step: that of a load with a damper, in a motion that oscillates. A motion that the host
-    /// alone causes shows another law.
+    /// True if the law shows a stable step, in a motion that oscillates: that of a load with a damper, or a well-known one behind
+    /// a half-shaft. A motion that the host alone causes shows another law.
     pub fn is_sure(&self, sign: f64, is_shaft: bool) -> bool {
-        self.oscillation.has_period()
-            && (is_shaft || self.law(sign).is_some_and(|law| law.per_rate > CERTAIN * law.rate_error))
+        let is_damped = |law: &Law| law.per_rate > CERTAIN * law.rate_error;
+        let shows = if is_shaft { self.known.is_some() } else { self.law(sign).as_ref().is_some_and(is_damped) };
+        shows && self.oscillation.has_period()
     }
 
     /// Longest stable step [s] of a host that sets a torque, which acts `lag` steps late. Its springs give the unit the
