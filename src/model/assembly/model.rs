@@ -16,7 +16,7 @@ use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
 use crate::model::setup::{CONTACT_HEAT, HEATS, Parameters, SceneEffects, advice, validation};
 use crate::model::thermal::Network;
-use crate::model::thermal::of_scene::network;
+use crate::model::thermal::of_scene::{network, with_parameters};
 use crate::problem::Problem;
 
 /// Representation of the gears.
@@ -146,7 +146,9 @@ impl Model {
     /// Applies the tunable parameters of `parameters`. All other parameters must be unchanged.
     pub fn tune(&mut self, parameters: &Parameters) {
         self.parameters = *parameters;
-        self.thermal = network(parameters, &self.masses);
+        if let Some(thermal) = &mut self.thermal {
+            **thermal = with_parameters(parameters, &self.masses);
+        }
         let effects = parameters.scene_effects(&self.pair);
         match &mut self.gears {
             Gears::Ideal(ideal) => ideal.body_effects.tune(&effects),

@@ -14,10 +14,14 @@ const READINGS: std::ops::Range<usize> = places_of("warm_up", Changes::ByStep);
 
 /// Network of a scene whose planet and side gear have the given `masses`; `None` if temperatures are constant.
 pub fn network(p: &Parameters, masses: &[GearMass; 2]) -> Option<Box<Network<HEATS>>> {
+    (BUILT && p.effects.warm_up).then(|| Box::new(with_parameters(p, masses)))
+}
+
+/// Network with the parameters `p`.
+pub fn with_parameters(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
     let [planet, side] = masses.map(|gear| gear.mass);
     let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
-    let network = || p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.output));
-    (BUILT && p.effects.warm_up).then(|| Box::new(network()))
+    p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.output))
 }
 
 /// Temperatures at the start, with the `network` of the scene.
