@@ -25,8 +25,6 @@ const EXTREME: f64 = 0.5;
 const FEW_STEPS: f64 = 12.0;
 /// Number of successive swings with growth after which the cut is unstable: four periods.
 const GROWTHS: u32 = 8;
-/// Ratio of the advice to the present step that is not exceeded while the longest stable step is unknown.
-const UNSURE: f64 = 2.0;
 /// Fraction of the energy through all ports that is the lower bound of the denominator of each port's ratio.
 const LEAST_SHARE: f64 = 0.05;
 
@@ -160,8 +158,8 @@ impl Coupling {
             reacting().map(|port| self.ports[port].step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
         let stable = reacting().map(|port| steps[port]).fold(f64::INFINITY, f64::min);
         let is_sure = |port: usize| self.ports[port].is_sure(SIGNS[port], cut.shafts[port].is_some());
-        // far longer steps than the present ones may be unstable
-        let stable = if reacting().all(is_sure) { stable } else { stable.min(UNSURE * self.step()) };
+        // nobody knows if longer steps than the present ones are stable
+        let stable = if reacting().all(is_sure) { stable } else { stable.min(self.step()) };
         if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
             return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);
         }
