@@ -77,7 +77,7 @@ def test_the_advised_step_gives_the_wanted_ratio(coupled, system, delay, lines, 
 
 
 @pytest.mark.parametrize(("delay", "lines", "order"), ORDERS)
-def test_a_motor_that_alone_causes_the_motion_gets_no_unstable_step(coupled, delay, lines, order):
+def test_a_motor_that_causes_the_motion_gets_no_unstable_step(coupled, delay, lines, order):
     # the unit sees its own inertia, which says nothing about the limit of longer steps: 2 c/(3 k) if the host is late
     advice = coupled("motor", SIZE / 2, delay, lines, **{"coupling.wanted_ratio": 0.5}).advice[-1]
     assert advice < 2.0 * 10.0 / (3.0 * 2000.0)
@@ -209,7 +209,7 @@ def test_the_advice_is_at_most_the_longest_stable_step(fmu, ports, stiffness, da
         run = couple(fmu, hosts, share * stable, max(200.0 * share * stable, 1.0), lines=lines,
                      values={} if "carrier" in ports else {"carrier.torque_command": 20.0})
         advised = [advice for advice in run.advice[40:] if advice > 0.0]
-        # the host's law is learned from noisy differences; a motion that is damped at once shows none
+        # the host's law is learned from noisy differences; a motion that is damped within a period shows none
         assert advised or damping == 400.0
         assert max(advised, default=0.0) < 1.2 * stable
 

@@ -11,7 +11,7 @@ SOURCES = ROOT / "src"
 HOMES = ("model/effects/", "model/thermal/", "contact/errors/", "friction/")
 # files that name effects, with the names and the reason
 EXCEPTIONS = {
-    "model/assembly/body_effects.rs": ({"half_shaft"}, "ideal gears with half-shafts alone have a fast path"),
+    "model/assembly/body_effects.rs": ({"half_shaft"}, "ideal gears with no effect but half-shafts have a fast path"),
     "model/assembly/model.rs": ({"strength"}, "the rating follows from gears, which only the model knows"),
     "model/assembly/solid.rs": ({"tooth_errors"}, "solid teeth include their errors directly"),
     "model/outputs/forces.rs": ({"strength"}, "stresses share the evaluation of the teeth with the forces"),

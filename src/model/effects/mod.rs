@@ -141,7 +141,6 @@ macro_rules! effects {
             $(pub $command: $commanded,)+
         }
 
-
         /// Memories of the effects that are on.
         #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
         #[allow(missing_docs)]

@@ -37,9 +37,9 @@ impl Simulation {
         let before = given(&self.inputs, side_imposed);
         let derivatives = self.state.input_derivatives.as_ref();
         let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
-        let start = (self.time(), self.places());
-        if let Some(coupling) = self.memories.coupling_advice.get_mut() {
-            coupling.last.get_or_insert(start);
+        if self.memories.coupling_advice.get().is_some_and(|coupling| coupling.last.is_none()) {
+            let last = Some((self.time(), self.places()));
+            self.memories.coupling_advice.get_mut().into_iter().for_each(|coupling| coupling.last = last);
         }
         let begin = self.time();
         self.advance_unrecorded(until, options)?;

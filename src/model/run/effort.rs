@@ -85,13 +85,12 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
         };
         let layout = equations.layout();
         let (name, unit) = name_of(layout, i);
+        let sources = &model.body_effects().friction;
         format!(
             "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
             at.v[i],
             rates[i],
-            friction_on(&model.body_effects().friction, state, i, |k| FrictionEquations::<N>::freedom_of(
-                &equations, k
-            ))
+            friction_on(sources, state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k))
         )
     })
 }
@@ -176,11 +175,9 @@ mod tests {
         );
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
         with_equations!(&model, &state, &inputs, |equations| {
-            let friction = |i: usize| {
-                friction_on(&model.body_effects().friction, &state, i, |k| {
-                    FrictionEquations::<N>::freedom_of(&equations, k)
-                })
-            };
+            let sources = &model.body_effects().friction;
+            let freedom_of = |k: usize| FrictionEquations::<N>::freedom_of(&equations, k);
+            let friction = |i: usize| friction_on(sources, &state, i, freedom_of);
             assert_eq!(friction(1), "; wheel_brake holds it");
             assert_eq!(friction(CARRIER), "");
         });

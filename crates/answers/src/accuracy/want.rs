@@ -67,7 +67,7 @@ impl Want {
 
     /// Size of 100 % in the reference: the rms value for means and rms values, the largest magnitude for values and
     /// extremes, and the statistic itself for swings, orders, times and ratios. A ratio such as a safety factor is very
-    /// large where nothing is loaded, which says nothing about its other values.
+    /// large if nothing is loaded, which says nothing about its other values. A ratio of 0 is treated like other outputs.
     pub fn scale(&self, scene: &Scene, reference: &Record) -> Result<f64, String> {
         let size = |output: usize| {
             let of = |statistic: Statistic| statistic.of(reference, output);

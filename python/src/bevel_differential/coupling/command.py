@@ -1,6 +1,7 @@
 """The command `coupling`."""
 
 import argparse
+import math
 
 from ..command import DONE, FINDING
 from ..command.arguments import add_file, add_fmu, add_set, once
@@ -44,8 +45,9 @@ def run(arguments: argparse.Namespace) -> int:
               "this growth is not counted (effects.thrust_friction and other friction stop it; --at names another time)")
     if lost := made.mode():
         twice = 2.0 * made.step
-        print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}; in steps of {step(twice)}, it doubles in "
-              f"{made.doubling(twice):.3g} s")
+        doubling = made.doubling(twice)
+        pace = f"; in steps of {step(twice)}, it doubles in {doubling:.3g} s" if math.isfinite(doubling) else ""
+        print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}{pace}")
     print(f"\nas the hosts see the ports in steps of {step(made.step)}:")
     rows = [(port, f"{found.inertia:.4g}", f"{found.stiffness:.4g}") for port, found in made.apparent().items()]
     print("\n".join(aligned([("port", "inertia, kg.m2", "stiffness, N.m/rad"), *rows], 1)))

@@ -80,10 +80,11 @@ def run_up(run: Simulated, progress: Progress = silent) -> RunUp:
     # enough points for the orders that theory expects
     per_turn = max(PER_TURN, int(PER_ORDER * max(theory(run, ratio).values())))
     step = 2.0 * np.pi / (abs(ratio) * FASTEST * per_turn)
+    wheels = _of_wheels(run, ratio, imposed)
     for turns in (TURNS, FEWER):
         # all speeds rise at a constant rate, so the turns are mean spin times duration
         seconds = turns * 2.0 * np.pi / (abs(ratio) * 0.5 * (SLOWEST + FASTEST)) + 0.5 * BEGINNING
-        record = _simulate(run.scene, values, commands, _of_wheels(run, ratio, imposed), seconds, step, MOST if turns > FEWER else np.inf, progress)
+        record = _simulate(run.scene, values, commands, wheels, seconds, step, MOST if turns > FEWER else np.inf, progress)
         if record is not None:
             break
     left, right = (mean_over_time(record[name], record["time"]) for name in SHAFTS)
@@ -105,18 +106,22 @@ def imposed_of(run: Simulated) -> tuple[list[str], list[str]]:
 
 
 def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
-    """Commands of the imposed speeds over the speed of the carrier, by Willis' equation."""
-    difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
-    speeds = dict(zip(DRIVES, (1.0, 1.0 + difference, 1.0 - difference, ratio)))
+    """Commands of the imposed speeds over the speed of the carrier."""
+    speeds = _speeds(run, ratio)
     return {DRIVES[name][2]: speeds[name] for name in imposed}
+
+
+def _speeds(run: Simulated, ratio: float) -> dict[str, float]:
+    """Speeds of DRIVES over the speed of the carrier, by Willis' equation."""
+    difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
+    return dict(zip(DRIVES, (1.0, 1.0 + difference, 1.0 - difference, ratio)))
 
 
 def _of_wheels(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
     """Torque that accelerates each wheel driven by torque over the acceleration of the carrier, by the name of its load, kg·m²."""
-    difference = ratio * float(run.value("geometry.planet_teeth")) / float(run.value("geometry.side_teeth"))
-    parts = {"left": 1.0 + difference, "right": 1.0 - difference}
-    return {f"{side}.load_torque": part * float(run.value(f"inertia.{side}_end")) for side, part in parts.items()
-            if f"the {side} wheel's speed" not in imposed}
+    speeds = _speeds(run, ratio)
+    return {f"{side}.load_torque": speeds[name] * float(run.value(f"inertia.{side}_end"))
+            for side in ("left", "right") if (name := f"the {side} wheel's speed") not in imposed}
 
 
 def ratio_of(run: Simulated) -> tuple[float, list[str]]:

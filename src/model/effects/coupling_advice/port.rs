@@ -132,8 +132,9 @@ pub struct Port {
 finite!(Port { error, passed, errors, first_order, second_order, fastest, regression, known, oscillation, swing; still, is_line });
 
 impl Port {
-    /// Adds the second of four `steps` of a host with `delay`, whose values act `lag` steps late. Its energy error is `error` [J], and its torque is the
-    /// rate of the movement if the port `is_shaft`, or else the host's value. Old errors are multiplied by `keep`.
+    /// Adds the second of four `steps` of a host with `delay`, whose values act `lag` steps late. Its energy error is
+    /// `error` [J]. Its torque is the rate of the movement if the port `is_shaft`, or else the host's value. Old errors are
+    /// multiplied by `keep`.
     #[inline]
     pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), [delay, lag]: [f64; 2], keep: f64) {
         let PortStep { given, moved, changed, h, is_line, .. } = *steps[1];
@@ -199,8 +200,8 @@ impl Port {
         Some(Law { per_movement: sign * law.per_movement, per_rate: sign * law.per_rate, ..law })
     }
 
-    /// True if the law shows a stable step, in a motion that oscillates: that of a load with a damper, or a well-known one behind
-    /// a half-shaft. A motion that the host alone causes shows another law.
+    /// True if the law shows a stable step: the motion oscillates, and the law has a damper, or is well known behind a
+    /// half-shaft. If only the host causes the motion, the regression gives the inertia of the unit instead of the host's law.
     pub fn is_sure(&self, sign: f64, is_shaft: bool) -> bool {
         let is_damped = |law: &Law| law.per_rate > CERTAIN * law.rate_error;
         let shows = if is_shaft { self.known.is_some() } else { self.law(sign).as_ref().is_some_and(is_damped) };
@@ -226,8 +227,8 @@ impl Port {
         }
     }
 
-    /// Longest stable step [s] of a host that sets the speed behind the unit's `shaft` k, c, which acts `lag` steps late. It is infinite if the
-    /// cut shows no limit.
+    /// Longest stable step [s] of a host that sets the speed behind the unit's `shaft` k, c, which acts `lag` steps late. The
+    /// host has this `law`. The step is infinite if the cut shows no limit.
     ///
     /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts the
     /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `lag`) h = τ and up to ω h = 2.
@@ -299,7 +300,7 @@ mod tests {
         assert!((found - exact).abs() < 1e-14, "{found} {exact}");
     }
 
-    /// A spring k with a damper c at an inertia J, held at once: 2 c/k; a damper: 2 J/c, and one step later J/c; on lines, J/c.
+    /// A spring k with a damper c at an inertia J, held without delay: 2 c/k; a damper: 2 J/c, and one step later J/c; on lines, J/c.
     #[test]
     fn stable_steps_of_torques_have_their_closed_forms() {
         let (k, c, j) = (9000.0, 12.0, 5.0);

@@ -158,7 +158,7 @@ impl Coupling {
             reacting().map(|port| self.ports[port].step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
         let stable = reacting().map(|port| steps[port]).fold(f64::INFINITY, f64::min);
         let is_sure = |port: usize| self.ports[port].is_sure(SIGNS[port], cut.shafts[port].is_some());
-        // nobody knows if longer steps than the present ones are stable
+        // longer steps than the present ones may be unstable
         let stable = if reacting().all(is_sure) { stable } else { stable.min(self.step()) };
         if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
             return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);

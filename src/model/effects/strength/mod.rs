@@ -12,7 +12,7 @@ mod spec;
 mod utilisation;
 
 pub use along_step::{RatedPlanet, RatedStep, Sample};
-pub use fatigue::{Fatigue, LastLoads, Tally};
+pub use fatigue::{Fatigue, Tally};
 pub use gear_strength::{CONTACT_TEMPERATURE, GearStrength};
 pub use mesh_load::{FlankLoad, MeshLoad};
 pub use overload::Stressed;
