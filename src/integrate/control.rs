@@ -4,12 +4,13 @@
 use serde::{Deserialize, Serialize};
 
 use super::Method;
-use super::driver::LARGEST_SHRINK;
 use super::method::fifth_root;
 use crate::numeric::{Finite, finite};
 
 pub(super) const SAFETY: f64 = 0.9;
 const LARGEST_GROWTH: f64 = 6.0;
+/// Maximum factor by which a rejected attempt, or the prediction after a step, shortens the next one.
+pub(super) const LARGEST_SHRINK: f64 = 5.0;
 /// Maximum growth of the first step after a kink, from one kink to the next.
 const AFTER_KINK_GROWTH: f64 = 4.0;
 /// Smallest error that is remembered. A smaller one would make the predictive controller too cautious.

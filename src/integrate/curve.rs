@@ -1,7 +1,7 @@
 //! Extremes and crossings of a quantity within a step of the integrator, from the dense output.
 
-use super::course::{Extension, extended};
 use super::system::Point;
+use super::trajectory::{Extension, extended};
 use crate::numeric::quotient;
 
 /// Nodes and weights of the Gauss–Legendre quadrature with three points on [0, 1]. It is exact up to degree 5.

@@ -1,10 +1,10 @@
 //! Adaptive stepping to a given time, with error control and statistics by cause. A step shortened by the end of the
 //! interval does not reduce the predicted step size.
 
-use super::control::{Control, SAFETY};
+use super::control::{Control, LARGEST_SHRINK, SAFETY};
 use super::{
-    Attempt, Course, ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Pending, Point,
-    SecondOrder, Statistics, Trial,
+    ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder, Statistics,
+    Trajectory, Trial,
 };
 
 /// A completed step, as passed to the observer.
@@ -19,6 +19,8 @@ pub struct Step<'a, const N: usize, P> {
     pub end: &'a Point<N>,
     /// Ledger rates at the start, in the middle and at the end.
     pub ledger_rates: [P; 3],
+    /// Dense output of the pending step and the fraction of it that was accepted; `None` without dense output.
+    pub dense_output: Option<(&'a Extension<N>, f64)>,
 }
 
 /// Decision of the observer after an accepted step.
@@ -57,10 +59,9 @@ const LAST_STEPS: f64 = 3.0;
 /// the step.
 const CUTS_BY_LINE: u32 = 5;
 const LEAST_SHRINK: f64 = 1.25;
-pub(super) const LARGEST_SHRINK: f64 = 5.0;
 /// Accepted fraction of a step above which the rates at its middle are extrapolated from those of the whole step. The
 /// missing rest is then little more than the rounding of times.
-const WHOLE: f64 = 1.0 - 1e-5;
+const ALMOST_ALL: f64 = 1.0 - 1e-5;
 /// Allowed imbalance of a step's ledger, as a multiple of the tolerance and relative to the energy exchanged in the
 /// step. Heat is a quadrature along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
@@ -91,17 +92,16 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     time: &mut f64,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
+    observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
-    let mut course = Course::new(*point, *time, until);
-    let outcome = proceed(method, system, &mut course, until, context, |step, _| observe(step));
-    (*point, *time) = (course.point, course.time);
+    let mut trajectory = Trajectory::new(*point, *time, until);
+    let outcome = proceed(method, system, &mut trajectory, until, context, observe);
+    (*point, *time) = (trajectory.point, trajectory.time);
     outcome
 }
 
-/// Integrates until the pending step of `course` contains `until` [s], or until the equations end. Calls `observe`
-/// after each completed step, with its dense output and the fraction of the step that was accepted. The observer may
-/// end the integration early.
+/// Integrates until the pending step of `trajectory` contains `until` [s], or until the equations end. Calls `observe`
+/// after each completed step; the observer may end the integration early.
 ///
 /// Steps, their sizes and their counts do not depend on the requested times. A step that ends beyond `until` is only
 /// pending, so it changes neither the state nor the counts of completed steps.
@@ -109,183 +109,346 @@ pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
 pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     method: &M,
     system: &S,
-    course: &mut Course<N, S::Rates>,
+    trajectory: &mut Trajectory<N, S::Rates>,
     until: f64,
     context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Rates>, (&Extension<N>, f64)) -> Result<AfterStep, E>,
+    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
 ) -> Result<(), Failure<E>> {
-    let SolverContext { tolerance, control, statistics, budget } = context;
-    let resolution = course.resolution;
-    let ends = until + resolution >= course.end;
-    let mut after_rejection = false;
-    // true if an attempt from this point was rejected; its size then determines the next one
-    let mut retries = false;
-    // number of consecutive attempts whose ledger did not close, and size of the first of them
-    let (mut unbalanced, mut whole) = (0, 0.0);
-    let (mut in_a_row, mut cuts) = (0, 0);
-    // number of consecutive steps that were cut at a switch but ended before it
-    let mut short = 0;
-    let mut switch_at = f64::INFINITY;
-    let mut lin = Linearisation::default();
-    // energies at the point of the linearisation, if the next step starts there
-    let mut begin: Option<[f64; 2]> = None;
-    // the start of a step is counted once, even if it is linearised again
-    let mut is_counted = course.pending.is_some();
+    let resolution = trajectory.resolution;
+    let is_end_requested = until + resolution >= trajectory.end;
+    let mut solver = Solver::new(method, system, context, trajectory);
     loop {
-        if let Some(pending) = &course.pending {
-            let Attempt { h: size, error, cut, to_kink, .. } = pending.attempt;
-            short = pending.attempt.short;
-            let h = size * pending.accepted_fraction;
-            let mut reached = course.time + h;
-            let done = course.end - reached <= resolution;
-            if reached + resolution >= until && !(done && ends) {
+        if let Some(pending) = &trajectory.pending {
+            let h = pending.h * trajectory.accepted_fraction;
+            let reached = trajectory.time + h;
+            let is_last = trajectory.end - reached <= resolution;
+            if reached + resolution >= until && !(is_last && is_end_requested) {
                 return Ok(());
             }
-            if done {
-                reached = course.end;
-            }
-            let end = course.extension.at(pending.accepted_fraction);
-            let mut halfway = if pending.accepted_fraction > WHOLE {
-                pending.ledger_rates[1]
-            } else {
-                statistics.evaluations += 1;
-                let middle = course.extension.at(0.5 * pending.accepted_fraction);
-                let mut rates = system.evaluate_at(&middle, course.time + 0.5 * h).1;
-                if pending.jump.is_some() {
-                    system.undo_torque_change(&middle, &mut rates);
-                }
-                rates
-            };
-            begin = (!done).then(|| linearise(system, (&end, reached), &mut lin, Some(statistics)));
-            let (mut last, energy) = match begin {
-                Some(energy) => (lin.ledger_rates, energy),
-                None => (system.evaluate_at(&end, reached).1, system.energy(&end)),
-            };
-            statistics.evaluations += u64::from(done);
-            if pending.jump.is_some() {
-                system.undo_torque_change(&end, &mut last);
-            }
-            if pending.accepted_fraction > WHOLE && pending.accepted_fraction < 1.0 {
-                let (first, ends) = (&pending.ledger_rates[0], 0.5 * (pending.accepted_fraction - 1.0));
-                halfway = system.combined([(-ends, first), (0.0, first), (1.0, &halfway), (0.0, &last), (ends, &last)]);
-            }
-            let mut ledger_rates = [pending.ledger_rates[0], halfway, last];
-            let mut ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
-            let mut imbalance = ledger.relative() / (LEDGER * tolerance);
-            if control.follows_jump() && (imbalance > UNREFINED || ledger == Imbalance::NONE) {
-                statistics.evaluations += 2;
-                ledger_rates[1] = refined(system, course, h, &ledger_rates);
-                ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
-                imbalance = ledger.relative() / (LEDGER * tolerance);
-            }
-            if imbalance > 1.0 {
-                // copies, so that both points can stay in registers
-                let ends = [course.point, end];
-                let floor = system.energy_floor([&ends[0], &ends[1]], tolerance, ledger.residual);
-                // a floor of 0 is skipped, because a host may trap divisions by zero
-                if floor > 0.0 {
-                    imbalance = imbalance.min(ledger.residual / floor);
-                }
-            }
-            if imbalance > 1.0 && pending.attempt.unbalanced < UNBALANCED {
-                if pending.jump.is_some() {
-                    return Err(Failure::NotClosed);
-                }
-                unbalanced = pending.attempt.unbalanced + 1;
-                // after the last of these attempts, the whole step is accepted, and its error allows a longer step
-                // after it
-                (after_rejection, retries) = (unbalanced < UNBALANCED, true);
-                whole = if unbalanced == 1 { h } else { pending.attempt.whole };
-                statistics.rejected_ledger += 1;
-                control.reject(if unbalanced < UNBALANCED {
-                    h / (method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
-                } else {
-                    whole
-                });
-                (course.pending, begin) = (None, None);
-                continue;
-            }
-            (unbalanced, after_rejection, retries) = (0, false, false);
-            control.accept(method, size, cut, error, pending.attempt.after_rejection);
-            control.on_kink = to_kink && pending.accepted_fraction == 1.0;
-            if pending.jump.is_some() {
-                control.jump(pending.jump);
-            }
-            statistics.accepted += 1;
-            let start = std::mem::replace(&mut course.point, end);
-            course.time = reached;
-            let step = Step { h, time: reached, start: &start, end: &end, ledger_rates };
-            let flow = observe(step, (&course.extension, pending.accepted_fraction));
-            course.pending = None;
-            let flow = flow.map_err(Failure::Refused)?;
-            if done || flow == AfterStep::Stop {
+            let reached = if is_last { trajectory.end } else { reached };
+            let judged = solver.judge(trajectory, pending, (h, reached, is_last));
+            if judged.imbalance > 1.0 && pending.unbalanced < UNBALANCED {
+                solver.reject_ledger(trajectory, h, judged.imbalance)?;
+            } else if solver.complete(trajectory, (h, reached), judged, &mut observe)? == AfterStep::Stop || is_last {
                 return Ok(());
             }
+        } else {
+            solver.attempt(trajectory)?;
         }
-        *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
-        let point = &course.point;
-        let energy = *begin.get_or_insert_with(|| {
-            let counts = (!std::mem::replace(&mut is_counted, true)).then_some(&mut *statistics);
-            linearise(system, (point, course.time), &mut lin, counts)
-        });
-        let wanted = control.wanted(retries);
-        let remaining = course.remaining();
-        let (mut h, mut cut) = fit(wanted.min(course.longest).max(resolution), remaining);
-        let mut to_kink = false;
-        if h > switch_at {
-            (h, cut) = (switch_at, true);
-        } else if let Some(fraction) = system.kink(point, h).filter(|fraction| moves(point, h * fraction)) {
-            (h, cut, to_kink) = (h * fraction, true, true);
+    }
+}
+
+/// The loop over steps from one call to the next: method, equations, control, and circumstances of the next attempt.
+struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
+    method: &'a M,
+    system: &'a S,
+    context: SolverContext<'a>,
+    /// Linearisation at the start of the next step.
+    lin: Linearisation<N, S::Rates>,
+    /// Kinetic and stored energy there; `None` if `lin` is not known.
+    energy: Option<[f64; 2]>,
+    /// True if the evaluation at the start of the next step is counted. It is counted once, even if it is repeated.
+    is_counted: bool,
+    /// True if the last attempt was rejected.
+    after_rejection: bool,
+    /// True if an attempt from this point was rejected; its size then determines the next one.
+    is_retry: bool,
+    /// Number of consecutive attempts rejected for their error.
+    rejected: u32,
+    /// Number of consecutive attempts whose ledger did not close.
+    unbalanced: u32,
+    /// Size of the first of them [s].
+    first_unbalanced: f64,
+    /// Size of the next attempt, which ends at a switch [s]; infinite if none is known.
+    switch_at: f64,
+    /// Number of consecutive attempts that a switch has cut.
+    cuts: u32,
+    /// Number of consecutive steps that were cut at a switch but ended before it.
+    short: u32,
+}
+
+/// A pending step whose end is evaluated.
+struct Judged<const N: usize, P> {
+    /// State at the end.
+    end: Point<N>,
+    /// Ledger rates at the start, in the middle and at the end.
+    ledger_rates: [P; 3],
+    /// Imbalance of the ledger as a multiple of the allowed one.
+    imbalance: f64,
+}
+
+/// Size of an attempt.
+struct Size {
+    /// Size [s].
+    h: f64,
+    /// True if it is shorter than the controller allows.
+    cut: bool,
+    /// True if the attempt ends on a kink.
+    to_kink: bool,
+}
+
+impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M, S> {
+    /// Loop that continues `trajectory`.
+    #[inline(always)]
+    fn new(method: &'a M, system: &'a S, context: SolverContext<'a>, trajectory: &Trajectory<N, S::Rates>) -> Self {
+        Self {
+            method,
+            system,
+            context,
+            lin: Linearisation::default(),
+            energy: None,
+            is_counted: trajectory.pending.is_some(),
+            after_rejection: false,
+            is_retry: false,
+            rejected: 0,
+            unbalanced: 0,
+            first_unbalanced: 0.0,
+            switch_at: f64::INFINITY,
+            cuts: 0,
+            short: 0,
         }
-        let norm = ErrorNorm { weights: system.weights(point), tolerance };
-        let to = (&mut *statistics, &mut course.extension);
-        let trial = method.step(system, (point, course.time), &lin, h, &norm, to);
+    }
+
+    /// Tries a step from the end of the last completed one. It becomes the pending step if its error is small enough.
+    #[inline(always)]
+    fn attempt<E>(&mut self, trajectory: &mut Trajectory<N, S::Rates>) -> Result<(), Failure<E>> {
+        let system = self.system;
+        *self.context.budget = self.context.budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
+        let energy = match self.energy {
+            Some(energy) => energy,
+            None => {
+                let is_new = !std::mem::replace(&mut self.is_counted, true);
+                self.linearise((&trajectory.point, trajectory.time), is_new)
+            }
+        };
+        let Size { h, cut, to_kink } = self.next_size(trajectory);
+        let Trajectory { point, time, extension, resolution, .. } = trajectory;
+        let norm = ErrorNorm { weights: system.weights(point), tolerance: self.context.tolerance };
+        let to = (&mut *self.context.statistics, &mut *extension);
+        let trial = self.method.step(system, (point, *time), &self.lin, h, &norm, to);
         let mut error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
         if let Some(Trial { halfway: Some(halfway), .. }) = trial {
-            let ends = ((point, course.time), (&course.extension.end, course.time + h));
-            if let Some(fraction) = system.crossing(ends.0, ends.1).filter(|_| h > resolution) {
-                statistics.rejected_switch += 1;
-                cuts += 1;
-                let most = if cuts > CUTS_BY_LINE { 0.5 } else { 1.0 };
-                let least = if short > CUTS_BY_LINE { 0.5 } else { 0.0 };
-                switch_at = (h * fraction.clamp(least, most)).max(resolution);
-                continue;
+            let crossing = system.crossing((point, *time), (&extension.end, *time + h));
+            if let Some(fraction) = crossing.filter(|_| h > *resolution) {
+                self.cut_at_switch(h, fraction, *resolution);
+                return Ok(());
             }
             // NaN if either is NaN
             error = if halfway.size < error { error } else { halfway.size };
             if error <= 1.0 {
-                short = if h == switch_at { short + 1 } else { 0 };
-                (switch_at, in_a_row, cuts) = (f64::INFINITY, 0, 0);
-                let attempt = Attempt { h, error, cut, to_kink, after_rejection, unbalanced, whole, short };
-                let (ledger_rates, energy) = ([lin.ledger_rates, halfway.ledger_rates], energy);
-                course.pending = Some(Pending { attempt, ledger_rates, energy, accepted_fraction: 1.0, jump: None });
-                continue;
+                self.short = if h == self.switch_at { self.short + 1 } else { 0 };
+                (self.switch_at, self.rejected, self.cuts) = (f64::INFINITY, 0, 0);
+                let Self { after_rejection, unbalanced, first_unbalanced, short, .. } = *self;
+                let ledger_rates = [self.lin.ledger_rates, halfway.ledger_rates];
+                trajectory.pending = Some(Pending {
+                    h,
+                    error,
+                    cut,
+                    to_kink,
+                    after_rejection,
+                    unbalanced,
+                    first_unbalanced,
+                    short,
+                    ledger_rates,
+                    energy,
+                });
+                (trajectory.accepted_fraction, trajectory.jump) = (1.0, None);
+                return Ok(());
             }
         }
-        (after_rejection, retries) = (true, true);
-        switch_at = f64::INFINITY;
+        self.reject_error(h, error, *resolution)
+    }
+
+    /// Size of the next attempt: the predicted size, fitted to the end of the equations, to a switch or to a kink.
+    #[inline(always)]
+    fn next_size(&self, trajectory: &Trajectory<N, S::Rates>) -> Size {
+        let Trajectory { point, longest, resolution, .. } = trajectory;
+        let wanted = self.context.control.wanted(self.is_retry);
+        let (h, cut) = fit(wanted.min(*longest).max(*resolution), trajectory.remaining());
+        if h > self.switch_at {
+            return Size { h: self.switch_at, cut: true, to_kink: false };
+        }
+        match self.system.kink(point, h).filter(|fraction| moves(point, h * fraction)) {
+            Some(fraction) => Size { h: h * fraction, cut: true, to_kink: true },
+            None => Size { h, cut, to_kink: false },
+        }
+    }
+
+    /// Lets the next attempt end at a switch, which an attempt of size `h` [s] passes at about this `fraction`.
+    #[inline(always)]
+    fn cut_at_switch(&mut self, h: f64, fraction: f64, resolution: f64) {
+        self.context.statistics.rejected_switch += 1;
+        self.cuts += 1;
+        let most = if self.cuts > CUTS_BY_LINE { 0.5 } else { 1.0 };
+        let least = if self.short > CUTS_BY_LINE { 0.5 } else { 0.0 };
+        self.switch_at = (h * fraction.clamp(least, most)).max(resolution);
+    }
+
+    /// Shortens the next attempt because the `error` of an attempt of size `h` [s] is too large or not finite. Fails if
+    /// time cannot resolve the next size.
+    #[inline(always)]
+    fn reject_error<E>(&mut self, h: f64, error: f64, resolution: f64) -> Result<(), Failure<E>> {
+        let SolverContext { statistics, control, .. } = &mut self.context;
+        (self.after_rejection, self.is_retry) = (true, true);
+        self.switch_at = f64::INFINITY;
         let shrink = if error.is_finite() {
             statistics.rejected_error += 1;
-            in_a_row += 1;
-            let least = (0..in_a_row).fold(1.0, |least, _| LEAST_SHRINK * least).min(LARGEST_SHRINK);
-            (method.root(error) / SAFETY).clamp(least, LARGEST_SHRINK)
+            self.rejected += 1;
+            let least = (0..self.rejected).fold(1.0, |least, _| LEAST_SHRINK * least).min(LARGEST_SHRINK);
+            (self.method.root(error) / SAFETY).clamp(least, LARGEST_SHRINK)
         } else {
             statistics.rejected_invalid += 1;
             LARGEST_SHRINK
         };
         control.reject(h / shrink);
-        if control.next <= resolution {
-            return Err(Failure::StepTooSmall { size: control.next });
+        if control.next <= resolution { Err(Failure::StepTooSmall { size: control.next }) } else { Ok(()) }
+    }
+
+    /// Evaluates the `pending` step of size `h` [s] at its end, which is at `reached` [s], and its ledger. Unless the
+    /// step `is_last`, the next step can start from this evaluation.
+    #[inline(always)]
+    fn judge(
+        &mut self,
+        trajectory: &Trajectory<N, S::Rates>,
+        pending: &Pending<S::Rates>,
+        (h, reached, is_last): (f64, f64, bool),
+    ) -> Judged<N, S::Rates> {
+        let system = self.system;
+        let Trajectory { accepted_fraction, jump, extension, .. } = trajectory;
+        let first = &pending.ledger_rates[0];
+        let end = extension.at(*accepted_fraction);
+        let mut halfway = if *accepted_fraction > ALMOST_ALL {
+            pending.ledger_rates[1]
+        } else {
+            self.context.statistics.evaluations += 1;
+            trajectory.ledger_rates_at(system, 0.5, h)
+        };
+        let (mut last, energy);
+        if is_last {
+            self.energy = None;
+            self.context.statistics.evaluations += 1;
+            (last, energy) = (system.evaluate_at(&end, reached).1, system.energy(&end));
+        } else {
+            energy = self.linearise((&end, reached), true);
+            last = self.lin.ledger_rates;
         }
+        if jump.is_some() {
+            system.undo_torque_change(&end, &mut last);
+        }
+        if *accepted_fraction > ALMOST_ALL && *accepted_fraction < 1.0 {
+            let ends = 0.5 * (accepted_fraction - 1.0);
+            halfway = system.combined([(-ends, first), (0.0, first), (1.0, &halfway), (0.0, &last), (ends, &last)]);
+        }
+        let allowed = LEDGER * self.context.tolerance;
+        let mut ledger_rates = [*first, halfway, last];
+        let mut ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
+        let mut imbalance = ledger.relative() / allowed;
+        if self.context.control.follows_jump() && (imbalance > UNREFINED || ledger == Imbalance::NONE) {
+            self.context.statistics.evaluations += 2;
+            ledger_rates[1] = refined(system, trajectory, h, &ledger_rates);
+            ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
+            imbalance = ledger.relative() / allowed;
+        }
+        if imbalance > 1.0 {
+            // copies, so that both points can stay in registers
+            let ends = [trajectory.point, end];
+            let floor = system.energy_floor([&ends[0], &ends[1]], self.context.tolerance, ledger.residual);
+            // a floor of 0 is skipped, because a host may trap divisions by zero
+            if floor > 0.0 {
+                imbalance = imbalance.min(ledger.residual / floor);
+            }
+        }
+        Judged { end, ledger_rates, imbalance }
+    }
+
+    /// Drops the pending step of size `h` [s] because its ledger has this `imbalance`, and shortens the next attempt.
+    /// Fails if torques change within the step.
+    #[inline(always)]
+    fn reject_ledger<E>(
+        &mut self,
+        trajectory: &mut Trajectory<N, S::Rates>,
+        h: f64,
+        imbalance: f64,
+    ) -> Result<(), Failure<E>> {
+        if trajectory.jump.is_some() {
+            return Err(Failure::NotClosed);
+        }
+        let Some(pending) = trajectory.pending.take() else { return Ok(()) };
+        self.unbalanced = pending.unbalanced + 1;
+        self.first_unbalanced = if self.unbalanced == 1 { h } else { pending.first_unbalanced };
+        // after the last of these attempts, the whole step is accepted, and its error allows a longer step after it
+        (self.after_rejection, self.is_retry) = (self.unbalanced < UNBALANCED, true);
+        self.context.statistics.rejected_ledger += 1;
+        self.context.control.reject(if self.unbalanced < UNBALANCED {
+            h / (self.method.root(imbalance) / SAFETY).clamp(LEAST_SHRINK, LARGEST_SHRINK)
+        } else {
+            self.first_unbalanced
+        });
+        (self.short, self.energy) = (pending.short, None);
+        Ok(())
+    }
+
+    /// Completes the pending step of size `h` [s]: `trajectory` moves to its end at `reached` [s], the controller
+    /// predicts the next step, and `observe` decides whether the integration continues.
+    #[inline(always)]
+    fn complete<E>(
+        &mut self,
+        trajectory: &mut Trajectory<N, S::Rates>,
+        (h, reached): (f64, f64),
+        judged: Judged<N, S::Rates>,
+        observe: &mut impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
+    ) -> Result<AfterStep, Failure<E>> {
+        let Judged { end, ledger_rates, .. } = judged;
+        let Trajectory { point, time, pending, extension, accepted_fraction, jump, .. } = trajectory;
+        let Some(Pending { h: size, error, cut, to_kink, after_rejection, short, .. }) = *pending else {
+            return Ok(AfterStep::Continue);
+        };
+        (self.unbalanced, self.after_rejection, self.is_retry, self.short) = (0, false, false, short);
+        let control = &mut *self.context.control;
+        control.accept(self.method, size, cut, error, after_rejection);
+        control.on_kink = to_kink && *accepted_fraction == 1.0;
+        if jump.is_some() {
+            control.jump(*jump);
+        }
+        self.context.statistics.accepted += 1;
+        let start = std::mem::replace(point, end);
+        *time = reached;
+        let dense_output = Some((&*extension, *accepted_fraction));
+        let flow = observe(Step { h, time: reached, start: &start, end: &end, ledger_rates, dense_output });
+        trajectory.pending = None;
+        flow.map_err(Failure::Refused)
+    }
+
+    /// Linearises the equations at the start of the next step, a point with its time [s], and returns the energies. Counts
+    /// the evaluation if it is new.
+    #[inline(never)]
+    fn linearise(&mut self, (point, time): (&Point<N>, f64), is_new: bool) -> [f64; 2] {
+        let statistics = &mut self.context.statistics;
+        statistics.evaluations += u64::from(is_new);
+        statistics.jacobians += u64::from(is_new);
+        let energy = self.system.linearise_with_energy(point, time, &mut self.lin);
+        self.energy = Some(energy);
+        energy
     }
 }
 
-impl<const N: usize, P> Course<N, P> {
+impl<const N: usize, P> Trajectory<N, P> {
     /// Time left until the equations end, or are expected to end [s].
     #[inline]
     fn remaining(&self) -> f64 {
         let is_ahead = self.expected > self.time + self.resolution;
         (if is_ahead { self.expected.min(self.end) } else { self.end }) - self.time
+    }
+
+    /// Ledger rates after a `fraction` of the accepted part of the pending step, which has the size `h` [s].
+    #[inline(always)]
+    fn ledger_rates_at<S: SecondOrder<N, Rates = P> + ?Sized>(&self, system: &S, fraction: f64, h: f64) -> P {
+        let point = self.extension.at(fraction * self.accepted_fraction);
+        let mut rates = system.evaluate_at(&point, self.time + fraction * h).1;
+        if self.jump.is_some() {
+            system.undo_torque_change(&point, &mut rates);
+        }
+        rates
     }
 }
 
@@ -294,20 +457,11 @@ impl<const N: usize, P> Course<N, P> {
 #[inline(never)]
 fn refined<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
-    course: &Course<N, S::Rates>,
+    trajectory: &Trajectory<N, S::Rates>,
     h: f64,
     [first, halfway, last]: &[S::Rates; 3],
 ) -> S::Rates {
-    let Some(pending) = &course.pending else { return *halfway };
-    let at = |fraction: f64| {
-        let point = course.extension.at(fraction * pending.accepted_fraction);
-        let mut rates = system.evaluate_at(&point, course.time + fraction * h).1;
-        if pending.jump.is_some() {
-            system.undo_torque_change(&point, &mut rates);
-        }
-        rates
-    };
-    let [quarter, three_quarters] = [at(0.25), at(0.75)];
+    let [quarter, three_quarters] = [0.25, 0.75].map(|fraction| trajectory.ledger_rates_at(system, fraction, h));
     let [ends, quarters, middle] = [-12.0 / 90.0, 48.0 / 90.0, 18.0 / 90.0];
     system.combined([(ends, first), (quarters, &quarter), (middle, halfway), (quarters, &three_quarters), (ends, last)])
 }
@@ -330,19 +484,4 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
 /// that end on the kink.
 fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
     point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs())
-}
-
-/// Linearises the equations into `lin` and returns the energies.
-#[inline(never)]
-fn linearise<const N: usize, S: SecondOrder<N> + ?Sized>(
-    system: &S,
-    (point, time): (&Point<N>, f64),
-    lin: &mut Linearisation<N, S::Rates>,
-    statistics: Option<&mut Statistics>,
-) -> [f64; 2] {
-    if let Some(statistics) = statistics {
-        statistics.evaluations += 1;
-        statistics.jacobians += 1;
-    }
-    system.linearise_with_energy(point, time, lin)
 }

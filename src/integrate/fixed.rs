@@ -58,8 +58,8 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
         let start = *point;
         *point = end;
         *time = if done < steps { begin + done * h } else { until };
-        let flow =
-            observe(Step { h, time: *time, start: &start, end: point, ledger_rates }).map_err(Failure::Refused)?;
+        let step = Step { h, time: *time, start: &start, end: point, ledger_rates, dense_output: None };
+        let flow = observe(step).map_err(Failure::Refused)?;
         if flow == AfterStep::Stop {
             break;
         }

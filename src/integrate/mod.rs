@@ -6,7 +6,6 @@
 mod block;
 mod complex;
 mod control;
-mod course;
 mod curve;
 mod driver;
 mod fixed;
@@ -16,9 +15,9 @@ mod radau;
 mod rodas5p;
 mod statistics;
 mod system;
+mod trajectory;
 
 pub use control::Control;
-pub use course::{Attempt, Course, Extension, Pending, extended};
 pub use curve::Curve;
 pub use driver::{AfterStep, Failure, SolverContext, Step, advance, proceed};
 pub use fixed::advance_fixed;
@@ -27,3 +26,4 @@ pub use radau::Radau;
 pub use rodas5p::Rodas5P;
 pub use statistics::Statistics;
 pub use system::{Imbalance, Linearisation, Matrix, POSITION_ROUNDING, Point, SecondOrder};
+pub use trajectory::{Extension, Pending, Trajectory, extended};

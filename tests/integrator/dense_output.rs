@@ -1,7 +1,7 @@
 //! Tests of dense output: steps continue beyond the requested times and do not depend on them.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, Course, Extension, Point, SecondOrder, SolverContext, Statistics, Step, proceed,
+    AfterStep, Control, Point, SecondOrder, SolverContext, Statistics, Step, Trajectory, proceed,
 };
 
 use super::methods::{Known, with_every_method};
@@ -31,20 +31,20 @@ fn run<M: Known>(times: &[f64]) -> Seen {
 fn run_of<M: Known, S: SecondOrder<2>>(system: &S, start: Point<2>, times: &[f64]) -> Seen {
     let mut seen = Seen { steps: Vec::new(), counts: Statistics::default(), shown: Vec::new() };
     let mut control = Control::new(1e-4);
-    let mut course = Course { end: f64::INFINITY, ..Course::new(start, 0.0, STOP) };
+    let mut trajectory = Trajectory { end: f64::INFINITY, ..Trajectory::new(start, 0.0, STOP) };
     for &time in times {
         let Seen { steps, counts, .. } = &mut seen;
         let mut budget = 10_000;
         let context =
             SolverContext { tolerance: TOLERANCE, control: &mut control, statistics: counts, budget: &mut budget };
-        let observe = |step: Step<2, S::Rates>, _: (&Extension<2>, f64)| {
+        let observe = |step: Step<2, S::Rates>| {
             assert!(step.time < time, "nothing beyond {time} is completed");
             steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
             Ok::<_, ()>(AfterStep::Continue)
         };
-        proceed(&M::METHOD, system, &mut course, time, context, observe).unwrap();
-        let pending = course.pending.as_ref().unwrap();
-        let at = course.extension.at((time - course.time) / pending.attempt.h);
+        proceed(&M::METHOD, system, &mut trajectory, time, context, observe).unwrap();
+        let pending = trajectory.pending.as_ref().unwrap();
+        let at = trajectory.extension.at((time - trajectory.time) / pending.h);
         seen.shown.push((time, at));
     }
     seen
@@ -91,27 +91,27 @@ fn the_motion_between_long_steps_of_stiff_problems_is_within_the_tolerance<M: Kn
 
 fn a_step_is_completed_up_to_the_end_of_the_equations<M: Known>() {
     let (mut control, mut counts) = (Control::new(1e-4), Statistics::default());
-    let mut course = Course { end: f64::INFINITY, ..Course::new(Logarithmic::exact(0.0), 0.0, STOP) };
+    let mut trajectory = Trajectory { end: f64::INFINITY, ..Trajectory::new(Logarithmic::exact(0.0), 0.0, STOP) };
     let mut completed = 0.0;
     for time in [0.7, 1.1, 1.100001, 2.0] {
-        let mut go_to = |course: &mut Course<2, f64>| {
+        let mut go_to = |trajectory: &mut Trajectory<2, f64>| {
             let mut budget = 10_000;
             let (control, statistics) = (&mut control, &mut counts);
             let context = SolverContext { tolerance: TOLERANCE, control, statistics, budget: &mut budget };
-            proceed(&M::METHOD, &Logarithmic, course, time, context, |step, _| {
+            proceed(&M::METHOD, &Logarithmic, trajectory, time, context, |step| {
                 completed += step.h;
                 Ok::<_, ()>(AfterStep::Continue)
             })
             .unwrap();
         };
-        go_to(&mut course);
-        let pending = course.pending.as_ref().unwrap();
-        let shown = course.extension.at((time - course.time) / pending.attempt.h);
-        course.end_at(time);
-        go_to(&mut course);
-        assert!(course.pending.is_none());
-        assert_eq!((course.time, course.point), (time, shown));
-        course.end = f64::INFINITY;
+        go_to(&mut trajectory);
+        let pending = trajectory.pending.as_ref().unwrap();
+        let shown = trajectory.extension.at((time - trajectory.time) / pending.h);
+        trajectory.end_at(time);
+        go_to(&mut trajectory);
+        assert!(trajectory.pending.is_none());
+        assert_eq!((trajectory.time, trajectory.point), (time, shown));
+        trajectory.end = f64::INFINITY;
     }
     assert!((completed - 2.0).abs() < 1e-14, "{completed}");
 }

@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ledger_rates::LedgerRates;
-use crate::integrate::{Attempt, Course, Extension, Pending, Point, extended};
+use crate::integrate::{Extension, Pending, Point, Trajectory, extended};
 use crate::model::scene::{Inputs, MAX_DOF};
 use crate::numeric::Finite;
 
@@ -53,28 +53,23 @@ pub struct PendingStep {
     pub inputs: Inputs,
     /// Clock with the start of the step, the present time, and the time up to which the equations are valid.
     pub clock: Clock,
-    attempt: Attempt,
+    step: Pending<LedgerRates>,
     start: Motion,
     end: Motion,
     /// Coefficients of the dense output (`integrate::Extension`).
     coefficients: [Motion; 3],
-    /// Ledger rates at the start of the step and halfway.
-    ledger_rates: [LedgerRates; 2],
-    /// Kinetic and stored energy at the start of the step [J].
-    energy: [f64; 2],
 }
 
 impl PendingStep {
     /// Stores the step `pending` with its dense output.
     pub fn set<const N: usize>(
         &mut self,
-        (pending, extension): (&Pending<LedgerRates>, &Extension<N>),
+        (step, extension): (&Pending<LedgerRates>, &Extension<N>),
         clock: Clock,
         inputs: &Inputs,
     ) {
         let Extension { start, end, coefficients } = extension;
-        (self.inputs, self.clock, self.attempt) = (*inputs, clock, pending.attempt);
-        (self.ledger_rates, self.energy) = (pending.ledger_rates, pending.energy);
+        (self.inputs, self.clock, self.step) = (*inputs, clock, *step);
         store(start, &mut self.start);
         store(end, &mut self.end);
         for (coefficient, stored) in coefficients.iter().zip(&mut self.coefficients) {
@@ -82,13 +77,12 @@ impl PendingStep {
         }
     }
 
-    /// Restores the point and the pending step of `course`, but not its times.
-    pub fn resume<const N: usize>(&self, course: &mut Course<N, LedgerRates>) {
+    /// Restores the point and the pending step of `trajectory`, but not its times.
+    pub fn resume<const N: usize>(&self, trajectory: &mut Trajectory<N, LedgerRates>) {
         let (start, end) = (restored(&self.start), restored(&self.end));
-        course.extension = Extension { start, end, coefficients: [0, 1, 2].map(|k| restored(&self.coefficients[k])) };
-        let (attempt, ledger_rates, energy) = (self.attempt, self.ledger_rates, self.energy);
-        course.point = start;
-        course.pending = Some(Pending { attempt, ledger_rates, energy, accepted_fraction: 1.0, jump: None });
+        let coefficients = [0, 1, 2].map(|k| restored(&self.coefficients[k]));
+        trajectory.extension = Extension { start, end, coefficients };
+        (trajectory.point, trajectory.pending) = (start, Some(self.step));
     }
 
     /// Copies the motion of degree of freedom `first` to degree of freedom `i`.
@@ -102,13 +96,13 @@ impl PendingStep {
     /// End of the step on the integrator's clock [s].
     #[inline]
     pub fn end(&self) -> f64 {
-        self.clock.time + self.attempt.h
+        self.clock.time + self.step.h
     }
 
     /// Writes the first `n` positions and velocities at the present to `q` and `v`.
     #[inline]
     pub fn motion(&self, n: usize, [q, v]: [&mut [f64; MAX_DOF]; 2]) {
-        let fraction = (self.clock.now - self.clock.time) / self.attempt.h;
+        let fraction = (self.clock.now - self.clock.time) / self.step.h;
         for (k, to) in [q, v].into_iter().enumerate() {
             if fraction >= 1.0 {
                 to[..n].copy_from_slice(&self.end[k][..n]);
@@ -123,15 +117,9 @@ impl PendingStep {
 
     /// True if a simulation can continue from this step: all numbers are finite, and the step size is positive.
     pub fn is_valid(&self) -> bool {
-        let Self { inputs, clock, attempt, start, end, coefficients, ledger_rates, energy } = self;
-        start.is_finite()
-            && end.is_finite()
-            && coefficients.is_finite()
-            && energy.is_finite()
-            && ledger_rates.is_finite()
-            && inputs.is_finite()
-            && clock.is_valid()
-            && attempt.is_valid()
+        let Self { inputs, clock, step, start, end, coefficients } = self;
+        let is_motion_finite = start.is_finite() && end.is_finite() && coefficients.is_finite();
+        is_motion_finite && inputs.is_finite() && clock.is_valid() && step.is_valid()
     }
 }
 

@@ -100,7 +100,7 @@ impl Simulation {
                 let (_, last) = equations.evaluate(&end);
                 // the motion in between is unknown: for stiff teeth, no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
-                let step = Step { h, time: h, start: &start, end: &end, ledger_rates };
+                let step = Step { h, time: h, start: &start, end: &end, ledger_rates, dense_output: None };
                 let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
@@ -112,7 +112,7 @@ impl Simulation {
                         torque_means,
                         memories: Some(memories),
                     };
-                    equations.record(model, (&step, None), sums);
+                    equations.record(model, &step, sums);
                     if sums.thermal.is_update_due() {
                         sums.thermal.use_temperatures();
                     }

@@ -4,9 +4,6 @@ use crate::integrate::{Extension, Point, SecondOrder, Step};
 use crate::model::dynamics::MAX_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 
-/// A completed step, with the dense output of its pending step and the fraction of that step that was accepted.
-pub type CompletedStep<'a, 'b, const N: usize> = (&'a Step<'b, N, LedgerRates>, Option<(&'a Extension<N>, f64)>);
-
 /// Motion within a completed step, for equations of any size.
 pub struct StepMotion {
     /// Size of the step [s].
@@ -24,10 +21,10 @@ pub struct StepMotion {
 
 impl StepMotion {
     /// Motion within a completed step whose times count from `begin` [s].
-    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, (step, motion): CompletedStep<N>, begin: f64) -> Self {
+    pub fn new<const N: usize>(equations: &impl SecondOrder<N>, step: &Step<N, LedgerRates>, begin: f64) -> Self {
         let without;
-        let (Extension { start, end, coefficients }, accepted_fraction) = match motion {
-            Some(motion) => motion,
+        let (Extension { start, end, coefficients }, accepted_fraction) = match step.dense_output {
+            Some(dense_output) => dense_output,
             None => {
                 without = cubic(equations, step);
                 (&without, 1.0)
@@ -36,7 +33,8 @@ impl StepMotion {
         let largest = |at: &Point<N>| Point::of([&at.q, &at.v]);
         let coefficients = coefficients.each_ref().map(largest);
         let extension = Extension { start: largest(start), end: largest(end), coefficients };
-        Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction, ends_only: motion.is_none() }
+        let ends_only = step.dense_output.is_none();
+        Self { h: step.h, begin: begin + step.time - step.h, extension, accepted_fraction, ends_only }
     }
 }
 

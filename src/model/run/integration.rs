@@ -16,7 +16,7 @@ use crate::FULL;
 use super::failure::ExcessiveDeflection;
 use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
-use crate::integrate::{self, AfterStep, Course, Extension, Failure, Radau, Rodas5P, SolverContext, Statistics, Step};
+use crate::integrate::{self, AfterStep, Failure, Radau, Rodas5P, SolverContext, Statistics, Step, Trajectory};
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -152,19 +152,19 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let solver = &model.parameters.solver;
     let Integration { clock, begin, is_returned, pauses, inputs, change, mut memories } = integration;
     let before = state.statistics;
-    let mut course = Course {
+    let mut trajectory = Trajectory {
         longest: LONGEST,
         resolution: RESOLUTION,
         expected: clock.expected,
-        ..Course::new(state.point(), clock.time, clock.end)
+        ..Trajectory::new(state.point(), clock.time, clock.end)
     };
     // resume the pending step
     if let Some(pending_step) = &state.pending_step {
-        pending_step.resume(&mut course);
-        course.end_at(clock.end);
+        pending_step.resume(&mut trajectory);
+        trajectory.end_at(clock.end);
         if let Some((time, jump)) = change {
             equations.applied_mut().change = inputs.torques_since(&pending_step.inputs);
-            if !course.change_at(time, jump) {
+            if !trajectory.change_at(time, jump) {
                 // no part of the pending step precedes the change
                 state.control.jump(Some(jump));
             }
@@ -177,18 +177,18 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     let mut anchors = equations.applied().anchors();
     let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
     if depends_on_temperature {
-        course.longest = LONGEST.min(state.thermal.longest);
+        trajectory.longest = LONGEST.min(state.thermal.longest);
     }
     while switched && outcome.is_ok() {
         switched = false;
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, memories: memories.as_deref_mut() };
         // records an accepted step and decides whether the method stops
-        let mut observe = |step: Step<N, LedgerRates>, motion: Option<(&Extension<N>, f64)>| {
+        let mut observe = |step: Step<N, LedgerRates>| {
             if !is_returned {
                 rattle.add_step(equations.check_deflection(step.end)?);
             }
-            equations.record(model, (&step, motion), &mut sums);
+            equations.record(model, &step, &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
             switched = equations.is_friction_due(step.end, step.time);
             let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
@@ -199,46 +199,43 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         let system = &*equations;
         outcome = match solver.method {
             Method::FixedStep if S::HAS_FIXED_STEPS => {
-                let (counts, Course { point, time, end, .. }) = ((context.statistics, context.budget), &mut course);
-                let observe = |step: Step<N, LedgerRates>| observe(step, None);
-                integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, observe)
+                let (counts, Trajectory { point, time, end, .. }) =
+                    ((context.statistics, context.budget), &mut trajectory);
+                integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, &mut observe)
             }
             Method::Radau if S::HAS_RADAU => {
-                integrate::proceed(&Radau, system, &mut course, clock.now, context, |step, motion| {
-                    observe(step, Some(motion))
-                })
+                integrate::proceed(&Radau, system, &mut trajectory, clock.now, context, &mut observe)
             }
-            _ => integrate::proceed(&Rodas5P, system, &mut course, clock.now, context, |step, motion| {
-                observe(step, Some(motion))
-            }),
+            _ => integrate::proceed(&Rodas5P, system, &mut trajectory, clock.now, context, &mut observe),
         };
         equations.applied_mut().set_anchors(&anchors);
         let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
         if is_warmer {
             state.thermal.use_temperatures();
-            course.longest = LONGEST.min(state.thermal.longest);
+            trajectory.longest = LONGEST.min(state.thermal.longest);
             equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
         }
         if switched {
             let before = equations.applied().friction_state;
-            equations.settle_friction(&course.point, course.time, 0..FRICTION_BODIES, &mut state.heat);
+            equations.settle_friction(&trajectory.point, trajectory.time, 0..FRICTION_BODIES, &mut state.heat);
             anchors = equations.applied().anchors();
             let friction = [&before, &equations.applied().friction_state];
-            let is_event = state.events.record_friction(friction, begin + course.time);
-            if is_event && pauses && course.time < clock.now {
-                clock.now = course.time;
+            let is_event = state.events.record_friction(friction, begin + trajectory.time);
+            if is_event && pauses && trajectory.time < clock.now {
+                clock.now = trajectory.time;
             }
         }
-        switched = (switched || is_warmer) && course.time < set_back_at && course.end - course.time > RESOLUTION;
+        switched =
+            (switched || is_warmer) && trajectory.time < set_back_at && trajectory.end - trajectory.time > RESOLUTION;
     }
     // store the result and the pending step
     state.friction = equations.applied().friction_state;
-    state.set_point(&course.point);
-    clock.time = course.time;
-    match &course.pending {
+    state.set_point(&trajectory.point);
+    clock.time = trajectory.time;
+    match &trajectory.pending {
         Some(pending) if outcome.is_ok() => {
-            let pending = (pending, &course.extension);
+            let pending = (pending, &trajectory.extension);
             state.pending_step.get_or_insert_default().set(pending, *clock, inputs);
         }
         _ => state.pending_step = None,

@@ -1,6 +1,6 @@
 //! Records completed steps: work and heat in the ledger, temperatures, mean torques, damage and mesh history.
 
-use super::completed_step::{CompletedStep, StepMotion};
+use super::completed_step::StepMotion;
 use super::failure::ExcessiveDeflection;
 use super::watching::{self, watch_step};
 use crate::integrate::{Curve, Point, SecondOrder, Step};
@@ -41,7 +41,7 @@ pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> +
     fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection>;
     /// Records a completed step, with the dense output of its pending step. Steps of fixed size and steps of the host's
     /// solver are never pending and have no dense output.
-    fn record(&self, model: &Model, step: CompletedStep<N>, sums: &mut LedgerSums);
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums);
 }
 
 impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
@@ -55,16 +55,16 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn record(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
         add_to_ledger(step, sums.work, sums.heat, S::MAY_ACT);
         if self.teeth.records_more {
-            self.record_more(model, (step, motion), sums);
+            self.record_more(model, step, sums);
         }
         if self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             let cycle = CycleCounter { pitch: model.periods[LEFT] };
-            cycle.add(sums.torque_means, turned, (step.h, torque), || self.step_curves(&cycle, (step, motion)));
+            cycle.add(sums.torque_means, turned, (step.h, torque), || self.step_curves(&cycle, step));
         }
     }
 }
@@ -92,7 +92,7 @@ impl LedgerEquations<IDEAL_SIZE> for IdealEquations<'_> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, (step, _): CompletedStep<IDEAL_SIZE>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, step: &Step<IDEAL_SIZE, LedgerRates>, sums: &mut LedgerSums) {
         record_without_teeth(model, self.applied(), step, sums);
     }
 }
@@ -112,15 +112,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Rolling and shaft torques within a completed step. Torques that do not follow from the dense output follow the
     /// parabola through the ledger rates.
     #[inline(never)]
-    fn step_curves(&self, cycle: &CycleCounter, (step, motion): CompletedStep<N>) -> StepCurves {
+    fn step_curves(&self, cycle: &CycleCounter, step: &Step<N, LedgerRates>) -> StepCurves {
         let rolling = |at: &Point<N>| cycle.rolling([at.q[0], at.q[1]]);
-        let torque = |s: usize| match motion {
+        let torque = |s: usize| match step.dense_output {
             Some((extension, accepted_fraction)) if self.teeth.plan.shafts[s] => {
                 Curve::of(extension, |at| self.shaft_torque(at, s)).up_to(accepted_fraction)
             }
             _ => Curve::parabola(step.ledger_rates.each_ref().map(|rates| rates.shaft[s])),
         };
-        let rolling = match motion {
+        let rolling = match step.dense_output {
             Some((extension, accepted_fraction)) => Curve::of(extension, rolling).up_to(accepted_fraction),
             None => Curve::line(rolling(step.start), rolling(step.end)),
         };
@@ -130,7 +130,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Records what few scenes need: jumps of elastic energy, temperatures, damage, mesh history. None of these changes
     /// a force of the plain equations, so scenes with only these effects use the plain equations.
     #[inline(never)]
-    fn record_more(&self, model: &Model, (step, motion): CompletedStep<N>, sums: &mut LedgerSums) {
+    fn record_more(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
         if !self.teeth.contact.mesh.engagement.corner_contact() {
             let ends = [step.start, step.end].map(|at| Point::of([&at.q, &at.v]));
             sums.heat[CONTACT_HEAT] -= self.largest().energy_of_jumps(ends.each_ref());
@@ -141,7 +141,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if let (true, Some(memories)) = (BUILT, &mut sums.memories)
             && watching::records_steps(model, memories)
         {
-            let completed = StepMotion::new(self, (step, motion), sums.begin);
+            let completed = StepMotion::new(self, step, sums.begin);
             watch_step(&self.largest(), model, &completed, memories);
         }
     }

@@ -5,10 +5,9 @@
 
 use std::ops::Range;
 
-use super::completed_step::CompletedStep;
 use super::failure::ExcessiveDeflection;
 use super::ledger::{LedgerEquations, LedgerSums, record_without_teeth};
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -177,7 +176,7 @@ impl LedgerEquations<MEDIUM_SIZE> for Widened<'_> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, (step, _): CompletedStep<MEDIUM_SIZE>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, step: &Step<MEDIUM_SIZE, LedgerRates>, sums: &mut LedgerSums) {
         record_without_teeth(model, self.applied(), step, sums);
     }
 }

@@ -1,4 +1,4 @@
-//! Progress of an integration: the end of its last completed step, and the pending step after it.
+//! Trajectory of an integration: the end of its last completed step, and the pending step after it.
 //!
 //! A step whose error is small enough is pending until a time beyond its end is requested. Until then, its dense output
 //! gives the motion at any time within the step. Steps do not depend on the requested times.
@@ -6,7 +6,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Point;
-use crate::numeric::{Finite, finite};
+use crate::numeric::Finite;
 
 /// Dense output of a component, y(Θ) = y₀ + Θ ((y₁ − y₀) + (1−Θ) (b₀ + Θ (b₁ + Θ b₂))), from its values at both ends of
 /// the step and the coefficients b. A component that does not change within the step keeps its bits.
@@ -62,9 +62,9 @@ impl<const N: usize> Extension<N> {
     }
 }
 
-/// Circumstances of a step, used to control the next steps.
+/// A step whose error is small enough and that is not completed yet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Attempt {
+pub struct Pending<P> {
     /// Size of the step [s].
     pub h: f64,
     /// Error of the step as a fraction of the tolerance.
@@ -78,39 +78,26 @@ pub struct Attempt {
     /// Number of consecutive attempts rejected immediately before this one because their ledger did not close.
     pub unbalanced: u32,
     /// Size of the first of these rejected attempts [s].
-    pub whole: f64,
+    pub first_unbalanced: f64,
     /// Number of consecutive steps up to this one that were cut at a switch but ended before it.
     pub short: u32,
-}
-
-finite!(Attempt { h, error, whole; cut, to_kink, after_rejection, unbalanced, short });
-
-impl Attempt {
-    /// True if all numbers are finite and the step size is positive.
-    pub fn is_valid(&self) -> bool {
-        self.is_finite() && self.h > 0.0
-    }
-}
-
-/// A step whose error is small enough and that is not completed yet.
-#[derive(Clone, Copy, Debug)]
-pub struct Pending<P> {
-    /// Circumstances of the step.
-    pub attempt: Attempt,
     /// Ledger rates at the start and halfway.
     pub ledger_rates: [P; 2],
     /// Kinetic and stored energy at the start.
     pub energy: [f64; 2],
-    /// Fraction of the step that is accepted: 1, unless the equations change within the step.
-    pub accepted_fraction: f64,
-    /// Jump of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the integration
-    /// continues.
-    pub jump: Option<f64>,
 }
 
-/// Progress of an integration.
+impl<P: Finite> Pending<P> {
+    /// True if all numbers are finite and the step size is positive.
+    pub fn is_valid(&self) -> bool {
+        let Self { h, error, first_unbalanced, ledger_rates, energy, .. } = self;
+        [*h, *error, *first_unbalanced].is_finite() && ledger_rates.is_finite() && energy.is_finite() && *h > 0.0
+    }
+}
+
+/// Motion of an integration: the last completed step, and the pending step.
 #[derive(Clone, Copy, Debug)]
-pub struct Course<const N: usize, P> {
+pub struct Trajectory<const N: usize, P> {
     /// End of the last completed step.
     pub point: Point<N>,
     /// Time of this point [s].
@@ -119,6 +106,11 @@ pub struct Course<const N: usize, P> {
     pub pending: Option<Pending<P>>,
     /// Dense output of the pending step. Without a pending step, memory for the next dense output.
     pub extension: Extension<N>,
+    /// Fraction of the pending step that is accepted: 1, unless the equations change within the step.
+    pub accepted_fraction: f64,
+    /// Jump of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the integration
+    /// continues.
+    pub jump: Option<f64>,
     /// Time at which these equations end because they change [s]. No step is completed beyond it.
     pub end: f64,
     /// Time at which these equations are expected to end [s]. Steps are fitted to this time but may pass it.
@@ -129,12 +121,22 @@ pub struct Course<const N: usize, P> {
     pub resolution: f64,
 }
 
-impl<const N: usize, P> Course<N, P> {
+impl<const N: usize, P> Trajectory<N, P> {
     /// Starts an integration from `point` at `time` to `end` [s].
     pub fn new(point: Point<N>, time: f64, end: f64) -> Self {
         let resolution = 4.0 * f64::EPSILON * end.abs().max(time.abs()).max(1e-9);
-        let (pending, extension) = (None, Extension::NONE);
-        Self { point, time, pending, extension, end, expected: f64::INFINITY, longest: f64::INFINITY, resolution }
+        Self {
+            point,
+            time,
+            pending: None,
+            extension: Extension::NONE,
+            accepted_fraction: 1.0,
+            jump: None,
+            end,
+            expected: f64::INFINITY,
+            longest: f64::INFINITY,
+            resolution,
+        }
     }
 
     /// Ends the equations at `end` [s]. A pending step is accepted up to this time, or dropped if it starts there.
@@ -147,14 +149,15 @@ impl<const N: usize, P> Course<N, P> {
     /// this time, and the integration continues. Returns true if there is a pending step.
     pub fn change_at(&mut self, time: f64, jump: f64) -> bool {
         self.accept_until(time);
-        self.pending.as_mut().map(|pending| pending.jump = Some(jump)).is_some()
+        self.jump = self.pending.is_some().then_some(jump);
+        self.jump.is_some()
     }
 
     fn accept_until(&mut self, end: f64) {
-        if let Some(pending) = &mut self.pending {
-            let fraction = (end - self.time) / pending.attempt.h;
+        if let Some(pending) = &self.pending {
+            let fraction = (end - self.time) / pending.h;
             if fraction > 0.0 {
-                pending.accepted_fraction = fraction.min(1.0);
+                self.accepted_fraction = fraction.min(1.0);
             } else {
                 self.pending = None;
             }
