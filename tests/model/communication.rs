@@ -149,10 +149,10 @@ fn the_integration_restarts_when_something_changes() {
             for k in 1..=100 {
                 fine.advance(f64::from(k) * 1e-4).unwrap();
             }
-            assert_eq!(fine.state().constant_since, Some(0.0), "{}", scene.name);
+            assert_eq!(fine.state().timeline.constant_since, Some(0.0), "{}", scene.name);
             change(&mut fine, &scene);
             fine.advance(0.0101).unwrap();
-            assert_eq!(fine.state().constant_since, Some(0.01), "{}: {what}", scene.name);
+            assert_eq!(fine.state().timeline.constant_since, Some(0.01), "{}: {what}", scene.name);
             let mut coarse = scene.start();
             coarse.advance(0.01).unwrap();
             change(&mut coarse, &scene);

@@ -67,7 +67,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         let is_tooth_broken = state.is_tooth_broken;
         let mut these =
             Self { teeth, applied, driven: Driven::NO, is_tooth_broken, offset, wrapped, shape: PhantomData };
-        if let Some(derivatives) = &state.input_derivatives {
+        if let Some(derivatives) = &state.inputs.derivatives {
             these.driven = these.driven_terms(derivatives);
         }
         these

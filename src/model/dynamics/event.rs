@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs};
+use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
 use crate::numeric::finite;
 
 /// Kind of an event.
@@ -48,23 +48,9 @@ pub struct Events {
     recent: [Event; REMEMBERED],
 }
 
-/// Point at which the motion paused: at an event on the way to a communication point, or at the start of a step whose
-/// inputs already act. The remaining interval still counts from the last communication point, so a pause does not
-/// change rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Pause {
-    /// Last communication point on the integrator's clock [s].
-    pub now: f64,
-    /// Simulation time of the last communication point [s].
-    pub time: f64,
-    /// Inputs that act until the next communication point.
-    pub inputs: Inputs,
-}
-
 finite! {
     Event { time; what, place, count }
     Events { recent }
-    Pause { now, time, inputs }
 }
 
 /// Options of a call that advances the motion.

@@ -50,8 +50,8 @@ impl InputsAndFriction {
     pub fn without_friction(inputs: &Inputs, state: &State) -> Self {
         Self {
             inputs: Inputs { carrier_speed: state.carrier_command, ..*inputs },
-            input_derivatives: state.input_derivatives.unwrap_or(InputDerivatives::ZERO),
-            driven: state.input_derivatives.is_some(),
+            input_derivatives: state.inputs.derivatives.unwrap_or(InputDerivatives::ZERO),
+            driven: state.inputs.derivatives.is_some(),
             change: [0.0; 3],
             friction_state: state.friction,
             friction: None,

@@ -9,8 +9,9 @@
 //! - `ideal`: equations without teeth; `ideal_course`: motion of ideal gears without effects, in closed form;
 //! - `ledger_rates`, `energy_floor`: powers that are computed with the forces, and the energy that a step does not
 //!   resolve;
-//! - `state`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
+//! - `state`, `acting_inputs`, `timeline`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
+pub mod acting_inputs;
 mod driven;
 #[cfg(test)]
 #[path = "tests/driven.rs"]
@@ -37,13 +38,14 @@ pub mod rattle;
 pub mod shaft_means;
 pub mod shape;
 pub mod state;
+pub mod timeline;
 
 pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
 pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};
-pub use pending_step::Clock;
 pub use shape::MAX_SIZE;
 pub use state::State;
+pub use timeline::{Clock, CommunicationPoint, Stop};
 
 /// Evaluates an expression with the equations of any model bound to `$equations`. `N` is their maximum number of
 /// degrees of freedom.

@@ -3,15 +3,17 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::event::{Events, Pause};
+use super::acting_inputs::ActingInputs;
+use super::event::Events;
 use super::pending_step::PendingStep;
 use super::rattle::Rattle;
 use super::shaft_means::TorqueMeans;
+use super::timeline::Timeline;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Layout, MAX_DOF, OilSpec, PLANET,
+    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs, Layout, MAX_DOF, OilSpec, PLANET,
 };
 use crate::model::setup::HEATS;
 use crate::model::thermal::Thermal;
@@ -23,8 +25,8 @@ const MOST_PERIODS: u64 = 1 << 53;
 /// State of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct State {
-    /// Time [s].
-    time: f64,
+    /// Present time, and times at which something happens.
+    pub timeline: Timeline,
     /// Positions [rad; seats m]. Angles of gears are wrapped into a tooth pitch, the carrier's angle into a turn.
     pub q: [f64; MAX_DOF],
     /// Velocities [rad/s; seats m/s].
@@ -53,29 +55,22 @@ pub struct State {
     pub lock: f64,
     /// Carrier speed command that acted in the last step [rad/s].
     pub carrier_command: f64,
-    /// Derivatives of the inputs, if the host has set them.
-    pub input_derivatives: Option<InputDerivatives>,
+    /// Inputs that act.
+    pub inputs: ActingInputs,
     /// Kinetic and elastic energy at the start [J].
     pub energy_at_start: f64,
-    /// Start of the present interval of constant inputs [s]: the time at which the integration last restarted or
-    /// torques last changed. `None` before the first start.
-    pub constant_since: Option<f64>,
-    /// Length of the previous interval of constant inputs [s]; infinite if there was none.
-    pub constant_before: f64,
     /// Step of the integrator that contains the present. Work, heat, friction and damage are still the values at the
     /// start of this step.
     pub pending_step: Option<PendingStep>,
     /// Last events.
     pub events: Events,
-    /// Pause between two communication points. It contains the point from which the remaining interval counts.
-    pub pause: Option<Pause>,
 }
 
 impl State {
     /// State at rest at `time` [s] with all quantities zero; `first_step` is the first step size [s].
     pub fn at_rest(time: f64, first_step: f64) -> Self {
         Self {
-            time,
+            timeline: Timeline::new(time),
             q: [0.0; MAX_DOF],
             v: [0.0; MAX_DOF],
             whole_periods: [0; MAX_DOF],
@@ -90,49 +85,36 @@ impl State {
             is_tooth_broken: false,
             lock: 0.0,
             carrier_command: 0.0,
-            input_derivatives: None,
+            inputs: ActingInputs { values: Inputs::ZERO, derivatives: None },
             energy_at_start: 0.0,
-            constant_since: None,
-            constant_before: f64::INFINITY,
             pending_step: None,
             events: Events::default(),
-            pause: None,
         }
     }
 
     /// Time [s].
     #[inline]
     pub fn time(&self) -> f64 {
-        self.time
-    }
-
-    /// Sets the time to `time` [s], as given by the integrator's clock. The motion must already be there.
-    pub fn move_with_clock(&mut self, time: f64) {
-        self.time = time;
-    }
-
-    /// Sets the time to `time` [s], as given by a host whose solver integrates the motion.
-    pub fn follow_host(&mut self, time: f64) {
-        self.time = time;
+        self.timeline.now
     }
 
     /// Returns a copy with another time [s], other positions and other velocities.
     pub fn elsewhere(&self, time: f64, q: [f64; MAX_DOF], v: [f64; MAX_DOF]) -> Self {
-        Self { time, q, v, ..*self }
+        Self { timeline: Timeline { now: time, ..self.timeline }, q, v, ..*self }
     }
 
-    /// Moves the first `n` degrees of freedom to `until` [s] if the pending step contains this time. Returns true if it
-    /// does.
+    /// Moves the first `n` degrees of freedom to `until` [s] if the pending step contains this time. If the motion
+    /// `pauses` there, `until` precedes the next communication point. Returns true if the state moved.
     #[inline]
-    pub fn move_within(&mut self, until: f64, n: usize) -> bool {
+    pub fn move_within(&mut self, until: f64, pauses: bool, n: usize) -> bool {
         let Some(pending_step) = &mut self.pending_step else { return false };
-        let [shown, time] = self.pause.map_or([pending_step.clock.now, self.time], |pause| [pause.now, pause.time]);
-        let now = shown + (until - time);
+        let last = self.timeline.last_communication_point(&pending_step.clock);
+        let now = last.clock + (until - last.time);
         if now > pending_step.end() {
             return false;
         }
         pending_step.clock.now = now;
-        self.time = until;
+        (self.timeline.now, self.timeline.pause) = (until, pauses.then_some(last));
         pending_step.motion(n, [&mut self.q, &mut self.v]);
         true
     }
@@ -220,14 +202,15 @@ impl State {
             && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
             && self.control.after_jump.is_valid()
             && self.events.is_finite()
-            && self.pause.is_finite()
+            && self.timeline.pause.is_finite()
+            && self.inputs.is_finite()
     }
 
     /// True if all numbers are valid, except those of pending step, events and pause, which are not checked. This
     /// suffices after an integration, because its pending step has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
         let Self {
-            time,
+            timeline,
             q,
             v,
             whole_periods,
@@ -242,27 +225,23 @@ impl State {
             is_tooth_broken: _,
             lock,
             carrier_command,
-            input_derivatives,
+            inputs,
             energy_at_start,
-            constant_since,
-            constant_before,
             pending_step: _,
             events: _,
-            pause: _,
         } = self;
-        [*time, *work, *carrier_command, *energy_at_start].is_finite()
+        timeline.is_valid()
+            && [*work, *carrier_command, *energy_at_start].is_finite()
             && [q, v].into_iter().all(Finite::is_finite)
             && heat.is_finite()
             && thermal.is_valid()
             && friction.is_finite()
             && friction.iter().all(|body| body.stiffness >= 0.0)
             && torque_means.is_finite()
-            && input_derivatives.is_finite()
+            && inputs.derivatives.is_finite()
             && whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(lock)
             && control.is_valid()
-            && *constant_before >= 0.0
-            && Finite::is_finite(constant_since)
     }
 }
 
@@ -276,7 +255,7 @@ impl BodyEffects {
     /// True if the forces of ideal gears have a closed form in `state`: no effect acts on bodies, and inputs are
     /// constant.
     pub fn have_closed_form(&self, state: &State) -> bool {
-        !self.act_in(state) && state.input_derivatives.is_none()
+        !self.act_in(state) && state.inputs.derivatives.is_none()
     }
 
     /// True if there may be dry friction in `state`: sources of the scene, a lock that is commanded, or friction that
@@ -290,7 +269,7 @@ impl BodyEffects {
 mod tests {
     use super::*;
     use crate::model::dynamics::event::Happening;
-    use crate::model::scene::Inputs;
+    use crate::model::dynamics::timeline::CommunicationPoint;
 
     #[test]
     fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
@@ -319,14 +298,15 @@ mod tests {
     #[test]
     fn a_state_whose_events_or_pause_are_not_finite_is_invalid() {
         let mut good = State::at_rest(0.0, 1e-3);
-        good.pause = Some(Pause { now: 0.0, time: 0.0, inputs: Inputs::ZERO });
+        good.timeline.pause = Some(CommunicationPoint { clock: 0.0, time: 0.0 });
         assert!(good.is_valid());
         for bad in [f64::NAN, f64::INFINITY] {
             let mut states = [good; 4];
             states[0].events.record(Happening::ToothBreaks, 0, bad);
             states[0].events.record(Happening::ToothBreaks, 0, 0.0);
-            let [_, now, time, inputs] = states.each_mut().map(|state| state.pause.as_mut().unwrap());
-            (now.now, time.time, inputs.inputs.planet_spin) = (bad, bad, bad);
+            states[1].timeline.pause = Some(CommunicationPoint { clock: 0.0, time: bad });
+            states[2].timeline.pause = Some(CommunicationPoint { clock: bad, time: 0.0 });
+            states[3].inputs.values.planet_spin = bad;
             assert!(states.iter().all(|state| !state.is_valid()), "{bad}");
         }
     }

@@ -196,7 +196,7 @@ impl Simulation {
             state.v[i] = from.v[i] + factor * direction.v[i];
         }
         state.carrier_command = from.carrier_command + factor * direction.carrier_command;
-        if let (Some(from), Some(to)) = (&from.input_derivatives, &mut state.input_derivatives) {
+        if let (Some(from), Some(to)) = (&from.inputs.derivatives, &mut state.inputs.derivatives) {
             to.rates[0] = from.rates[0].plus(factor, &direction.rates);
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);

@@ -7,9 +7,10 @@ use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
-use crate::model::run::events::{apply_changes, break_tooth, energy, have_brakes_changed, record_holds};
+use crate::model::run::events::{
+    apply_changes, break_tooth, breaks_tooth, energy, have_brakes_changed, next_change, record_holds,
+};
 use crate::model::run::progress::complete;
-use crate::model::run::timeline::{breaks_tooth, next_change};
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
 
@@ -32,14 +33,14 @@ impl Simulation {
     /// jumps of imposed speeds the free speeds have responded.
     fn accept(&mut self, followed_commands: Inputs) {
         let State { q, v, .. } = self.state;
-        let (time, inputs) = (self.state.time(), self.inputs);
-        self.accepted = Some(Accepted { time, q, v, inputs, followed_commands });
+        self.state.inputs.values = self.inputs;
+        self.accepted = Some(Accepted { time: self.state.time(), q, v, followed_commands });
         self.forces = None;
     }
 
     /// Sets the time [s].
     pub fn set_time(&mut self, time: f64) {
-        self.state.follow_host(time);
+        self.state.timeline.now = time;
     }
 
     /// Moves to `states`, except imposed motions, which follow their commands. If a step is pending, it is first
@@ -96,7 +97,7 @@ impl Simulation {
             state.work += energy(model, inputs, &begin) - before;
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = equations.under(&from.inputs, &InputDerivatives::ZERO).evaluate(&start);
+                let (_, first) = equations.under(&state.inputs.values, &InputDerivatives::ZERO).evaluate(&start);
                 let (_, last) = equations.evaluate(&end);
                 // the motion in between is unknown: for stiff teeth, no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
@@ -139,7 +140,7 @@ impl Simulation {
 
     /// True if time and inputs have not changed since the last completed step or event.
     pub fn is_accepted(&self) -> bool {
-        self.accepted.is_some_and(|from| from.time == self.state.time() && from.inputs == self.inputs)
+        self.accepted.is_some_and(|from| from.time == self.state.time() && self.state.inputs.values == self.inputs)
     }
 
     /// Time of the next event, if it is already known [s].

@@ -15,13 +15,11 @@ pub struct Accepted {
     pub q: [f64; MAX_DOF],
     /// Velocities.
     pub v: [f64; MAX_DOF],
-    /// Inputs.
-    pub inputs: Inputs,
     /// Commands of the imposed speeds to whose jumps the free speeds have already responded.
     pub followed_commands: Inputs,
 }
 
-finite!(Accepted { time, q, v, inputs, followed_commands });
+finite!(Accepted { time, q, v, followed_commands });
 
 impl Accepted {
     /// Returns `state` moved to the end of this step.

@@ -5,7 +5,7 @@
 //! taken back. The pending step is completed up to the change, with the torques that acted in it, and the integration
 //! continues.
 
-use super::timeline;
+use super::events::may_break_tooth;
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
@@ -13,11 +13,13 @@ use crate::model::scene::Inputs;
 /// Returns the jump of the accelerations [rad/s²] if `inputs` change only torques within the pending step. Returns
 /// `None` if the integration must restart.
 pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64> {
-    let pending_step = state.pending_step.as_ref().filter(|step| step.inputs != *inputs)?;
+    if state.pending_step.is_none() || state.inputs.values == *inputs {
+        return None;
+    }
     let effects = model.body_effects();
     let must_restart =
-        state.input_derivatives.is_some() || effects.may_have_dry_friction(state) || effects.scale_carrier_inputs();
-    if must_restart { None } else { jump_of_accelerations(model, &pending_step.inputs, inputs) }
+        state.inputs.derivatives.is_some() || effects.may_have_dry_friction(state) || effects.scale_carrier_inputs();
+    if must_restart { None } else { jump_of_accelerations(model, &state.inputs.values, inputs) }
 }
 
 /// Jump of the accelerations if inputs change from `before` to `inputs` [rad/s²], or `None` if more than torques
@@ -47,7 +49,7 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
         planet_spin: given(plan.spin_imposed, inputs.planet_spin),
         lock: inputs.lock,
         brake_torque: inputs.brake_torque.map(|torque| given(model.body_effects().has_brakes, torque)),
-        fault: given(timeline::may_break_tooth(model), inputs.fault),
+        fault: given(may_break_tooth(model), inputs.fault),
         ambient_change: given(around.is_some(), inputs.ambient_change),
         sump_change: given(around.is_some_and(|around| around.sump.is_some()), inputs.sump_change),
     }
@@ -56,8 +58,8 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
 /// Starts a new interval of constant inputs at the present, after a change of torques. Returns the present on the
 /// `clock` [s].
 pub fn begin_interval(state: &mut State, clock: &mut Clock) -> f64 {
-    state.pause = None;
-    timeline::begin_constant_inputs(state);
-    clock.expected = clock.now + timeline::expected(state);
+    state.timeline.pause = None;
+    state.timeline.begin_constant_inputs();
+    clock.expected = clock.now + state.timeline.expected();
     clock.now
 }

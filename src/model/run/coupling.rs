@@ -35,7 +35,7 @@ impl Simulation {
     pub(super) fn advance_recorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         let side_imposed = self.model.ideal.plan.side_imposed;
         let before = given(&self.inputs, side_imposed);
-        let derivatives = self.state.input_derivatives.as_ref();
+        let derivatives = self.state.inputs.derivatives.as_ref();
         let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
         if self.memories.coupling_advice.get().is_some_and(|coupling| coupling.last.is_none()) {
             let last = Some((self.time(), self.places()));

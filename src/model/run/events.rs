@@ -1,6 +1,5 @@
 //! Changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
 
-use super::timeline::breaks_tooth;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
 use crate::model::dynamics::event::Happening;
@@ -13,6 +12,29 @@ use crate::model::setup::CONTACT_HEAT;
 /// Kinetic and stored energy [J].
 pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
     with_equations!(model, state, inputs, |equations| equations.energy(&state.point::<N>()).iter().sum())
+}
+
+/// Time of the next change of the equations that the host does not cause [s]: the onset of the tooth fault, if it is
+/// still to come.
+pub fn next_change(model: &Model, state: &State) -> Option<f64> {
+    let onset = onset(model).filter(|_| may_break_tooth(model) && !state.is_tooth_broken);
+    onset.filter(|&onset| !state.timeline.has_reached(onset))
+}
+
+/// True if a tooth of the scene may break.
+pub fn may_break_tooth(model: &Model) -> bool {
+    model.parameters.effects.tooth_fault
+}
+
+/// Time at which a tooth breaks by itself [s], if it does.
+fn onset(model: &Model) -> Option<f64> {
+    model.parameters.specs.tooth_fault.time()
+}
+
+/// True if a tooth breaks now, because its time has come or the fault input triggers it.
+pub fn breaks_tooth(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let has_come = || onset(model).is_some_and(|onset| state.timeline.has_reached(onset));
+    may_break_tooth(model) && !state.is_tooth_broken && (inputs.fault > 0.5 || has_come())
 }
 
 /// Breaks the tooth if its time has come or the fault input triggers it. The energy stored in the tooth becomes heat.

@@ -41,7 +41,7 @@ impl Simulation {
     pub fn apply_jumps(&mut self, host: &HostInputs) {
         let at_once = JUMPING.plus(1.0, &host.follow);
         self.set_inputs(&self.inputs.pick(&host.values, &at_once));
-        let reached = self.state.input_derivatives.unwrap_or(InputDerivatives::ZERO);
+        let reached = self.state.inputs.derivatives.unwrap_or(InputDerivatives::ZERO);
         self.set_rates(reached.pick(&host.derivatives, &host.follow));
     }
 

@@ -23,12 +23,11 @@ use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
     Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithEffects, WithEnds,
 };
+use crate::model::dynamics::timeline::LONGEST_INTERVAL;
 use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
 use crate::model::effects::Memories;
 use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
 
-/// Longest interval before positions are wrapped and the integrator's clock is reset [s].
-pub const LONGEST_INTERVAL: f64 = 1.0;
 /// Longest step [s].
 const LONGEST: f64 = LONGEST_INTERVAL;
 /// Resolution of a double for times up to the length of an interval [s].
@@ -85,7 +84,7 @@ pub fn integrate_teeth(
     let is_default = method == Method::Adaptive;
     let arguments = (teeth, model, state, integration, budget);
     if FULL && is_default && !teeth.effect_terms.body_effects.act_in(arguments.2) {
-        match (groups, arguments.2.input_derivatives.is_some()) {
+        match (groups, arguments.2.inputs.derivatives.is_some()) {
             (1, false) => return integrate_monomorphised::<PLAIN_SIZE, Plain<1>>(arguments),
             (1, true) => return integrate_monomorphised::<PLAIN_SIZE, PlainDriven>(arguments),
             (2, false) => return integrate_monomorphised::<TWO_GROUPS_SIZE, Plain<2>>(arguments),
@@ -163,7 +162,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         pending_step.resume(&mut trajectory);
         trajectory.end_at(clock.end);
         if let Some((time, jump)) = change {
-            equations.applied_mut().change = inputs.torques_since(&pending_step.inputs);
+            equations.applied_mut().change = inputs.torques_since(&state.inputs.values);
             if !trajectory.change_at(time, jump) {
                 // no part of the pending step precedes the change
                 state.control.jump(Some(jump));
@@ -230,13 +229,14 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             (switched || is_warmer) && trajectory.time < set_back_at && trajectory.end - trajectory.time > RESOLUTION;
     }
     // store the result and the pending step
+    state.inputs.values = *inputs;
     state.friction = equations.applied().friction_state;
     state.set_point(&trajectory.point);
     clock.time = trajectory.time;
     match &trajectory.pending {
         Some(pending) if outcome.is_ok() => {
             let pending = (pending, &trajectory.extension);
-            state.pending_step.get_or_insert_default().set(pending, *clock, inputs);
+            state.pending_step.get_or_insert_default().set(pending, *clock);
         }
         _ => state.pending_step = None,
     }

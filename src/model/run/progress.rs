@@ -5,13 +5,13 @@
 //! pending step is completed up to the present, and the integration restarts there. If only torques change, the
 //! integration continues without a restart (see `change`).
 
-use super::events::{apply_changes, break_tooth};
-use super::integration::{self, Integration, LONGEST_INTERVAL};
-use super::timeline::{self, Stop};
+use super::events::{apply_changes, break_tooth, next_change};
+use super::integration::{self, Integration};
 use super::{StepFailure, change, imposed};
 use crate::model::assembly::{Gears, Model};
-use crate::model::dynamics::event::{AdvanceOptions, Pause};
-use crate::model::dynamics::{Clock, State};
+use crate::model::dynamics::event::AdvanceOptions;
+use crate::model::dynamics::timeline::LONGEST_INTERVAL;
+use crate::model::dynamics::{Clock, CommunicationPoint, State, Stop};
 use crate::model::effects::Memories;
 use crate::model::scene::{Inputs, Method};
 
@@ -37,20 +37,21 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, memories): (&mut State, &
     if is_jump {
         state.control.jump(None);
     }
-    state.pause = None;
+    state.timeline.pause = None;
     imposed::jump(model, inputs, state);
     apply_changes(model, inputs, state);
-    timeline::begin_constant_inputs(state);
+    state.timeline.begin_constant_inputs();
+    state.inputs.values = *inputs;
 }
 
 /// Completes the pending step up to the present, under the inputs that acted in it. Also switches friction that is due
 /// to switch at the present. Without `memories`, damage and mesh history are left out.
 pub fn complete(model: &Model, (state, memories): (&mut State, Option<&mut Memories>)) {
     let Some(pending_step) = &state.pending_step else { return };
-    let (inputs, mut clock) = (pending_step.inputs, pending_step.clock);
+    let (inputs, mut clock) = (state.inputs.values, pending_step.clock);
     clock.end = clock.now;
     let before = *state;
-    state.input_derivatives = None;
+    state.inputs.derivatives = None;
     let mut budget = integration::budget(model);
     let begin = state.time() - clock.now;
     let integration = Integration {
@@ -69,7 +70,7 @@ pub fn complete(model: &Model, (state, memories): (&mut State, Option<&mut Memor
         *state = before;
         state.pending_step = None;
     }
-    state.input_derivatives = before.input_derivatives;
+    state.inputs.derivatives = before.inputs.derivatives;
     wrap_and_constrain(model, state);
 }
 
@@ -84,8 +85,8 @@ pub fn integrate(
     let mut budget = integration::budget(model);
     while state.time() < until {
         let (begin, events) = (state.time(), state.events.count());
-        let stop = timeline::next_stop(model, state, until);
-        let outcome = if state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
+        let stop = state.timeline.next_stop(next_change(model, state), until);
+        let outcome = if state.inputs.derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             step_to_stop(model, inputs, (state, memories), stop, &mut budget)
         } else {
             step_past_stop(model, inputs, (state, memories), (stop, options, jump.take()), &mut budget)
@@ -104,8 +105,8 @@ pub fn integrate(
             options.is_part && state.pending_step.is_none()
         };
         if pauses {
-            let now = state.pending_step.as_ref().map_or(0.0, |step| step.clock.now);
-            state.pause = Some(Pause { now, time: state.time(), inputs: *inputs });
+            let clock = state.pending_step.as_ref().map_or(0.0, |step| step.clock.now);
+            state.timeline.pause = Some(CommunicationPoint { clock, time: state.time() });
             return Ok(());
         }
     }
@@ -144,11 +145,11 @@ fn step_past_stop(
     (stop, options, jump): (Stop, AdvanceOptions, Option<f64>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let mut clock = timeline::clock(model, state);
+    let mut clock = clock(model, state);
     let mut change = jump.map(|jump| (change::begin_interval(state, &mut clock), jump));
-    let [mut last_point, time] = timeline::last_communication_point(state, &clock);
-    let mut begin = time - last_point;
-    let mut target = if stop.is_change { clock.end } else { last_point + (stop.time - time) };
+    let mut last = state.timeline.last_communication_point(&clock);
+    let mut begin = last.time - last.clock;
+    let mut target = if stop.is_change { clock.end } else { last.clock + (stop.time - last.time) };
     clock.now = target;
     let mut advanced = 0.0;
     // one iteration per interval of the clock
@@ -163,21 +164,20 @@ fn step_past_stop(
         wrap_and_constrain(model, state);
         // an event has paused the motion before the stop
         if outcome.is_ok() && state.pending_step.is_some() && clock.now < target {
-            state.pause = Some(Pause { now: last_point, time, inputs: *inputs });
-            state.move_with_clock(begin + clock.now);
+            (state.timeline.pause, state.timeline.now) = (Some(last), begin + clock.now);
             return Ok(());
         }
         // the pending step contains the stop, the equations change there, or a step has failed
         if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
             let arrived = arrive(state, stop, begin + reached, outcome);
             if options.is_part && state.pending_step.is_some() {
-                state.pause = Some(Pause { now: last_point, time, inputs: *inputs });
+                state.timeline.pause = Some(last);
             }
             return arrived;
         }
         // the interval has ended before the stop: continue with a reset clock
         let by = clock.set_back();
-        (begin, last_point, target) = (begin + by, last_point - by, target - by);
+        (begin, last.clock, target) = (begin + by, last.clock - by, target - by);
         advanced += by;
         extend(budget, model, advanced, stop.time - (begin + clock.time));
     }
@@ -186,11 +186,26 @@ fn step_past_stop(
 /// Moves the time to the stop, or to `reached` [s] if the motion has not reached the stop. Returns the error in
 /// `outcome`, or an error if the stop was not reached.
 fn arrive(state: &mut State, stop: Stop, reached: f64, outcome: Result<(), StepFailure>) -> Result<(), StepFailure> {
-    state.pause = None;
+    state.timeline.pause = None;
     if outcome.is_err() {
-        state.move_with_clock(reached);
+        state.timeline.now = reached;
     }
-    outcome.and_then(|()| timeline::arrive(state, stop.time, reached))
+    outcome.and_then(|()| arrive_at(state, stop.time, reached))
+}
+
+/// Moves the time to `until` [s], given that the motion has reached `reached` [s]. Fails if both differ by more than
+/// rounding; the time is then `reached`.
+pub fn arrive_at(state: &mut State, until: f64, reached: f64) -> Result<(), StepFailure> {
+    if state.timeline.arrive(until, reached) { Ok(()) } else { Err(StepFailure::not_reached(reached, until)) }
+}
+
+/// Clock of the pending step, or a new clock that starts now.
+fn clock(model: &Model, state: &State) -> Clock {
+    if let Some(pending_step) = &state.pending_step {
+        return pending_step.clock;
+    }
+    let change = next_change(model, state).unwrap_or(f64::INFINITY);
+    Clock::new(change - state.time(), state.timeline.expected())
 }
 
 /// Integrates up to the stop, or up to the next reset of the clock. Planets that move identically are integrated as one
@@ -225,8 +240,8 @@ pub fn wrap_and_constrain(model: &Model, state: &mut State) {
 
 /// Advances inputs by `time` [s] along their derivatives.
 pub fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
-    if let Some(input_derivatives) = &mut state.input_derivatives {
-        input_derivatives.follow(time, inputs);
-        state.carrier_command = inputs.carrier_speed;
+    if let Some(derivatives) = &mut state.inputs.derivatives {
+        derivatives.follow(time, inputs);
+        (state.inputs.values, state.carrier_command) = (*inputs, inputs.carrier_speed);
     }
 }

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use crate::FULL;
 
 use super::accepted::Accepted;
+use super::events::next_change;
 use super::integration::RESOLUTION;
 use super::progress::{self, restart};
-use super::{StepFailure, change, timeline, watching};
+use super::{StepFailure, change, watching};
 use crate::model::assembly::{Gears, Given, Model};
-use crate::model::dynamics::State;
-use crate::model::dynamics::event::{AdvanceOptions, Events, Pause};
+use crate::model::dynamics::event::{AdvanceOptions, Events};
+use crate::model::dynamics::timeline::resolution;
+use crate::model::dynamics::{CommunicationPoint, State};
 use crate::model::effects::Memories;
 use crate::model::outputs::forces::Forces;
 use crate::model::scene::{InputDerivatives, Inputs, Method};
@@ -92,16 +94,16 @@ impl Simulation {
     /// Copies `input_derivatives` to the derivatives of the inputs.
     #[inline]
     pub fn share_input_derivatives(&mut self, input_derivatives: Option<&InputDerivatives>) {
-        if input_derivatives != self.state.input_derivatives.as_ref() {
-            InputDerivatives::copy(input_derivatives, &mut self.state.input_derivatives);
-            self.state.pause = None;
+        if input_derivatives != self.state.inputs.derivatives.as_ref() {
+            InputDerivatives::copy(input_derivatives, &mut self.state.inputs.derivatives);
+            self.state.timeline.pause = None;
             self.forces = None;
         }
     }
 
     /// Derivatives of the inputs, if they are set.
     pub fn input_derivatives(&self) -> Option<&InputDerivatives> {
-        self.state.input_derivatives.as_ref()
+        self.state.inputs.derivatives.as_ref()
     }
 
     /// Applies changed tunable parameters.
@@ -113,7 +115,7 @@ impl Simulation {
         }
         // the next step restarts the integration under the new parameters
         self.state.control.jump(None);
-        self.state.pause = None;
+        self.state.timeline.pause = None;
         self.memories.tuned();
         self.forces = None;
     }
@@ -147,11 +149,9 @@ impl Simulation {
 
     /// True if the inputs already act.
     fn inputs_act(&self) -> bool {
-        let Self { state, inputs, .. } = self;
-        match &state.pending_step {
-            Some(pending_step) => pending_step.inputs == *inputs && state.input_derivatives.is_none(),
-            None => state.pause.as_ref().is_some_and(|pause| pause.inputs == *inputs),
-        }
+        let State { inputs, timeline, pending_step, .. } = &self.state;
+        let has_begun = if pending_step.is_some() { inputs.derivatives.is_none() } else { timeline.pause.is_some() };
+        has_begun && inputs.values == self.inputs
     }
 
     fn begin_under_inputs(&mut self) -> Beginning {
@@ -161,7 +161,7 @@ impl Simulation {
         }
         let count = state.events.count();
         restart(model, inputs, (state, memories));
-        state.pause = Some(Pause { now: 0.0, time: state.time(), inputs: *inputs });
+        state.timeline.pause = Some(CommunicationPoint { clock: 0.0, time: state.time() });
         self.forces = None;
         if state.events.count() == count { Beginning::Silent } else { Beginning::Event }
     }
@@ -187,7 +187,9 @@ impl Simulation {
         let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
         // the pending step may already contain the requested time
         let continues = state.pending_step.is_some() && jump.is_none();
-        if continues && timeline::move_within(model, state, (until, options)) {
+        let change = if continues { next_change(model, state) } else { None };
+        let is_before_change = change.is_none_or(|change| until + resolution(change) < change);
+        if continues && is_before_change && state.move_within(until, options.is_part, model.layout.count()) {
             progress::wrap_and_constrain(model, state);
             return Ok(());
         }
@@ -197,7 +199,7 @@ impl Simulation {
         {
             let h = until - state.time();
             let (q, v, work) = (state.q, state.v, state.work);
-            match &state.input_derivatives {
+            match &state.inputs.derivatives {
                 None => model.ideal.advance(state, inputs, h),
                 Some(derivatives) => {
                     let course = model.ideal.course(inputs, derivatives);
@@ -208,13 +210,13 @@ impl Simulation {
                 (state.q, state.v, state.work) = (q, v, work);
                 return Err(StepFailure::not_finite(state.time()));
             }
-            if state.input_derivatives.is_some() {
+            if state.inputs.derivatives.is_some() {
                 progress::advance_inputs(inputs, state, h);
                 // exact to the last bit, because the next step would treat any difference as a jump
                 model.ideal.impose(state, inputs);
             }
-            state.pause = None;
-            timeline::arrive(state, until, state.time() + h)?;
+            state.timeline.pause = None;
+            progress::arrive_at(state, until, state.time() + h)?;
             state.statistics.accepted += 1;
             state.control.last = h;
             state.wrap(&model.periods, &model.layout);
@@ -243,15 +245,15 @@ impl Simulation {
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
         let (model, state) = (&self.model, &self.state);
         let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
-        if is_closed || state.input_derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
+        if is_closed || state.inputs.derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             return Ok(None);
         }
         let end = |state: &State| {
             let step = state.pending_step.as_ref()?;
-            let [now, time] = timeline::last_communication_point(state, &step.clock);
-            Some(time + (step.end() - now)).filter(|&end| end > state.time())
+            let last = state.timeline.last_communication_point(&step.clock);
+            Some(last.time + (step.end() - last.clock)).filter(|&end| end > state.time())
         };
-        let holds = self.state.pending_step.as_ref().is_some_and(|step| step.inputs == self.inputs);
+        let holds = self.state.pending_step.is_some() && self.state.inputs.values == self.inputs;
         if let (true, Some(end)) = (holds, end(&self.state)) {
             return Ok(Some(end));
         }

@@ -34,7 +34,7 @@ fn at_random_points(check: impl Fn(&IdealWithEffects, &State, &Inputs, &Point<ID
         let rate = Inputs { load_torque: [1e3, 2e3], carrier_speed: 10.0, planet_spin: -4.0, ..Inputs::ZERO };
         let simulation = Simulation::start(&parameters, &inputs, 0.0).unwrap();
         let mut state = *simulation.state();
-        state.input_derivatives = Some(InputDerivatives { rates: [rate, rate] });
+        state.inputs.derivatives = Some(InputDerivatives { rates: [rate, rate] });
         let model = Model::new(&parameters, &Given::default()).unwrap();
         let Gears::Ideal(ideal) = &model.gears else { panic!("the gears are ideal") };
         for _ in 0..20 {
