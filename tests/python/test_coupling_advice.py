@@ -70,17 +70,19 @@ def test_half_the_step_halves_the_ratio_or_quarters_it(coupled, system, delay, l
 @pytest.mark.parametrize(("delay", "lines", "order"), ORDERS)
 @pytest.mark.parametrize("system", [name for name in SYSTEMS if name != "motor"])
 def test_the_advised_step_gives_the_wanted_ratio(coupled, system, delay, lines, order):
-    wanted = 0.003
+    # steps in which the ratio is too large
+    wanted = 0.3 * coupled(system, SIZE / 2, delay, lines).ratio[-1]
     advice = coupled(system, SIZE / 2, delay, lines, **{"coupling.wanted_ratio": wanted}).advice[-1]
     followed = coupled(system, 1.0 / round(1.0 / advice), delay, lines)
     assert wanted / 1.5 < followed.ratio[-1] < 1.5 * wanted
 
 
 @pytest.mark.parametrize(("delay", "lines", "order"), ORDERS)
-def test_a_motor_that_causes_the_motion_gets_no_unstable_step(coupled, delay, lines, order):
-    # the unit sees its own inertia, which says nothing about the limit of longer steps: 2 c/(3 k) if the host is late
-    advice = coupled("motor", SIZE / 2, delay, lines, **{"coupling.wanted_ratio": 0.5}).advice[-1]
-    assert advice < 2.0 * 10.0 / (3.0 * 2000.0)
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_advice_is_never_longer_than_the_present_step(coupled, system, delay, lines, order):
+    # one step size cannot show that a longer one is stable
+    advice = coupled(system, SIZE / 2, delay, lines, **{"coupling.wanted_ratio": 0.5}).advice
+    assert max(advice) == pytest.approx(SIZE / 2, rel=1e-9)
 
 
 def test_a_launch_gets_advice_although_the_wheels_accelerate(fmu):
@@ -197,21 +199,17 @@ def test_a_car_records_the_state_of_the_advice(fmu):
 
 
 @pytest.mark.parametrize("lines", [False, True])
-@pytest.mark.parametrize("ports", [("left",), ("carrier",), ("left", "right")])
-@pytest.mark.parametrize("stiffness, damping", [(9000.0, 5.0), (9000.0, 50.0), (9000.0, 400.0), (500.0, 5.0)])
-def test_the_advice_is_at_most_the_longest_stable_step(fmu, ports, stiffness, damping, lines):
+@pytest.mark.parametrize("ports", [("left",), ("left", "right")])
+@pytest.mark.parametrize("stiffness, damping", [(9000.0, 5.0), (9000.0, 50.0), (500.0, 5.0)])
+def test_steps_above_the_longest_stable_one_get_an_advice_below_it(fmu, ports, stiffness, damping, lines):
     scene = Scene("free", stop=1.0, step=1e-3, outputs=["left.speed"], set=FREE, fmu=fmu.file)
     springs = [Spring.spring(port, stiffness, damping, 1e3, reads="both") for port in ports]
     stable = coupling(scene, springs, "gauss-seidel", "lines" if lines else "held").limit
-    for share in (0.1, 0.5, 0.9):
-        hosts = {port: Host(stiffness, damping, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time),
-                            sign=-1.0 if port == "carrier" else 1.0) for port in ports}
-        run = couple(fmu, hosts, share * stable, max(200.0 * share * stable, 1.0), lines=lines,
-                     values={} if "carrier" in ports else {"carrier.torque_command": 20.0})
-        advised = [advice for advice in run.advice[40:] if advice > 0.0]
-        # the host's law is learned from noisy differences; a motion that is damped within a period shows none
-        assert advised or damping == 400.0
-        assert max(advised, default=0.0) < 1.2 * stable
+    for share in (1.05, 1.15):
+        hosts = {port: Host(stiffness, damping, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time)) for port in ports}
+        run = couple(fmu, hosts, share * stable, 80.0 * share * stable, lines=lines, values={"carrier.torque_command": 20.0})
+        # the host's law is learned from noisy differences
+        assert 0.0 < run.advice[-1] < 1.2 * stable and run.advice[-1] < share * stable
 
 
 @pytest.mark.parametrize("delay, ramp", [(1, False), (0, True), (1, True)])
@@ -222,9 +220,8 @@ def test_the_advice_knows_that_late_hosts_and_ramps_allow_shorter_steps(fmu, sti
     spring = Spring.spring("left", stiffness, damping, 1e3, reads="both")
     stable = coupling(scene, [spring], "jacobi" if delay else "gauss-seidel", "held").limit
     host = Host(stiffness, damping, 1e3, driven=lambda time: 200.0 * math.sin(20.0 * time))
-    run = couple(fmu, {"left": host}, 0.2 * stable, max(200.0 * stable, 0.5), delay=delay, values=values)
-    advised = [advice for advice in run.advice[40:] if advice > 0.0]
-    assert advised and max(advised) < 1.05 * stable
+    run = couple(fmu, {"left": host}, 1.5 * stable, 60.0 * stable, delay=delay, values=values)
+    assert 0.0 < run.advice[-1] < 1.05 * stable
 
 
 def test_a_step_that_is_far_too_long_is_reported_before_the_run_fails(fmu):

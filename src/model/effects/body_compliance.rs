@@ -37,14 +37,14 @@ fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     let toe = 2.0 * setting.pair.inner_cone * sin(setting.pair.gears[i].root);
     let text = if bore == 0.0 {
         format!(
-            "0 mm: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two \
+            "{name} = 0 mm: the {gear} is taken as one piece with a {holder} as thick as the gear below its teeth, held two \
              modules below the roots; that is about as stiff as on the widest bore, {:.3} mm; give the diameter of \
              the {holder} if it has one",
             Support::widest(setting.pair, i) * 1e3
         )
     } else if i == 1 && bore < NARROW * toe {
         format!(
-            "{:.3} mm is less than half the root circle at the toe, {:.3} mm: all torque of the {gear} passes \
+            "{name} = {:.3} mm is less than half the root circle at the toe, {:.3} mm: all torque of the {gear} passes \
              through a {holder} of this diameter, and its elastic rotation grows with 1/diameter^2; if the gear and \
              its {holder} are one piece, or the bore is only a hole, set 0",
             bore * 1e3,
@@ -53,7 +53,8 @@ fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     } else {
         return None;
     };
-    Some(Problem::new(name, text))
+    // it questions what the effect assumes, not the gear
+    Some(Problem::new("effects.body_compliance", text))
 }
 
 impl Effect for BodyComplianceSpec {

@@ -229,7 +229,7 @@ impl Simulation {
             "strength.rate_from",
             "safety and damage include the start, which was not in equilibrium: the smallest safety factor of the \
              roots was {:.3} at t = {:.6} s, that of the flanks {:.3} at t = {:.6} s; count them from after the \
-             run-in, or choose scene.start = equilibrium",
+             run-in",
             root.0,
             root.1,
             flank.0,

@@ -18,7 +18,7 @@ pub fn reason(output: &str, scene: &Scene) -> Option<String> {
         owners.iter().flat_map(|effect| of(effect)).collect::<Vec<_>>().join(word)
     };
     let (states, remedies) = (several(states, " and "), several(remedies, " or "));
-    Some(format!("{states}, so no value is computed; set {remedies}"))
+    Some(format!("{states}, so nothing changes it; set {remedies}"))
 }
 
 /// True if no effect can compute `output` in `scene`, whatever its inputs command.

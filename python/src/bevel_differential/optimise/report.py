@@ -63,11 +63,11 @@ def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], pr
 
 
 def failing(chosen: Sequence[DesignRow]) -> Iterator[str]:
-    """Sentences about safety factors below 1 of the chosen designs."""
+    """Sentences about safety factors of the chosen designs that are below 1; the conditions of the problem may allow this."""
     for letter, row in zip(LETTERS, chosen):
         below = [f"{want.split(':')[0]} = {value:.3g}" for want, value in row.figures.items() if want.startswith("safety.") and value < 1.0]
         if below:
-            yield f"{letter} fails: {', '.join(below)} is below 1."
+            yield f"{letter}: {', '.join(below)} is below 1."
 
 
 def _unless(cells, nothing, label, compared):

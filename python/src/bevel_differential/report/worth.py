@@ -202,5 +202,5 @@ def _nothing(run, trial):
            if variable.name.startswith(f"{trial.name}.") or f"{PREFIX}{trial.name}" in (variable.description or "")]
     zero = [variable.name for variable in own
             if variable.causality in ("parameter", "input") and variable.kind in ("Real", "Integer") and run.value(variable.name) == 0.0]
-    why = f", as {words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0" if zero else ""
-    return f"changes nothing beyond the solver's tolerance{why}"
+    zeros = f" ({words.listed(zero)} {'is' if len(zero) == 1 else 'are'} 0)" if zero else ""
+    return f"changes nothing beyond the solver's tolerance{zeros}"

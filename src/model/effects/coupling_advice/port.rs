@@ -16,8 +16,6 @@ const FILTER: f64 = 8.0;
 const LEAST_FILTER_STEPS: f64 = 10.0;
 /// Rate of the port, relative to the fastest one before, below which it stands still.
 const STILL: f64 = 1e-4;
-/// Number of standard errors above which a damper is certain.
-const CERTAIN: f64 = 3.0;
 /// Number of steps of Newton's method.
 const NEWTON_STEPS: u32 = 6;
 /// Number of successive still steps after which the port does not move.
@@ -197,15 +195,7 @@ impl Port {
     /// Law of a host that reacts or has reacted. `sign` is 1 for a load and −1 for a drive.
     pub fn law(&self, sign: f64) -> Option<Law> {
         let law = self.known.or_else(|| self.regression.law(EXPLAINED))?;
-        Some(Law { per_movement: sign * law.per_movement, per_rate: sign * law.per_rate, ..law })
-    }
-
-    /// True if the law shows a stable step: the motion oscillates, and the law has a damper, or is well known behind a
-    /// half-shaft. If only the host causes the motion, the regression gives the inertia of the unit instead of the host's law.
-    pub fn is_sure(&self, sign: f64, is_shaft: bool) -> bool {
-        let is_damped = |law: &Law| law.per_rate > CERTAIN * law.rate_error;
-        let shows = if is_shaft { self.known.is_some() } else { self.law(sign).as_ref().is_some_and(is_damped) };
-        shows && self.oscillation.has_period()
+        Some(Law { per_movement: sign * law.per_movement, per_rate: sign * law.per_rate })
     }
 
     /// Longest stable step [s] of a host that sets a torque, which acts `lag` steps late. Its springs give the unit the

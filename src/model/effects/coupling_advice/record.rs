@@ -141,7 +141,8 @@ impl Coupling {
     }
 
     /// Smallest advice of a port whose host reacts [s], and its meaning: the step at which the ratio would be `wanted`, but
-    /// at most the longest stable step.
+    /// at most the longest stable step, as far as it is known, and the present step. One step size cannot show that a
+    /// longer one is stable.
     pub fn advice(&self, wanted: f64, cut: &Cut) -> (f64, AdviceState) {
         let none = |state| (0.0, state);
         if !self.has_changed {
@@ -157,13 +158,13 @@ impl Coupling {
         let by_ratio =
             reacting().map(|port| self.ports[port].step_of_ratio(wanted, least)).fold(f64::INFINITY, f64::min);
         let stable = reacting().map(|port| steps[port]).fold(f64::INFINITY, f64::min);
-        let is_sure = |port: usize| self.ports[port].is_sure(SIGNS[port], cut.shafts[port].is_some());
-        // longer steps than the present ones may be unstable
-        let stable = if reacting().all(is_sure) { stable } else { stable.min(self.step()) };
         if self.growth(cut).is_some_and(|growth| growth.is_unstable) {
             return (by_ratio.min(stable).min(0.5 * self.step()), AdviceState::UnstableCut);
         }
-        if by_ratio.is_finite() { (by_ratio.min(stable), AdviceState::Given) } else { none(AdviceState::NotPossible) }
+        if by_ratio.is_infinite() {
+            return none(AdviceState::NotPossible);
+        }
+        (by_ratio.min(stable).min(self.step()), AdviceState::Given)
     }
 
     /// Longest stable step of each port [s]. Springs and dampers at several ports that move each other act together; the

@@ -6,7 +6,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::numeric::{finite, sqrt};
+use crate::numeric::finite;
 
 /// Fraction of the changes of u that the motion must explain if the host reacts.
 pub const EXPLAINED: f64 = 0.5;
@@ -54,11 +54,9 @@ pub struct Law {
     pub per_movement: f64,
     /// Change of u per change of the rate [N·m·s/rad, or rad/s per N·m].
     pub per_rate: f64,
-    /// Standard error of `per_rate`, in its unit.
-    pub rate_error: f64,
 }
 
-finite!(Law { per_movement, per_rate, rate_error });
+finite!(Law { per_movement, per_rate });
 
 impl Regression {
     /// Adds a step in which the host's value is `given`, with its [Δu, x, y]. Sums are multiplied by `keep`, and the slow
@@ -111,10 +109,7 @@ impl Regression {
             if by_movement * ux >= by_rate * uy { [by_movement, 0.0] } else { [0.0, by_rate] }
         };
         let explained = (per_movement * ux + per_rate * uy) / uu;
-        // what the motion does not explain, as noise
-        let noise = (1.0 - explained).max(0.0) * uu / self.weight;
-        let rate_error = if determinant > 0.0 { sqrt(noise * xx / determinant) } else { 0.0 };
-        (explained >= fraction).then_some(Law { per_movement, per_rate, rate_error })
+        (explained >= fraction).then_some(Law { per_movement, per_rate })
     }
 }
 

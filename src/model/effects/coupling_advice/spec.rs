@@ -42,8 +42,8 @@ impl Declare for CouplingAdviceSpec {
         /// Largest ratio of a port: magnitude of the energy errors of its cut divided by the energy through it, as
         /// sums that decay over about two periods of the motion
         "coupling.energy_ratio": ONE, ByStep;
-        /// Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the longest
-        /// stable step; coupling.advice_state says what 0 means
+        /// Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the present one;
+        /// coupling.advice_state says what 0 means
         "coupling.step_advice": SECOND, ByStep;
         /// Meaning of coupling.step_advice
         "coupling.advice_state": ONE, ByStep, AdviceState;
