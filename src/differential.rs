@@ -95,7 +95,7 @@ impl Differential {
         assign(row, value, &mut self.parameters, &mut self.inputs)?;
         if let Some(simulation) = &mut self.simulation {
             if simulation.ramps_inputs() {
-                simulation.apply_jumps(&HostInputs::held(&self.inputs));
+                simulation.apply_unramped(&HostInputs::held(&self.inputs));
             } else {
                 simulation.set_inputs(&self.inputs);
             }

@@ -38,12 +38,12 @@ pub fn store_text(text: &str) -> &'static str {
 /// Stores `values` as long as the library exists. If the memory is full, they are leaked on the heap.
 pub fn store_all<T: Copy + Send + Sync>(values: &[T]) -> &'static [T] {
     let Some(start) = reserve(Layout::for_value(values)) else { return values.to_vec().leak() };
-    let place = MEMORY.0.get().cast::<u8>().wrapping_add(start).cast::<T>();
+    let target = MEMORY.0.get().cast::<u8>().wrapping_add(start).cast::<T>();
     // SAFETY: the bytes from `start` on are inside the memory, aligned, large enough, and handed out only here
     #[allow(unsafe_code)]
     unsafe {
-        place.copy_from_nonoverlapping(values.as_ptr(), values.len());
-        std::slice::from_raw_parts(place, values.len())
+        target.copy_from_nonoverlapping(values.as_ptr(), values.len());
+        std::slice::from_raw_parts(target, values.len())
     }
 }
 

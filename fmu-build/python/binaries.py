@@ -77,8 +77,8 @@ def _signature(binary, content):
     if not binary.has_code_signature:
         return None
     begin = binary.fat_offset
-    place = begin + binary.code_signature.data_offset
-    blob = content[place:place + binary.code_signature.data_size]
+    start = begin + binary.code_signature.data_offset
+    blob = content[start:start + binary.code_signature.data_size]
     magic, _, count = struct.unpack_from(">3I", blob)
     found = {kind: at for kind, at in struct.iter_unpack(">2I", blob[12:12 + 8 * count])}
     at = found.get(CODE_DIRECTORY)

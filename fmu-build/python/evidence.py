@@ -113,7 +113,7 @@ class Run:
         if len(lost):
             self.description += f" (the result ends at {self.tight['time'][end - 1]:.6g} s: later the motion depends on the tolerance of the solver)"
         kept = sorted({1, *range(0, end, max(1, math.ceil((end - 1) / ROWS))), end - 1})
-        rows = [("time", *self.outputs), *([f"{cell:.10g}" for cell in self.tight[place]] for place in kept)]
+        rows = [("time", *self.outputs), *([f"{cell:.10g}" for cell in self.tight[row]] for row in kept)]
         return rows, {
             name: rounded_up(MARGIN * differences[name][:end].max() + (ROUNDING + POINTWISE * self.tolerance) * scales[name])
             for name in self.outputs}

@@ -12,8 +12,8 @@ const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Largest number of pairs searched in a motion. A motion past more pairs is longer than a whole turn of a gear and
 /// resolves no kink. At absurd speeds the search would not end.
 const MAX_PAIRS: i64 = 256;
-/// Fraction of the way to a touch at which a step ends. Beyond the touch, even a depth of some 1e-9 rad would be an error
-/// far above the tolerance.
+/// Fraction of the way to a touch at which a step ends. Beyond the touch, even a depth of some 1e-9 rad would be an
+/// error far above the tolerance.
 const BEFORE_TOUCH: f64 = 1.0 - 1e-9;
 /// Number of bisections that locate a kink, to some 1e-5 of the step.
 const HALVINGS: u32 = 15;
@@ -74,7 +74,7 @@ impl Engagement {
 
     /// Calls `visit` with the fractions of the motion at which a pair of either flank, loaded or not, passes an end of
     /// the path. In meshes without corner contact, the force jumps there.
-    pub fn jumps(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
+    pub fn discontinuities(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
             let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);

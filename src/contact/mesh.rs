@@ -110,8 +110,8 @@ impl Mesh {
         pair: &ToothPair,
         state: &MeshState,
     ) -> (f64, Response) {
-        let (rate, place, law) = (self.rate(pair, state), spring.place(pair.s), (&self.whole, &self.damping));
-        (rate, spring.respond_whole::<WITH_ENERGY>(&place, law, self.whole.cone * pair.depth, rate))
+        let (rate, local, law) = (self.rate(pair, state), spring.local(pair.s), (&self.whole, &self.damping));
+        (rate, spring.respond_whole::<WITH_ENERGY>(&local, law, self.whole.cone * pair.depth, rate))
     }
 
     /// Calls `visit` with each loaded pair and its force. A pair is on the path of contact, or at a tip corner past its
@@ -129,7 +129,7 @@ impl Mesh {
         sum.force[0] -= torque * pair.slope[0];
         sum.force[1] -= torque * pair.slope[1];
         if S::DEPENDS_ON_POSITION {
-            sum.force[1] -= response.by_place * pair.s_slope;
+            sum.force[1] -= response.by_s * pair.s_slope;
         }
         sum.heat += (response.force.total - response.force.elastic) * rate;
     }
@@ -189,11 +189,11 @@ impl Mesh {
                 if depends_on_position(spring) {
                     // the position on the path moves only with x
                     let m = &mut jacobian.by_position;
-                    m[0][1] -= r * response.total_by_place * pair.s_slope * pair.slope[0];
-                    m[1][0] -= r * response.elastic_by_place * pair.s_slope * pair.slope[0];
+                    m[0][1] -= r * response.total_by_s * pair.s_slope * pair.slope[0];
+                    m[1][0] -= r * response.elastic_by_s * pair.s_slope * pair.slope[0];
                     m[1][1] -= pair.s_slope
-                        * (r * (response.total_by_place + response.elastic_by_place) * pair.slope[1]
-                            + response.by_place_twice * pair.s_slope);
+                        * (r * (response.total_by_s + response.elastic_by_s) * pair.slope[1]
+                            + response.by_s_twice * pair.s_slope);
                 }
             }
             (sum, jacobian)

@@ -32,7 +32,7 @@ pub struct ToothPair {
     /// Number k of the pair, counted along the path.
     pub number: i64,
     /// Arc Δ past the end of the path, or the position s if the pair is on the path [rad].
-    pub place: f64,
+    pub spot_arc: f64,
     /// Position s from the planet's rotation [rad]. It continues smoothly past the ends of the path.
     pub s: f64,
     /// ∂s/∂x; s does not depend on q.
@@ -60,7 +60,7 @@ impl ToothPair {
             flank,
             spot: Spot::Path,
             number: 0,
-            place: 0.0,
+            spot_arc: 0.0,
             s: 0.0,
             s_slope: 0.0,
             depth,
@@ -143,7 +143,7 @@ impl Engagement {
         self.corner_contact
     }
 
-    /// Kind of contact of rigid teeth at the position `s` from the planet's rotation [rad], and its place as in
+    /// Kind of contact of rigid teeth at the position `s` from the planet's rotation [rad], and its arc as in
     /// [`ToothPair`].
     pub fn rigid_spot(&self, s: f64) -> (Spot, f64) {
         if s > self.high {
@@ -196,8 +196,8 @@ impl Engagement {
     #[inline(always)]
     pub(super) fn past_ends(&self, flank: Flank, x: f64, approach: f64, number: i64) -> [f64; 2] {
         let sign = if flank == Flank::Drive { -1.0 } else { 1.0 };
-        let place = self.centred - sign * x + number as f64 * self.base_pitch;
-        [place - self.high, if self.corner_contact { self.low - place + approach } else { self.low - place }]
+        let s = self.centred - sign * x + number as f64 * self.base_pitch;
+        [s - self.high, if self.corner_contact { self.low - s + approach } else { self.low - s }]
     }
 
     /// Calls `visit` with each tooth pair of `flank` that may touch at planet travel `x` and the given approach,
@@ -254,10 +254,10 @@ impl Iterator for NearPairs<'_> {
         let Self { engagement, flank, sign, approach, slack, low, first, .. } = *self;
         loop {
             let i = self.left.next()?;
-            let place = self.s;
+            let s = self.s;
             self.s += engagement.base_pitch;
-            let past_planet_tip = place - engagement.high;
-            let past_side_tip = engagement.low - place + (approach - slack);
+            let past_planet_tip = s - engagement.high;
+            let past_side_tip = engagement.low - s + (approach - slack);
             // penetration, its derivatives, and the kind of contact
             let (spot, delta, depth, slope, curvature) = if past_planet_tip > 0.0 {
                 let corner = &engagement.corner[0];
@@ -275,8 +275,8 @@ impl Iterator for NearPairs<'_> {
                 let g = corner.at(past_side_tip);
                 let slope = [sign * (1.0 - g.d), -sign * g.d];
                 (Spot::SideTip, past_side_tip, approach - g.v, slope, [-g.dd, -g.dd])
-            } else if place >= low {
-                (Spot::Path, place, approach, [sign, 0.0], [0.0; 2])
+            } else if s >= low {
+                (Spot::Path, s, approach, [sign, 0.0], [0.0; 2])
             } else {
                 continue;
             };
@@ -284,8 +284,8 @@ impl Iterator for NearPairs<'_> {
                 flank,
                 spot,
                 number: first.wrapping_add(i),
-                place: delta,
-                s: place,
+                spot_arc: delta,
+                s,
                 s_slope: -sign,
                 depth: depth - slack,
                 slope,

@@ -20,11 +20,11 @@ pub struct Elastic {
     /// ∂²U/∂p² [N·m/rad].
     pub stiffness: f64,
     /// ∂U/∂s [J/rad].
-    pub by_place: f64,
+    pub by_s: f64,
     /// ∂²U/∂p∂s [N·m/rad].
-    pub torque_by_place: f64,
+    pub torque_by_s: f64,
     /// ∂²U/∂s² [J/rad²].
-    pub by_place_twice: f64,
+    pub by_s_twice: f64,
 }
 
 /// Force of a pair with one resultant, with its derivatives, including those with respect to the position on the path.
@@ -33,13 +33,13 @@ pub struct Response {
     /// Force along d with its derivatives.
     pub force: Force,
     /// ∂U/∂s [J/rad].
-    pub by_place: f64,
+    pub by_s: f64,
     /// ∂²U/∂d∂s = ∂F_el/∂s [N/rad].
-    pub elastic_by_place: f64,
+    pub elastic_by_s: f64,
     /// ∂F/∂s of the damped force [N/rad].
-    pub total_by_place: f64,
+    pub total_by_s: f64,
     /// ∂²U/∂s² [J/rad²].
-    pub by_place_twice: f64,
+    pub by_s_twice: f64,
     /// U [J], if requested.
     pub energy: f64,
 }
@@ -70,17 +70,17 @@ pub trait Spring {
     const DEPENDS_ON_POSITION: bool = true;
 
     /// Values of the law that depend only on the position on the path. They are the same at every cone distance.
-    type Place: Copy;
+    type Local: Copy;
 
     /// Evaluates the law at position `s` [rad].
-    fn place(&self, s: f64) -> Self::Place;
+    fn local(&self, s: f64) -> Self::Local;
 
-    /// Response at penetration arc `p` > 0 [rad] at the place `at`.
-    fn respond(&self, at: &Self::Place, p: f64) -> Elastic;
+    /// Response at penetration arc `p` > 0 [rad] at the position with the values `at`.
+    fn respond(&self, at: &Self::Local, p: f64) -> Elastic;
 
     /// Response at penetration arc `p` > 0 and position `s` [rad].
     fn at(&self, p: f64, s: f64) -> Elastic {
-        self.respond(&self.place(s), p)
+        self.respond(&self.local(s), p)
     }
 
     /// Response of a pair with one resultant at penetration `d` > 0 [m] and rate `rate` [m/s]. The energy is included
@@ -88,34 +88,34 @@ pub trait Spring {
     #[inline(always)]
     fn respond_whole<const WITH_ENERGY: bool>(
         &self,
-        place: &Self::Place,
+        local: &Self::Local,
         (whole, damping): (&Resultant, &Damping),
         d: f64,
         rate: f64,
     ) -> Response {
-        let e = self.respond(place, d * whole.per_cone);
+        let e = self.respond(local, d * whole.per_cone);
         let (per_arc, per_depth) = (whole.moment, whole.moment * whole.per_cone);
         let (elastic, stiffness) = (per_depth * e.torque, per_depth * whole.per_cone * e.stiffness);
         let force = damping.apply(elastic, stiffness, d, rate);
-        let elastic_by_place = per_depth * e.torque_by_place;
+        let elastic_by_s = per_depth * e.torque_by_s;
         // damping is either added to the elastic force or scales it
-        let total_by_place = match *damping {
+        let total_by_s = match *damping {
             _ if force.total <= 0.0 => 0.0,
-            Damping::Step { .. } => elastic_by_place,
-            Damping::HuntCrossley { lambda } => elastic_by_place * (1.0 + lambda * rate),
+            Damping::Step { .. } => elastic_by_s,
+            Damping::HuntCrossley { lambda } => elastic_by_s * (1.0 + lambda * rate),
         };
         Response {
             force,
-            by_place: per_arc * e.by_place,
-            elastic_by_place,
-            total_by_place,
-            by_place_twice: per_arc * e.by_place_twice,
+            by_s: per_arc * e.by_s,
+            elastic_by_s,
+            total_by_s,
+            by_s_twice: per_arc * e.by_s_twice,
             energy: per_arc * e.energy,
         }
     }
 }
 
-/// Place of a law that is the same everywhere.
+/// Values of a law that is the same everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Anywhere;
 
@@ -138,10 +138,10 @@ impl ImpactSpring {
 impl Spring for ImpactSpring {
     const DEPENDS_ON_POSITION: bool = false;
 
-    type Place = Anywhere;
+    type Local = Anywhere;
 
     #[inline(always)]
-    fn place(&self, _: f64) -> Anywhere {
+    fn local(&self, _: f64) -> Anywhere {
         Anywhere
     }
 
@@ -223,34 +223,34 @@ pub(super) const fn depends_on_position<S: Spring>(_: &S) -> bool {
 
 /// Part of any law that depends only on the position on the path.
 #[derive(Clone, Copy, Debug)]
-pub enum AnyPlace {
+pub enum AnyLocal {
     /// Nothing.
     Anywhere,
-    /// Place of [`Line`].
-    Line(<Line as Spring>::Place),
-    /// Place of [`LineWeber`].
-    LineWeber(<LineWeber as Spring>::Place),
+    /// Values of [`Line`].
+    Line(<Line as Spring>::Local),
+    /// Values of [`LineWeber`].
+    LineWeber(<LineWeber as Spring>::Local),
 }
 
 /// Dispatches to the law at each response, so that sums outside the steps are compiled once for all laws.
 impl Spring for AnySpring {
-    type Place = AnyPlace;
+    type Local = AnyLocal;
 
     #[inline(always)]
-    fn place(&self, s: f64) -> AnyPlace {
+    fn local(&self, s: f64) -> AnyLocal {
         match self {
-            Self::Impact(_) => AnyPlace::Anywhere,
-            Self::Line(law) => AnyPlace::Line(law.place(s)),
-            Self::LineWeber(law) => AnyPlace::LineWeber(law.place(s)),
+            Self::Impact(_) => AnyLocal::Anywhere,
+            Self::Line(law) => AnyLocal::Line(law.local(s)),
+            Self::LineWeber(law) => AnyLocal::LineWeber(law.local(s)),
         }
     }
 
-    fn respond(&self, place: &AnyPlace, p: f64) -> Elastic {
-        match (self, place) {
+    fn respond(&self, local: &AnyLocal, p: f64) -> Elastic {
+        match (self, local) {
             (Self::Impact(law), _) => law.respond(&Anywhere, p),
-            (Self::Line(law), AnyPlace::Line(place)) => law.respond(place, p),
-            (Self::LineWeber(law), AnyPlace::LineWeber(place)) => law.respond(place, p),
-            // a place of a different law
+            (Self::Line(law), AnyLocal::Line(local)) => law.respond(local, p),
+            (Self::LineWeber(law), AnyLocal::LineWeber(local)) => law.respond(local, p),
+            // values of a different law
             (Self::Line(_) | Self::LineWeber(_), _) => Elastic::default(),
         }
     }

@@ -16,7 +16,7 @@ pub struct ToothLoad {
     /// Kind of contact.
     pub spot: Spot,
     /// Arc Δ past the end of the path, or the position on the path if the pair is on it [rad].
-    pub place: f64,
+    pub spot_arc: f64,
     /// Numbers of the planet's and the side gear's tooth, from 0.
     pub teeth: [usize; 2],
     /// Position on the path of contact [rad].
@@ -36,7 +36,7 @@ pub struct ToothLoad {
     /// Components of the unit normal: along the planet's axis and the side gear's axis, both away from the apex, and
     /// along the rotation.
     pub components: [f64; 3],
-    /// Point of contact of solid teeth. `spot` and `place` describe only aligned teeth.
+    /// Point of contact of solid teeth. `spot` and `spot_arc` describe only aligned teeth.
     pub touch: Option<Touch>,
 }
 
@@ -59,7 +59,7 @@ impl ToothLoad {
 
     /// Point of contact in the frame of the mesh.
     pub fn contact(&self, action: &LineOfAction) -> Contact {
-        action.contact(self.spot, self.place, self.turn())
+        action.contact(self.spot, self.spot_arc, self.turn())
     }
 
     /// Azimuth of the middle of the loaded tooth of gear `i` (0 planet, 1 side gear), measured from tooth 0 about the

@@ -1,6 +1,6 @@
 //! Table of the C functions that are called on an instance: name, arguments, states in which the call is legal, and
-//! what the call does. The states are those of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation). The
-//! other functions are in `special`.
+//! what the call does. The states are those of FMI 2.0.4, sections 3.2.3 (model exchange) and 4.2.4 (co-simulation).
+//! The other functions are in `special`.
 //!
 //! # Safety
 //! These rules apply to all functions. A component comes from `fmi2Instantiate` and was not freed. Every pointer that
@@ -149,8 +149,8 @@ fn no_strings(references: InputArray<ValueReference>) -> CallResult {
 }
 
 /// Writes the status of a kind, if it is available.
-fn available<T>(kind: c_int, place: Output<T>, status: Option<T>) -> CallResult {
-    place.write(status.ok_or_else(|| no_such_status(kind))?);
+fn available<T>(kind: c_int, target: Output<T>, status: Option<T>) -> CallResult {
+    target.write(status.ok_or_else(|| no_such_status(kind))?);
     Ok(())
 }
 

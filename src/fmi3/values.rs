@@ -44,11 +44,11 @@ pub fn get_float64(instance: &mut Instance, references: InputArray<u32>, values:
     let items =
         references.iter().map(|reference| Ok((reference, known(reference)?))).collect::<CallResult<Vec<_>>>()?;
     check_count(items.iter().map(|(_, item)| item.len(&instance.now.parameters)).sum(), values.len())?;
-    let mut places = values.iter();
+    let mut slots = values.iter();
     // all rows in a single call, because they share intermediate results
     let (mut wanted, mut room): (Vec<u32>, Vec<Output<f64>>) = (Vec::new(), Vec::new());
     for (reference, item) in &items {
-        let mut one = || places.next().ok_or_else(|| CallError::error("there is no room for a value"));
+        let mut one = || slots.next().ok_or_else(|| CallError::error("there is no room for a value"));
         if let Item::Row(index) = item
             && let Some(mask) = held(*index)
         {
@@ -105,7 +105,7 @@ fn settable(reference: u32, wanted: &str) -> CallResult {
 pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
     check_count(references.len(), values.len())?;
     values.write_each(references, |reference| match known(reference)? {
-        Item::EventPlace => Ok(instance.discrete()?.event.number()),
+        Item::EventBody => Ok(instance.discrete()?.event.number()),
         Item::EventCount => Ok(i32::try_from(instance.discrete()?.event.count).unwrap_or(i32::MAX)),
         Item::Row(_) if is_int32(reference)? => instance.get_integer(reference),
         _ => Err(other_type(reference, "Int32")),
@@ -262,19 +262,19 @@ pub fn output_derivatives(
     values: OutputArray<f64>,
 ) -> CallResult {
     let (mut wanted, mut room) = (Vec::with_capacity(values.len()), Vec::with_capacity(values.len()));
-    let mut places = values.iter();
+    let mut slots = values.iter();
     let mut needed = 0;
     for (reference, order) in references.iter().zip(orders.iter()) {
         let item = known(reference)?;
         if matches!(item, Item::EventTime) {
             needed += 1;
-            places.next().into_iter().for_each(|value| value.write(0.0));
+            slots.next().into_iter().for_each(|value| value.write(0.0));
             continue;
         }
         let rows = rows_with_derivatives(instance, reference, &item)?;
         needed += rows.len();
         wanted.extend(rows.iter().map(|&index| (index as u32, order)));
-        room.extend(places.by_ref().take(rows.len()));
+        room.extend(slots.by_ref().take(rows.len()));
     }
     check_count(needed, values.len())?;
     instance.get_output_derivatives(wanted.into_iter(), room.into_iter())

@@ -24,7 +24,7 @@ pub enum Item {
     /// Kind of the last event, as a number of [`Happening`].
     EventKind,
     /// Position of the last event: number of the side gear, wheel or group of planets, from 1; 0 for teeth or no event.
-    EventPlace,
+    EventBody,
     /// Time of the last event.
     EventTime,
     /// Text of the last event.
@@ -61,22 +61,22 @@ pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
 ];
 
 /// Index of the row `name`; `usize::MAX` if no row has this name.
-fn place(name: &str) -> usize {
+fn known_index(name: &str) -> usize {
     index_of(name).unwrap_or(usize::MAX)
 }
 
 /// Value reference of the number of planets, on which sizes of arrays depend.
 pub fn planet_count() -> u32 {
-    static PLACE: OnceLock<u32> = OnceLock::new();
-    *PLACE.get_or_init(|| place("geometry.planet_count") as u32)
+    static INDEX: OnceLock<u32> = OnceLock::new();
+    *INDEX.get_or_init(|| known_index("geometry.planet_count") as u32)
 }
 
 /// If row `index` is one of the three `held.*` outputs, its position among them (sides, planets, wheels). These outputs
 /// change only at events.
 pub fn held(index: usize) -> Option<usize> {
-    static PLACES: OnceLock<[usize; 3]> = OnceLock::new();
-    let places = PLACES.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(place));
-    places.iter().position(|&place| place == index)
+    static HELD: OnceLock<[usize; 3]> = OnceLock::new();
+    let held = HELD.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(known_index));
+    held.iter().position(|&one| one == index)
 }
 
 /// Variables that only FMI 3.0 has. Their value references follow those of the rows.
@@ -90,7 +90,7 @@ pub fn added() -> &'static [Added] {
             own(
                 "event.place",
                 "Side (1 left, 2 right) or group of planets of the last event; 0 = none",
-                Item::EventPlace,
+                Item::EventBody,
             ),
             own("event.time", "Time of the last event", Item::EventTime),
             own("event.text", "Text of the last event", Item::EventText),
@@ -119,18 +119,18 @@ fn stored(name: &str, description: &str, item: Item) -> Added {
 /// Arrays over planets, and over the loaded tooth pairs of the first planet.
 fn arrays() -> Vec<Added> {
     let rows = table().rows;
-    let place = |name: &str| rows.iter().position(|row| row.name == name);
+    let index_of = |name: &str| rows.iter().position(|row| row.name == name);
     let outputs = rows.iter().filter(|row| matches!(row.access, Access::Output(_)));
     let mut arrays = Vec::new();
     for row in outputs {
         if let Some(pair) = row.name.strip_prefix(PAIR).and_then(|rest| rest.strip_prefix("1].")) {
-            let members: Vec<usize> = (1..).map_while(|k| place(&format!("{PAIR}{k}].{pair}"))).collect();
+            let members: Vec<usize> = (1..).map_while(|k| index_of(&format!("{PAIR}{k}].{pair}"))).collect();
             let (name, description) =
                 (format!("mesh.pairs_{pair}"), format!("{}, for each loaded pair", row.description));
             arrays.push(stored(&name, &description, Item::Pairs(store_all(&members))));
         } else if let Some(quantity) = row.name.strip_prefix(FIRST).filter(|rest| !rest.contains('[')) {
             let members: Vec<usize> =
-                (1..=MAX_PLANETS).filter_map(|k| place(&format!("planet[{k}].{quantity}"))).collect();
+                (1..=MAX_PLANETS).filter_map(|k| index_of(&format!("planet[{k}].{quantity}"))).collect();
             if members.len() == MAX_PLANETS {
                 let (name, description) =
                     (format!("planets.{quantity}"), format!("{}, for each planet", row.description));

@@ -59,13 +59,13 @@ impl LineOfAction {
         if i == 0 { [Vector3::z(), Vector3::x()] } else { [Vector3::new(ss, 0.0, cs), Vector3::new(-cs, 0.0, ss)] }
     }
 
-    /// Contact in the frame of the mesh at the arc `place` [rad]: s on the path, or Δ of a corner past the end of the
-    /// path. `turn` = ±1 selects the mirror image.
-    pub fn contact(&self, spot: Spot, place: f64, turn: f64) -> Contact {
+    /// Contact in the frame of the mesh at the arc `spot_arc` [rad]: s on the path, or Δ of a corner past the end of
+    /// the path. `turn` = ±1 selects the mirror image.
+    pub fn contact(&self, spot: Spot, spot_arc: f64, turn: f64) -> Contact {
         let (point, normal) = match spot {
-            Spot::Path => self.on_path(place, turn),
-            Spot::PlanetTip => self.at_corner(0, place, turn),
-            Spot::SideTip => self.at_corner(1, place, turn),
+            Spot::Path => self.on_path(spot_arc, turn),
+            Spot::PlanetTip => self.at_corner(0, spot_arc, turn),
+            Spot::SideTip => self.at_corner(1, spot_arc, turn),
         };
         Contact { point, normal, along: point.cross(&normal) * turn }
     }

@@ -131,7 +131,7 @@ impl Instance {
             now.input_derivatives = None;
         }
         match (now.phase, &mut now.simulation) {
-            (Phase::StepComplete, Some(simulation)) if simulation.ramps_inputs() => now.apply_jumps(),
+            (Phase::StepComplete, Some(simulation)) if simulation.ramps_inputs() => now.apply_unramped(),
             (Phase::StepComplete, Some(simulation)) => {
                 simulation.share_input_derivatives(now.input_derivatives.as_ref());
             }

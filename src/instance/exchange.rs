@@ -96,7 +96,7 @@ impl Instance {
         let is_event = self.now.phase == Phase::Event;
         let simulation = self.exchange_simulation()?;
         if is_event {
-            let outcome = simulation.jump_to_states(states);
+            let outcome = simulation.displace_to_states(states);
             return self.valid_after(outcome);
         }
         simulation.set_states(states);

@@ -69,8 +69,8 @@ impl<'a, T> OutputArray<'a, T> {
 impl<T> OutputArray<'_, T> {
     /// Writes the value of each key, in order. Stops at the first error.
     pub fn write_each<K: Copy>(self, keys: InputArray<K>, mut value: impl FnMut(K) -> CallResult<T>) -> CallResult {
-        for (key, place) in keys.iter().zip(self.iter()) {
-            place.write(value(key)?);
+        for (key, slot) in keys.iter().zip(self.iter()) {
+            slot.write(value(key)?);
         }
         Ok(())
     }

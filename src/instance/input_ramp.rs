@@ -13,7 +13,7 @@ impl Snapshot {
     #[inline]
     pub fn pass_inputs(&mut self) {
         match &mut self.simulation {
-            Some(simulation) if simulation.ramps_inputs() => self.apply_jumps(),
+            Some(simulation) if simulation.ramps_inputs() => self.apply_unramped(),
             Some(simulation) => simulation.set_inputs(&self.inputs),
             None => {}
         }
@@ -21,10 +21,10 @@ impl Snapshot {
 
     /// Passes the inputs that jump and those that follow derivatives.
     #[cold]
-    pub fn apply_jumps(&mut self) {
+    pub fn apply_unramped(&mut self) {
         let host = self.host_inputs();
         if let Some(simulation) = &mut self.simulation {
-            simulation.apply_jumps(&host);
+            simulation.apply_unramped(&host);
         }
     }
 
@@ -51,7 +51,7 @@ impl Snapshot {
             .filter(|derivatives| *derivatives != InputDerivatives::ZERO);
         match &mut self.simulation {
             Some(simulation) if is_complete => simulation.set_inputs(&self.inputs),
-            _ => self.apply_jumps(),
+            _ => self.apply_unramped(),
         }
     }
 

@@ -160,9 +160,9 @@ impl<'a> Slopes<'a> {
                 let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
                 along.slope(|forces| of(forces, i))
             }
-            OutputSource::Reading(place) => {
+            OutputSource::Reading(index) => {
                 let along = self.forces.get_or_insert_with(|| simulation.forces_along(direction));
-                along.slope(|forces| forces.readings[place])
+                along.slope(|forces| forces.readings[index])
             }
             OutputSource::Pair(k, of) => {
                 let along = self.pairs.get_or_insert_with(|| simulation.pair_lines_along(direction));

@@ -108,7 +108,7 @@ impl Instance {
                         OutputSource::Forces(i, of) => of(simulation.forces_without_components(), i),
                         OutputSource::Components(i, of) => of(simulation.forces(), i),
                         OutputSource::Pair(k, of) => of(&pairs.get_or_insert_with(|| simulation.pair_lines())[k]),
-                        OutputSource::Reading(place) => simulation.forces_without_components().readings[place],
+                        OutputSource::Reading(index) => simulation.forces_without_components().readings[index],
                         OutputSource::Ledger(i, of) => of(ledger.get_or_insert_with(|| simulation.ledger()), i),
                         OutputSource::Choice(..) => return Err(wrong_type(row)),
                         OutputSource::State(k) => states.get_or_insert_with(|| simulation.states())[k],

@@ -1,5 +1,5 @@
 //! Step-size control: Gustafsson's predictive controller (Hairer & Wanner, section IV.8). It also remembers step sizes
-//! that were right after kinks and after jumps of the inputs.
+//! that were right after kinks and after discontinuities of the inputs.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,15 +15,15 @@ pub(super) const LARGEST_SHRINK: f64 = 5.0;
 const AFTER_KINK_GROWTH: f64 = 4.0;
 /// Smallest error that is remembered. A smaller one would make the predictive controller too cautious.
 const LEAST_REMEMBERED_ERROR: f64 = 1e-2;
-/// Number of steps after a jump whose sizes are remembered.
-const STEPS_AFTER_JUMP: usize = 8;
-/// Fraction of the step size before the jump up to which a step counts as short. Until a step is longer, the memory of
-/// jumps stays in use.
+/// Number of steps after a discontinuity whose sizes are remembered.
+const STEPS_AFTER: usize = 8;
+/// Fraction of the step size before the discontinuity up to which a step counts as short. Until a step is longer, the
+/// memory of discontinuities stays in use.
 const SHORT: f64 = 0.5;
-/// Target error of steps after jumps, as a fraction of the tolerance.
-const AFTER_JUMP_ERROR: f64 = 0.3;
-/// Maximum growth of a step after a jump, from one jump to the next.
-const AFTER_JUMP_GROWTH: f64 = 2.0;
+/// Target error of steps after discontinuities, as a fraction of the tolerance.
+const AFTER_DISCONTINUITY_ERROR: f64 = 0.3;
+/// Maximum growth of a step after a discontinuity, from one discontinuity to the next.
+const AFTER_DISCONTINUITY_GROWTH: f64 = 2.0;
 
 /// State of the step-size controller between calls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,46 +38,47 @@ pub struct Control {
     pub on_kink: bool,
     /// Step size that was right after the last kink [s]. Motion after a kink is faster than before it.
     pub after_kink: f64,
-    /// Step sizes that were right after the last jumps of the inputs.
-    pub after_jump: AfterJump,
+    /// Step sizes that were right after the last discontinuities of the inputs.
+    pub after_discontinuity: AfterDiscontinuity,
 }
 
-finite!(Control { next, last, last_error; on_kink, after_kink, after_jump });
+finite!(Control { next, last, last_error; on_kink, after_kink, after_discontinuity });
 
-/// Memory of the steps after jumps of the inputs. A jump starts a fast motion that decays within a few steps, and a
-/// host that holds inputs causes a jump at every communication point. The k-th step after a jump is therefore tried
-/// with the size that was right for the k-th step after the previous jump. The memory is used until steps are about as
-/// long as before the jump.
+/// Memory of the steps after discontinuities of the inputs. A discontinuity starts a fast motion that decays within a
+/// few steps, and a host that holds inputs causes a discontinuity at every communication point. The k-th step after a
+/// discontinuity is therefore tried with the size that was right for the k-th step after the previous discontinuity.
+/// The memory is used until steps are about as long as before the discontinuity.
 ///
-/// The error of these steps is proportional to the jump and to the fifth power of the step size. The memory therefore
-/// holds the right sizes for the first jump, and scales them by the fifth root of the ratio of the two jumps.
+/// The error of these steps is proportional to the change of the accelerations and to the fifth power of the step size.
+/// The memory therefore holds the right sizes for the first discontinuity, and scales them by the fifth root of the
+/// ratio of the two changes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct AfterJump {
-    /// Number of steps since the jump; [`STEPS_AFTER_JUMP`] when the memory is not used any more.
+pub struct AfterDiscontinuity {
+    /// Number of steps since the discontinuity; [`STEPS_AFTER`] when the memory is not used any more.
     step: u32,
-    /// True if the memory determines step sizes. It does not after a jump too small to shorten the next step.
+    /// True if the memory determines step sizes. It does not after a discontinuity too small to shorten the next step.
     decides: bool,
-    /// First jump of the accelerations [rad/s²]; 0 before the first jump.
+    /// First change of the accelerations [rad/s²]; 0 before the first discontinuity.
     first: f64,
-    /// Fifth root of the ratio of the last jump to the first.
+    /// Fifth root of the ratio of the last change to the first.
     root: f64,
-    /// Step size predicted before the jump [s].
+    /// Step size predicted before the discontinuity [s].
     before: f64,
-    /// Right step sizes for a jump as large as the first [s]; 0 if unknown.
-    sizes: [f64; STEPS_AFTER_JUMP],
+    /// Right step sizes for a discontinuity as large as the first [s]; 0 if unknown.
+    sizes: [f64; STEPS_AFTER],
 }
 
-finite!(AfterJump { first, root, before, sizes; step, decides });
+finite!(AfterDiscontinuity { first, root, before, sizes; step, decides });
 
-impl AfterJump {
-    /// Memory before the first jump.
+impl AfterDiscontinuity {
+    /// Memory before the first discontinuity.
     const NONE: Self = Self {
-        step: STEPS_AFTER_JUMP as u32,
+        step: STEPS_AFTER as u32,
         decides: false,
         first: 0.0,
         root: 1.0,
         before: 0.0,
-        sizes: [0.0; STEPS_AFTER_JUMP],
+        sizes: [0.0; STEPS_AFTER],
     };
 
     /// True if all numbers are finite and in their ranges.
@@ -91,12 +92,12 @@ impl AfterJump {
         self.decides = self.size().is_some_and(|size| size < SHORT * before);
     }
 
-    /// Scales the memory for a jump of the accelerations by `jump` [rad/s²].
-    fn scale(&mut self, jump: f64) {
+    /// Scales the memory for a `change` of the accelerations [rad/s²].
+    fn scale(&mut self, change: f64) {
         if self.first == 0.0 {
-            self.first = jump;
+            self.first = change;
         }
-        self.root = fifth_root(jump / self.first);
+        self.root = fifth_root(change / self.first);
     }
 
     /// Remembered size of the next step [s]. `None` if the memory does not determine step sizes or no size is known.
@@ -124,51 +125,51 @@ impl AfterJump {
             *size = if cut { right.max(*size) } else { right };
         }
         let is_over = !self.decides || h > SHORT * self.before;
-        self.step = if is_over { STEPS_AFTER_JUMP as u32 } else { self.step + 1 };
+        self.step = if is_over { STEPS_AFTER as u32 } else { self.step + 1 };
     }
 }
 
 impl Control {
     /// Returns a controller that tries the first step with size `first` [s].
     pub fn new(first: f64) -> Self {
-        let after_jump = AfterJump::NONE;
-        Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX, after_jump }
+        let after_discontinuity = AfterDiscontinuity::NONE;
+        Self { next: first, last: 0.0, last_error: 1.0, on_kink: false, after_kink: f64::MAX, after_discontinuity }
     }
 
     /// True if all numbers are finite, future step sizes are positive and the last one is not negative. The size after
-    /// a kink may be unbounded. `AfterJump::is_valid` checks the memory of jumps.
+    /// a kink may be unbounded. `AfterDiscontinuity::is_valid` checks the memory of discontinuities.
     pub fn is_valid(&self) -> bool {
         self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 
-    /// Reacts to a jump of the inputs. `jump` is the change of the accelerations [rad/s²], or `None` if it is unknown.
-    /// A jump of 0 has no effect.
-    pub fn jump(&mut self, jump: Option<f64>) {
-        match jump {
+    /// Reacts to a discontinuity of the inputs. `change` is that of the accelerations [rad/s²], or `None` if it is
+    /// unknown. A change of 0 has no effect.
+    pub fn discontinuity(&mut self, change: Option<f64>) {
+        match change {
             Some(0.0) => return,
-            Some(jump) => self.after_jump.scale(jump),
+            Some(change) => self.after_discontinuity.scale(change),
             None => {}
         }
-        self.after_jump.start(self.next);
+        self.after_discontinuity.start(self.next);
     }
 
-    /// True in steps whose sizes come from the memory of jumps, while a fast motion decays.
+    /// True in steps whose sizes come from the memory of discontinuities, while a fast motion decays.
     #[inline]
-    pub(super) fn follows_jump(&self) -> bool {
-        self.after_jump.decides && self.after_jump.step < STEPS_AFTER_JUMP as u32
+    pub(super) fn follows_discontinuity(&self) -> bool {
+        self.after_discontinuity.decides && self.after_discontinuity.step < STEPS_AFTER as u32
     }
 
     /// Size to try for the next step [s]. `again` is true after a rejected attempt.
     #[inline]
     pub(super) fn wanted(&self, again: bool) -> f64 {
-        let next = if again { self.next } else { self.after_jump.size().unwrap_or(self.next) };
+        let next = if again { self.next } else { self.after_discontinuity.size().unwrap_or(self.next) };
         if self.on_kink { next.min(self.after_kink) } else { next }
     }
 
     /// Sets the size of the next attempt to `next` [s] after a rejected one.
     pub(super) fn reject(&mut self, next: f64) {
         self.next = next;
-        self.after_jump.learn_of_rejection(next);
+        self.after_discontinuity.learn_of_rejection(next);
     }
 
     /// Predicts the step after an accepted one of size `h` [s], whose `error` is a fraction of the tolerance. `cut` is
@@ -189,9 +190,13 @@ impl Control {
         if self.on_kink {
             self.after_kink = if cut { next.max(self.after_kink) } else { h.max(next.min(h * AFTER_KINK_GROWTH)) };
         }
-        if self.after_jump.step < STEPS_AFTER_JUMP as u32 {
-            let by_error = method.root(error / AFTER_JUMP_ERROR);
-            self.after_jump.learn(h, h / by_error.clamp(1.0 / AFTER_JUMP_GROWTH, LARGEST_SHRINK), cut);
+        if self.after_discontinuity.step < STEPS_AFTER as u32 {
+            let by_error = method.root(error / AFTER_DISCONTINUITY_ERROR);
+            self.after_discontinuity.learn(
+                h,
+                h / by_error.clamp(1.0 / AFTER_DISCONTINUITY_GROWTH, LARGEST_SHRINK),
+                cut,
+            );
         }
         self.next = if cut { next.max(self.next) } else { next };
         self.last = h;

@@ -140,8 +140,8 @@ mod tests {
     fn a_mean_is_the_quotient_of_integral_and_span() {
         for [from, to] in [[0.0, 1.0], [0.25, 0.75], [0.9, 0.9001], [0.4, 0.4]] {
             let points = 100_000;
-            let place = |k: i32| from + (to - from) * (f64::from(k) + 0.5) / f64::from(points);
-            let mean = (0..points).map(|k| CURVE.at(place(k))).sum::<f64>() / f64::from(points);
+            let fraction = |k: i32| from + (to - from) * (f64::from(k) + 0.5) / f64::from(points);
+            let mean = (0..points).map(|k| CURVE.at(fraction(k))).sum::<f64>() / f64::from(points);
             assert!((CURVE.mean([from, to]) - mean).abs() < 1e-9, "{from} {to}");
         }
     }

@@ -65,8 +65,8 @@ const ALMOST_ALL: f64 = 1.0 - 1e-5;
 /// Allowed imbalance of a step's ledger, as a multiple of the tolerance and relative to the energy exchanged in the
 /// step. Heat is a quadrature along the motion, and its kinks affect the motion less.
 const LEDGER: f64 = 4.0;
-/// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a jump is evaluated with two
-/// more points.
+/// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a discontinuity is evaluated
+/// with two more points.
 const UNREFINED: f64 = 0.05;
 /// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
 /// attempt is accepted, because the remaining imbalance does not depend on the step size.
@@ -252,7 +252,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
                     ledger_rates,
                     energy,
                 });
-                (trajectory.accepted_fraction, trajectory.jump) = (1.0, None);
+                (trajectory.accepted_fraction, trajectory.acceleration_change) = (1.0, None);
                 return Ok(());
             }
         }
@@ -314,7 +314,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         (h, reached, is_last): (f64, f64, bool),
     ) -> Judged<N, S::Rates> {
         let system = self.system;
-        let Trajectory { accepted_fraction, jump, extension, .. } = trajectory;
+        let Trajectory { accepted_fraction, acceleration_change, extension, .. } = trajectory;
         let first = &pending.ledger_rates[0];
         let end = extension.at(*accepted_fraction);
         let mut halfway = if *accepted_fraction > ALMOST_ALL {
@@ -332,7 +332,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
             energy = self.linearise((&end, reached), true);
             last = self.lin.ledger_rates;
         }
-        if jump.is_some() {
+        if acceleration_change.is_some() {
             system.undo_torque_change(&end, &mut last);
         }
         if *accepted_fraction > ALMOST_ALL && *accepted_fraction < 1.0 {
@@ -343,7 +343,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         let mut ledger_rates = [*first, halfway, last];
         let mut ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
         let mut imbalance = ledger.relative() / allowed;
-        if self.context.control.follows_jump() && (imbalance > UNREFINED || ledger == Imbalance::NONE) {
+        if self.context.control.follows_discontinuity() && (imbalance > UNREFINED || ledger == Imbalance::NONE) {
             self.context.statistics.evaluations += 2;
             ledger_rates[1] = refined(system, trajectory, h, &ledger_rates);
             ledger = system.imbalance([pending.energy, energy], h, &ledger_rates);
@@ -370,7 +370,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         h: f64,
         imbalance: f64,
     ) -> Result<(), Failure<E>> {
-        if trajectory.jump.is_some() {
+        if trajectory.acceleration_change.is_some() {
             return Err(Failure::NotClosed);
         }
         let Some(pending) = trajectory.pending.take() else { return Ok(()) };
@@ -399,7 +399,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         observe: &mut impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
     ) -> Result<AfterStep, Failure<E>> {
         let Judged { end, ledger_rates, .. } = judged;
-        let Trajectory { point, time, pending, extension, accepted_fraction, jump, .. } = trajectory;
+        let Trajectory { point, time, pending, extension, accepted_fraction, acceleration_change, .. } = trajectory;
         let Some(Pending { h: size, error, cut, to_kink, after_rejection, short, .. }) = *pending else {
             return Ok(AfterStep::Continue);
         };
@@ -407,8 +407,8 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         let control = &mut *self.context.control;
         control.accept(self.method, size, cut, error, after_rejection);
         control.on_kink = to_kink && *accepted_fraction == 1.0;
-        if jump.is_some() {
-            control.jump(*jump);
+        if acceleration_change.is_some() {
+            control.discontinuity(*acceleration_change);
         }
         self.context.statistics.accepted += 1;
         let start = std::mem::replace(point, end);
@@ -419,8 +419,8 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         flow.map_err(Failure::Refused)
     }
 
-    /// Linearises the equations at the start of the next step, a point with its time [s], and returns the energies. Counts
-    /// the evaluation if it is new.
+    /// Linearises the equations at the start of the next step, a point with its time [s], and returns the energies.
+    /// Counts the evaluation if it is new.
     #[inline(never)]
     fn linearise(&mut self, (point, time): (&Point<N>, f64), is_new: bool) -> [f64; 2] {
         let statistics = &mut self.context.statistics;
@@ -445,7 +445,7 @@ impl<const N: usize, P> Trajectory<N, P> {
     fn ledger_rates_at<S: SecondOrder<N, Rates = P> + ?Sized>(&self, system: &S, fraction: f64, h: f64) -> P {
         let point = self.extension.at(fraction * self.accepted_fraction);
         let mut rates = system.evaluate_at(&point, self.time + fraction * h).1;
-        if self.jump.is_some() {
+        if self.acceleration_change.is_some() {
             system.undo_torque_change(&point, &mut rates);
         }
         rates

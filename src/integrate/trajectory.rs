@@ -108,9 +108,9 @@ pub struct Trajectory<const N: usize, P> {
     pub extension: Extension<N>,
     /// Fraction of the pending step that is accepted: 1, unless the equations change within the step.
     pub accepted_fraction: f64,
-    /// Jump of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the integration
-    /// continues.
-    pub jump: Option<f64>,
+    /// Change of the accelerations [rad/s²] if torques change at the end of the accepted fraction and the
+    /// integration continues.
+    pub acceleration_change: Option<f64>,
     /// Time at which these equations end because they change [s]. No step is completed beyond it.
     pub end: f64,
     /// Time at which these equations are expected to end [s]. Steps are fitted to this time but may pass it.
@@ -131,7 +131,7 @@ impl<const N: usize, P> Trajectory<N, P> {
             pending: None,
             extension: Extension::NONE,
             accepted_fraction: 1.0,
-            jump: None,
+            acceleration_change: None,
             end,
             expected: f64::INFINITY,
             longest: f64::INFINITY,
@@ -145,12 +145,12 @@ impl<const N: usize, P> Trajectory<N, P> {
         self.accept_until(end);
     }
 
-    /// Changes torques at `time` [s], where accelerations jump by `jump` [rad/s²]. A pending step is accepted up to
-    /// this time, and the integration continues. Returns true if there is a pending step.
-    pub fn change_at(&mut self, time: f64, jump: f64) -> bool {
+    /// Changes torques at `time` [s], where accelerations change by `acceleration_change` [rad/s²]. A pending step is
+    /// accepted up to this time, and the integration continues. Returns true if there is a pending step.
+    pub fn change_at(&mut self, time: f64, acceleration_change: f64) -> bool {
         self.accept_until(time);
-        self.jump = self.pending.is_some().then_some(jump);
-        self.jump.is_some()
+        self.acceleration_change = self.pending.is_some().then_some(acceleration_change);
+        self.acceleration_change.is_some()
     }
 
     fn accept_until(&mut self, end: f64) {

@@ -70,11 +70,11 @@ mod tests {
     #[test]
     fn a_number_that_is_not_finite_is_found_wherever_it_is() {
         for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, 1e200, -1e200] {
-            for place in 0..6 {
-                let at = |k: usize| if k == place { bad } else { 1.0 };
+            for index in 0..6 {
+                let at = |k: usize| if k == index { bad } else { 1.0 };
                 let inner = |k: usize| Inner { number: at(k), count: 1 };
                 let outer = Outer { array: [inner(0), inner(1)], option: Some((at(2), [at(3), at(4)])) };
-                assert_eq!(outer.is_finite(), place == 5, "{bad} at {place}, {}", outer.array[0].count);
+                assert_eq!(outer.is_finite(), index == 5, "{bad} at {index}, {}", outer.array[0].count);
             }
         }
         assert!(Outer { array: [0.0, 1.0].map(|number| Inner { number, count: 0 }), option: None }.is_finite());

@@ -36,8 +36,8 @@ pub fn at([begin, middle, end]: Three, part: f64) -> f64 {
     begin + part * (end - begin - bend * (1.0 - part))
 }
 
-/// Fraction of the interval, within `span`, at which the parabola reaches `value`. It must be monotonic in the span, and
-/// the value between those at both ends.
+/// Fraction of the interval, within `span`, at which the parabola reaches `value`. It must be monotonic in the span,
+/// and the value between those at both ends.
 pub fn reaching(values: Three, value: f64, [from, to]: [f64; 2]) -> f64 {
     // bend t² + slope t + start = 0
     let bend = 2.0 * second_difference(values);
@@ -53,7 +53,8 @@ pub fn reaching(values: Three, value: f64, [from, to]: [f64; 2]) -> f64 {
     part.clamp(from, to)
 }
 
-/// True if all values have the same sign. A load that is 0 or changes its flank has a kink, which no parabola describes.
+/// True if all values have the same sign. A load that is 0 or changes its flank has a kink, which no parabola
+/// describes.
 pub fn is_loaded_throughout(values: Three) -> bool {
     values.iter().all(|&value| value > 0.0) || values.iter().all(|&value| value < 0.0)
 }
@@ -81,12 +82,12 @@ mod tests {
     #[test]
     fn turning_points_of_a_parabola_are_found_only_within_the_interval() {
         for sign in [1.0, -1.0] {
-            for place in [0.01, 0.3, 0.5, 0.9] {
-                let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - place) * (t - place)))).unwrap();
-                assert!((value - sign * 2.0).abs() < 1e-14 && (at - place).abs() < 1e-14, "{value} {at}");
+            for middle in [0.01, 0.3, 0.5, 0.9] {
+                let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - middle) * (t - middle)))).unwrap();
+                assert!((value - sign * 2.0).abs() < 1e-14 && (at - middle).abs() < 1e-14, "{value} {at}");
             }
-            for place in [-0.01, 1.01, 7.0] {
-                assert_eq!(extremum(of(|t| sign * (t - place) * (t - place))), None);
+            for middle in [-0.01, 1.01, 7.0] {
+                assert_eq!(extremum(of(|t| sign * (t - middle) * (t - middle))), None);
             }
         }
         assert_eq!((extremum([4.0; 3]), extremum([1.0, 2.0, 3.0])), (None, None));
@@ -97,13 +98,13 @@ mod tests {
 
     #[test]
     fn a_value_is_reached_on_either_branch_of_a_parabola() {
-        for place in [0.2, 0.5, 0.7] {
+        for middle in [0.2, 0.5, 0.7] {
             for sign in [1.0, -1.0] {
-                let parabola = of(|t| sign * (t - place) * (t - place));
+                let parabola = of(|t| sign * (t - middle) * (t - middle));
                 for part in [0.05, 0.3, 0.6, 0.9] {
-                    let span = if part < place { [0.0, place] } else { [place, 1.0] };
-                    let found = reaching(parabola, sign * (part - place) * (part - place), span);
-                    assert!((found - part).abs() < 1e-12, "{place} {part}: {found}");
+                    let span = if part < middle { [0.0, middle] } else { [middle, 1.0] };
+                    let found = reaching(parabola, sign * (part - middle) * (part - middle), span);
+                    assert!((found - part).abs() < 1e-12, "{middle} {part}: {found}");
                 }
             }
         }

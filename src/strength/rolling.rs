@@ -136,14 +136,14 @@ impl ToothInMesh {
             let mut passed = 0.0;
             loop {
                 let edge = (way * self.entry + SLACK).max(0.5);
-                let place = middle + way * (passed + edge);
+                let passage = middle + way * (passed + edge);
                 // NaN ends the loop
-                if (way * place).partial_cmp(&(way * end)) != Some(Ordering::Less) {
+                if (way * passage).partial_cmp(&(way * end)) != Some(Ordering::Less) {
                     break;
                 }
                 tooth = tooth.wrapping_add(way as i64);
                 *self = Self { tooth: Some(tooth), entry: way * (edge - 1.0) };
-                change(Passing { tooth, part: reaching(positions, place, span), weight });
+                change(Passing { tooth, part: reaching(positions, passage, span), weight });
                 passed += weight;
             }
         }
@@ -154,19 +154,19 @@ impl ToothInMesh {
 mod tests {
     use super::*;
 
-    /// Teeth that pass the rated point while the position goes through `places`, with straight lines between them.
-    fn passed(places: &[f64]) -> Vec<i64> {
+    /// Teeth that pass the rated point while the position goes through `path`, with straight lines between them.
+    fn passed(path: &[f64]) -> Vec<i64> {
         let (mut point, mut teeth) = (RatedPoint::default(), Vec::new());
-        for pair in places.windows(2) {
+        for pair in path.windows(2) {
             point.pass([pair[0], 0.5 * (pair[0] + pair[1]), pair[1]], 0, |passing| teeth.push(passing.tooth));
         }
         teeth
     }
 
-    /// Teeth that enter the mesh while the position goes through `places`.
-    fn entered(places: &[f64]) -> Vec<i64> {
+    /// Teeth that enter the mesh while the position goes through `path`.
+    fn entered(path: &[f64]) -> Vec<i64> {
         let (mut mesh, mut teeth) = (ToothInMesh::default(), Vec::new());
-        for pair in places.windows(2) {
+        for pair in path.windows(2) {
             mesh.roll([pair[0], 0.5 * (pair[0] + pair[1]), pair[1]], 0, [0.0, 1.0], |passing| {
                 teeth.push(passing.tooth)
             });
@@ -177,9 +177,9 @@ mod tests {
     #[test]
     fn each_tooth_passes_once_in_each_direction() {
         for way in [1.0, -1.0] {
-            let places = |count: usize| (0..=count).map(|i| way * (0.3 + 3.0 * i as f64 / count as f64)).collect();
+            let path = |count: usize| (0..=count).map(|i| way * (0.3 + 3.0 * i as f64 / count as f64)).collect();
             for count in [1, 2, 7, 100] {
-                let mut there: Vec<f64> = places(count);
+                let mut there: Vec<f64> = path(count);
                 assert_eq!(passed(&there), [1, 2, 3].map(|tooth| way as i64 * tooth), "{count}");
                 let back: Vec<f64> = there.iter().rev().copied().collect();
                 there.extend(back);
@@ -205,12 +205,12 @@ mod tests {
     #[test]
     fn a_tooth_is_in_mesh_for_a_pitch_and_returns_after_a_quarter_of_a_pitch() {
         for way in [1.0, -1.0] {
-            let signed = |places: &[f64]| places.iter().map(|place| way * place).collect::<Vec<_>>();
+            let signed = |path: &[f64]| path.iter().map(|x| way * x).collect::<Vec<_>>();
             let teeth = |teeth: &[i64]| teeth.iter().map(|tooth| way as i64 * tooth).collect::<Vec<_>>();
             assert_eq!(entered(&signed(&[0.0, 0.49])), []);
             assert_eq!(entered(&signed(&[0.0, 3.2])), teeth(&[1, 2, 3]));
             assert_eq!(entered(&signed(&[0.0, 0.51, 0.26, 0.51, 0.3])), teeth(&[1]));
-            // the tooth that returns stays until it has left at the usual place
+            // the tooth that returns stays until it has left at the usual position
             assert_eq!(entered(&signed(&[0.0, 0.51, 0.24, 0.49, 0.51])), teeth(&[1, 0, 1]));
         }
     }

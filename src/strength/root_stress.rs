@@ -98,10 +98,10 @@ impl RootStressFactors {
     /// beyond an end of the path has the value of this end.
     pub fn per_force_at(&self, s: f64) -> f64 {
         let [low, high] = self.path;
-        let place = ((s - low) / (high - low)).clamp(0.0, 1.0) * (POSITIONS - 1) as f64;
-        let index = (place as usize).min(POSITIONS - 2);
+        let scaled = ((s - low) / (high - low)).clamp(0.0, 1.0) * (POSITIONS - 1) as f64;
+        let index = (scaled as usize).min(POSITIONS - 2);
         let [before, after] = [self.per_pair_force[index], self.per_pair_force[index + 1]];
-        before + (place - index as f64) * (after - before)
+        before + (scaled - index as f64) * (after - before)
     }
 
     /// Stress [Pa] under the normal force of the mesh [N], including load factors; 0 without force.
@@ -110,7 +110,8 @@ impl RootStressFactors {
     }
 }
 
-/// Y_F Y_S of gear `i` (0 planet, 1 side gear) with `profile` at equally spaced positions along the path of contact with
+/// Y_F Y_S of gear `i` (0 planet, 1 side gear) with `profile` at equally spaced positions along the path of contact
+/// with
 /// `mate`, from the tip of the side gear to the tip of the planet.
 fn along_path(profile: &Profile, mate: &Profile, i: usize) -> [f64; POSITIONS] {
     let [lowest, highest] = profile.contact_lengths(mate);

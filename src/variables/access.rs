@@ -37,9 +37,9 @@ impl OutputSource {
             Self::Motion(i, of) => of(&simulation.motion(), i),
             Self::Forces(i, of) | Self::Components(i, of) => of(simulation.forces(), i),
             Self::Pair(k, of) => of(&simulation.pair_lines()[k]),
-            Self::Reading(place) => simulation.forces().readings[place],
+            Self::Reading(index) => simulation.forces().readings[index],
             Self::Ledger(i, of) => of(&simulation.ledger(), i),
-            Self::Choice(_, place) => simulation.ledger().readings[place],
+            Self::Choice(_, index) => simulation.ledger().readings[index],
             Self::State(k) => simulation.states()[k],
             Self::Rate(k) => simulation.state_rates()[k],
         }

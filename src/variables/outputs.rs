@@ -12,7 +12,8 @@ const EITHER: [(&str, [&str; 2], [&str; 2]); 2] =
 const NUMBER: &str = "{i}";
 
 /// Adds outputs to `$rows`. The doc comment is the description; the unit, the display unit and the source follow. An
-/// output whose name contains `{side}` or `{gear}` exists for both of them, and one whose name contains `planet[{i}]` or
+/// output whose name contains `{side}` or `{gear}` exists for both of them, and one whose name contains `planet[{i}]`
+/// or
 /// `pair[{i}]` for each planet or pair. Its source reads the value by an index: the side or gear, the planet, the pair, or
 /// twice the planet plus the side.
 macro_rules! outputs {
@@ -50,21 +51,21 @@ pub fn add(
 /// Rows of all outputs.
 pub fn rows() -> Vec<Row<OutputSource>> {
     let mut rows = own();
-    for (place, heat) in ALL_HEATS.iter().enumerate() {
-        let source = OutputSource::Ledger(place, |ledger, place| ledger.heat[place]);
+    for (index, heat) in ALL_HEATS.iter().enumerate() {
+        let source = OutputSource::Ledger(index, |ledger, index| ledger.heat[index]);
         rows.push(row(heat.output, heat.description).output(JOULE, source));
     }
     let (mut at_instants, mut by_steps) = (0.., 0..);
     for reading in readings() {
-        let places = match reading.changes {
+        let indices = match reading.changes {
             Changes::Always => &mut at_instants,
             Changes::ByStep => &mut by_steps,
         };
-        let place = places.next().unwrap_or(0);
+        let index = indices.next().unwrap_or(0);
         let source = match (reading.changes, reading.choices) {
-            (Changes::Always, _) => Reading(place),
-            (Changes::ByStep, None) => OutputSource::Ledger(place, |ledger, place| ledger.readings[place]),
-            (Changes::ByStep, Some(kind)) => OutputSource::Choice(kind, place),
+            (Changes::Always, _) => Reading(index),
+            (Changes::ByStep, None) => OutputSource::Ledger(index, |ledger, index| ledger.readings[index]),
+            (Changes::ByStep, Some(kind)) => OutputSource::Choice(kind, index),
         };
         rows.push(row(reading.name, reading.description).output(Shown(reading.unit, reading.display), source));
     }

@@ -60,7 +60,7 @@ pub fn table() -> &'static Table {
 /// Returns `rows` sorted by the first part of their names. Groups and variables keep their order.
 fn by_group<A: Copy>(rows: Vec<Row<A>>) -> Vec<Row<A>> {
     let mut groups: Vec<&str> = Vec::new();
-    let mut place = |row: &Row<A>| {
+    let mut rank = |row: &Row<A>| {
         let group = row.name.split('.').next().unwrap_or(row.name);
         // most variables belong to the group of the one before
         groups.iter().rposition(|name| *name == group).unwrap_or_else(|| {
@@ -68,9 +68,9 @@ fn by_group<A: Copy>(rows: Vec<Row<A>>) -> Vec<Row<A>> {
             groups.len() - 1
         })
     };
-    let mut places: Vec<(usize, usize)> = rows.iter().enumerate().map(|(i, row)| (place(row), i)).collect();
-    places.sort_unstable();
-    places.into_iter().map(|(_, i)| rows[i]).collect()
+    let mut ranks: Vec<(usize, usize)> = rows.iter().enumerate().map(|(i, row)| (rank(row), i)).collect();
+    ranks.sort_unstable();
+    ranks.into_iter().map(|(_, i)| rows[i]).collect()
 }
 
 /// Returns the start value of a real parameter or input.

@@ -1,8 +1,8 @@
 //! The program's gap functions and phases against explicit flanks, rotated in space until they touch.
 //!
-//! Axes, signs and the assembled position are those of docs/inside/theory.md. The flanks and the touching are found only with
-//! vectors and rotations (`mesh_explicit`). For every tooth pair near the mesh, the side gear's rotation at first touch
-//! must be the rotation at which `Engagement::pairs` begins to visit that pair.
+//! Axes, signs and the assembled position are those of docs/inside/theory.md. The flanks and the touching are found
+//! only with vectors and rotations (`mesh_explicit`). For every tooth pair near the mesh, the side gear's rotation at
+//! first touch must be the rotation at which `Engagement::pairs` begins to visit that pair.
 
 use crate::mesh_explicit::{Differential, Toothed, Touch, gears, pitch_angles, random_spec, roll_at, rolled};
 use crate::random::Draws;
@@ -25,8 +25,8 @@ fn spec(z_p: i32, z_s: i32, planets: i32, backlash: f64) -> GearSpec {
     GearSpec { planet_teeth: z_p, side_teeth: z_s, planet_count: planets, backlash, ..GearSpec::default() }
 }
 
-/// Addenda of planet and side gear, computed independently from docs/inside/theory.md: the addendum of the larger gear is
-/// given, and the working depth is 2 m.
+/// Addenda of planet and side gear, computed independently from docs/inside/theory.md: the addendum of the larger gear
+/// is given, and the working depth is 2 m.
 fn addenda(spec: &GearSpec) -> [f64; 2] {
     let ([d_p, d_s], _) = pitch_angles(spec);
     let ratio = f64::from(spec.side_teeth) * d_p.cos() / (f64::from(spec.planet_teeth) * d_s.cos());
@@ -74,19 +74,19 @@ impl Seen {
     }
 
     /// Position along the path of the program's loaded pair `p` at rotation `alpha`.
-    fn place(&self, p: &ToothPair, alpha: f64) -> f64 {
+    fn arc_of(&self, p: &ToothPair, alpha: f64) -> f64 {
         let approach = -self.push * self.position(alpha)[0] - self.pair.normal_backlash / 2.0;
         match p.spot {
-            Spot::Path => p.place,
-            Spot::PlanetTip => self.mesh.engagement.corner[0].end + p.place,
-            Spot::SideTip => -self.mesh.engagement.corner[1].end - p.place + approach,
+            Spot::Path => p.spot_arc,
+            Spot::PlanetTip => self.mesh.engagement.corner[0].end + p.spot_arc,
+            Spot::SideTip => -self.mesh.engagement.corner[1].end - p.spot_arc + approach,
         }
     }
 
     /// Rotation at which the program's tooth pair at `s` is first loaded, with its kind of contact, or `None` within
     /// REACH.
     fn first_load(&self, s: f64) -> Option<(f64, Spot)> {
-        self.first(|seen, p, alpha| (seen.place(p, alpha) - s).abs() < 0.25 * seen.pair.base_pitch)
+        self.first(|seen, p, alpha| (seen.arc_of(p, alpha) - s).abs() < 0.25 * seen.pair.base_pitch)
     }
 
     /// Rotation at which any wanted pair is loaded, by bisection to the last bit.
@@ -256,7 +256,7 @@ fn the_program_finds_no_pair_that_the_teeth_do_not_have() {
         let mut visited = Vec::new();
         for p in seen.mesh.engagement.pairs(seen.position(alpha)) {
             if p.depth > 0.0 {
-                visited.push((seen.place(&p, alpha), p));
+                visited.push((seen.arc_of(&p, alpha), p));
             }
         }
         for (s, p) in visited {

@@ -110,7 +110,13 @@ fn both_tip_corners_penetrate_as_deeply_as_in_spherical_trigonometry() {
                 let depth = solid.iter().find(|l| l.number == p.number).map_or(0.0, |l| l.depth);
                 let off = (depth - p.depth) * pair.mean_cone;
                 // the patch at a corner is on only one side of the corner
-                assert!(off.abs() < 0.2e-6, "{:?} {} off by {off} m of {}", p.spot, p.place, p.depth * pair.mean_cone);
+                assert!(
+                    off.abs() < 0.2e-6,
+                    "{:?} {} off by {off} m of {}",
+                    p.spot,
+                    p.spot_arc,
+                    p.depth * pair.mean_cone
+                );
                 corners[which] += 1;
             }
         }

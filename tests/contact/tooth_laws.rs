@@ -31,11 +31,11 @@ fn assert_derivatives(law: &impl Spring, p: f64, s: f64, span: f64) {
     let (hp, hs) = (1e-5 * p, 1e-7 * span);
     close("torque", e.torque, difference(|e| e.energy, hp, 0.0), e.torque);
     close("stiffness", e.stiffness, difference(|e| e.torque, hp, 0.0), e.stiffness);
-    close("mixed", e.torque_by_place, difference(|e| e.by_place, hp, 0.0), e.torque / span);
-    close("by place", e.by_place, difference(|e| e.energy, 0.0, hs), e.energy / span);
-    close("mixed", e.torque_by_place, difference(|e| e.torque, 0.0, hs), e.torque / span);
-    let curvature = e.energy / (span * span) + e.by_place_twice.abs();
-    close("twice", e.by_place_twice, difference(|e| e.by_place, 0.0, hs), 100.0 * curvature);
+    close("mixed", e.torque_by_s, difference(|e| e.by_s, hp, 0.0), e.torque / span);
+    close("by place", e.by_s, difference(|e| e.energy, 0.0, hs), e.energy / span);
+    close("mixed", e.torque_by_s, difference(|e| e.torque, 0.0, hs), e.torque / span);
+    let curvature = e.energy / (span * span) + e.by_s_twice.abs();
+    close("twice", e.by_s_twice, difference(|e| e.by_s, 0.0, hs), 100.0 * curvature);
 }
 
 #[test]
@@ -59,8 +59,8 @@ fn force_and_slopes_have_no_jumps_at_the_path_s_ends_nor_at_the_load_limit() {
         let (x, y) = (law.at(a.0, a.1), law.at(b.0, b.1));
         let near = |a: f64, b: f64| (a - b).abs() < 1e-6 * a.abs().max(b.abs());
         assert!(near(x.energy, y.energy) && near(x.torque, y.torque) && near(x.stiffness, y.stiffness));
-        assert!(near(x.by_place, y.by_place) && near(x.torque_by_place, y.torque_by_place));
-        assert!(near(x.by_place_twice, y.by_place_twice));
+        assert!(near(x.by_s, y.by_s) && near(x.torque_by_s, y.torque_by_s));
+        assert!(near(x.by_s_twice, y.by_s_twice));
     };
     for end in stiffness.range {
         for p in [1e-6, 1e-3] {
@@ -208,7 +208,7 @@ fn every_buildable_pair_has_a_stiffness_or_an_error_with_its_cause() {
             for p in [1e-12, 1e-6, 1e-3, 0.1, 3.0] {
                 for e in [line.at(p, s), weber.at(p, s)] {
                     assert!(e.energy > 0.0 && e.torque > 0.0 && e.stiffness > 0.0 && e.energy.is_finite());
-                    assert!((e.by_place + e.torque_by_place + e.by_place_twice).is_finite(), "{e:?} {spec:?}");
+                    assert!((e.by_s + e.torque_by_s + e.by_s_twice).is_finite(), "{e:?} {spec:?}");
                 }
             }
         }

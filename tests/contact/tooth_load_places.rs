@@ -51,7 +51,7 @@ fn moments_of_the_forces_at_their_points_equal_the_tooth_torques() {
             let (mut side, mut planet) = ([0.0; 2], 0.0);
             let mut beyond = false;
             for load in loads(simulation) {
-                beyond |= load.place != load.s;
+                beyond |= load.spot_arc != load.s;
                 let contact = load.contact(&action);
                 let turn = load.turn();
                 for i in 0..2 {

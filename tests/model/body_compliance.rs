@@ -145,13 +145,28 @@ fn assumptions_about_bores_are_logged_only_with_the_effect() {
     }
     assert!(added([16e-3, 30e-3]).is_empty());
     let [planet, side] = &added([0.0, 0.0])[..] else { panic!("two bores of 0") };
-    assert!(planet.starts_with("effects.body_compliance: geometry.planet_bore = 0 mm: the planet is taken as one piece with a pin"), "{planet}");
-    assert!(side.starts_with("effects.body_compliance: geometry.side_bore = 0 mm: the side gear is taken as one piece with a shaft"), "{side}");
+    assert!(
+        planet.starts_with(
+            "effects.body_compliance: geometry.planet_bore = 0 mm: the planet is taken as one piece with a pin"
+        ),
+        "{planet}"
+    );
+    assert!(
+        side.starts_with(
+            "effects.body_compliance: geometry.side_bore = 0 mm: the side gear is taken as one piece with a shaft"
+        ),
+        "{side}"
+    );
     // the widest bore leaves a rim of a quarter of the module at the toe, where the root circle has 33.931 mm
     assert!(side.contains("about as stiff as on the widest bore, 32.743 mm"), "{side}");
     // pins transmit no torque, so the narrow bore of the planet causes no message
     let [side] = &added([4e-3, 8e-3])[..] else { panic!("one bore that takes torque") };
-    assert!(side.starts_with("effects.body_compliance: geometry.side_bore = 8.000 mm is less than half the root circle at the toe"), "{side}");
+    assert!(
+        side.starts_with(
+            "effects.body_compliance: geometry.side_bore = 8.000 mm is less than half the root circle at the toe"
+        ),
+        "{side}"
+    );
 }
 
 /// Transmission error [m] with the diameter `side_bore` [m], straight ahead and without backlash. Even a shaft of 0.5

@@ -87,7 +87,7 @@ def test_a_scene_reads_its_curve_from_a_file_next_to_it(fmu, folder):
     # values for one run replace the curve of the scene in every question about it
     halved = {CURVE: [["100 rpm", "40 N.m"]]}
     assert scene.final(["right.shaft_torque"], halved)["right.shaft_torque"] == pytest.approx(400.0 + 40.0, rel=1e-3)
-    assert scene.says({CURVE: [[5, 60]]})
+    assert scene.plan_text({CURVE: [[5, 60]]})
     assert not scene.unfelt_of({CURVE: [[5, 60]]})
     assert ask({"ask": "scene", "of": about(scene)})["set"][f"{CURVE}[3].torque"] == 90.0
 

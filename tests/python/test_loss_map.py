@@ -8,7 +8,7 @@ import pytest
 import theory
 from bevel_differential import DifferentialError, LossMap, Scene
 from bevel_differential.losses import VARIABLES, inputs, losses
-from bevel_differential.losses.grid import Bound, places
+from bevel_differential.losses.grid import Bound, grid_points
 from bevel_differential.losses.point import PointTask
 from bevel_differential.losses.tables import save
 
@@ -61,7 +61,7 @@ def test_a_file_has_the_whole_map(measured, loaded, file):
 def test_points_of_the_map_are_reproduced(loaded):
     for values, sign in [*zip(loaded.slipping, (1.0, -1.0)), (loaded.stuck, 0.0)]:
         lines = loaded.lines if sign else (*loaded.lines[:2], [0.0], loaded.lines[3])
-        torque, speed, difference, temperature = np.moveaxis(places(lines) * [1.0, 1.0, sign or 1.0, 1.0], -1, 0)
+        torque, speed, difference, temperature = np.moveaxis(grid_points(lines) * [1.0, 1.0, sign or 1.0, 1.0], -1, 0)
         left, right = loaded.torques(torque, speed, difference, temperature)
         # 1e-12 of 900 N·m is rounding
         assert np.allclose(left, values[..., 0], rtol=1e-12, atol=1e-9) and np.allclose(right, values[..., 1], rtol=1e-12, atol=1e-9)

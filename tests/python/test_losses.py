@@ -18,7 +18,7 @@ from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
 from bevel_differential.losses import VARIABLES, command, inputs, losses
-from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, places, refined, share_beyond, starting,
+from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, grid_points, refined, share_beyond, starting,
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
@@ -113,7 +113,7 @@ def test_a_point_refused_by_the_fmu_is_reported_with_its_values(scene):
 
 def test_omitting_lines_gives_the_error_of_a_parabola():
     lines = [np.array([0.0, 1.0, 3.0]), np.array([0.0, 0.5, 1.0])]
-    at = places(lines)
+    at = grid_points(lines)
     values = (at[..., 0] ** 2 + 5.0 * at[..., 1] + at[..., 0] * at[..., 1])[None, ..., None]
     along_x, along_y = estimates(lines, values, np.full(values.shape, 0.1))
     # h²/4 in the middle of an interval of x²; linear and bilinear terms have no error

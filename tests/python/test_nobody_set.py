@@ -171,7 +171,7 @@ def test_the_study_gives_no_warning_but_its_scene_lists_the_values_that_nobody_s
         assert not [text for text in messages(fmu, "CoSimulation", values) if text.startswith(NOBODY_SET)]
     with Scene("plain", set={"left.load_torque": 400.0}, fmu=fmu_file) as scene:
         assert "left.load_torque" not in scene.nobody_set() and "right.load_torque = 835 N.m" in scene.nobody_set()
-        assert "nobody" not in scene.says()
+        assert "nobody" not in scene.plan_text()
 
 
 def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):

@@ -140,7 +140,7 @@ fn added_variable(reference: usize, added: &Added) -> Element {
             .with("variability", "continuous")
             .with("unit", units::SECOND.name),
         Item::EventKind => event("Enumeration").with("declaredType", EVENT),
-        Item::EventPlace | Item::EventCount => event("Int32"),
+        Item::EventBody | Item::EventCount => event("Int32"),
         Item::EventTime => event("Float64").with("unit", units::SECOND.name),
         Item::EventText => event("String"),
         Item::Planets(members) => array(members, Element::new("Dimension").with("valueReference", planet_count())),
@@ -173,7 +173,7 @@ fn structure(table: &Table) -> Element {
         Item::Planets(members) | Item::Pairs(members) => {
             Some(unknown("Output", reference, members.iter().flat_map(|&index| of(index)).collect()))
         }
-        Item::EventKind | Item::EventPlace | Item::EventTime | Item::EventText | Item::EventCount => {
+        Item::EventKind | Item::EventBody | Item::EventTime | Item::EventText | Item::EventCount => {
             Some(unknown("Output", reference, Vec::new()))
         }
         _ => None,

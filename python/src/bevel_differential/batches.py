@@ -24,14 +24,14 @@ class Batches:
     def __init__(self, variables: Sequence[Variable]):
         self.groups: list[tuple[str, list[int], np.ndarray, type[np.float64 | np.int32]]] = []
         for call in ("Real", "Integer", "Boolean"):
-            places = [place for place, variable in enumerate(variables) if CALLS[variable.kind] == call]
-            if places:
-                references = np.array([variables[place].reference for place in places], np.uint32)
+            indices = [index for index, variable in enumerate(variables) if CALLS[variable.kind] == call]
+            if indices:
+                references = np.array([variables[index].reference for index in indices], np.uint32)
                 dtype = np.float64 if call == "Real" else np.int32
-                self.groups.append((call, places, references, dtype))
+                self.groups.append((call, indices, references, dtype))
         # some hosts read values at every step, so addresses and buffer types are prepared here
-        self._calls = [(call, places, references.ctypes.data, (ctypes.c_double if call == "Real" else ctypes.c_int32) * len(places))
-                       for call, places, references, _ in self.groups]
+        self._calls = [(call, indices, references.ctypes.data, (ctypes.c_double if call == "Real" else ctypes.c_int32) * len(indices))
+                       for call, indices, references, _ in self.groups]
         self._count = len(variables)
 
     @staticmethod
@@ -42,31 +42,31 @@ class Batches:
 
     def set(self, instance: Any, values: Sequence[Number]) -> None:
         """Sets all variables."""
-        for call, places, references, dtype in self.groups:
-            numbers: np.ndarray = np.array([values[place] for place in places], dtype)
-            status = instance._set[call](instance._component, references.ctypes.data, len(places), numbers.ctypes.data)
+        for call, indices, references, dtype in self.groups:
+            numbers: np.ndarray = np.array([values[index] for index in indices], dtype)
+            status = instance._set[call](instance._component, references.ctypes.data, len(indices), numbers.ctypes.data)
             instance.check(status, f"setting {call} variables")
 
     def get(self, instance: Any) -> list[Number]:
         """Returns the values of all variables, in their order."""
         values: list[Number] = [0.0] * self._count
-        for call, places, references, buffer in self._calls:
+        for call, indices, references, buffer in self._calls:
             # a separate buffer for each call, as threads share the batches
             numbers = buffer()
-            status = instance._get[call](instance._component, references, len(places), numbers)
+            status = instance._get[call](instance._component, references, len(indices), numbers)
             instance.check(status, f"getting {call} variables")
-            for place, number in zip(places, numbers):
-                values[place] = number != 0 if call == "Boolean" else number
+            for index, number in zip(indices, numbers):
+                values[index] = number != 0 if call == "Boolean" else number
         return values
 
     def record(self, rows: int) -> list[np.ndarray]:
         """Arrays for `rows` rows of all groups, each of shape (rows, variables of a kind)."""
-        return [np.empty((rows, len(places)), dtype) for _, places, _, dtype in self.groups]
+        return [np.empty((rows, len(indices)), dtype) for _, indices, _, dtype in self.groups]
 
     def blocks(self, columns: Sequence[np.ndarray]) -> list[np.ndarray]:
         """Values over time of all groups, in the form of `record`. `columns`: one for each variable, in their order."""
-        return [np.ascontiguousarray(np.column_stack([columns[place] for place in places]), dtype)
-                for _, places, _, dtype in self.groups]
+        return [np.ascontiguousarray(np.column_stack([columns[index] for index in indices]), dtype)
+                for _, indices, _, dtype in self.groups]
 
     def readers(self, instance: Any, record: Sequence[np.ndarray]) -> list[Rows]:
         """Functions that read each group, with their arguments: (function, component, references, count, address of the first row,
@@ -87,6 +87,6 @@ class Batches:
         return self._rows(instance, {"Real": write}, blocks)
 
     def _rows(self, instance, calls, blocks):
-        return [(calls[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(places),
+        return [(calls[call], instance._component, ctypes.c_void_p(references.ctypes.data), len(indices),
                  block.ctypes.data, block.strides[0])
-                for (call, places, references, _), block in zip(self.groups, blocks)]
+                for (call, indices, references, _), block in zip(self.groups, blocks)]

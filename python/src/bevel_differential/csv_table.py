@@ -26,10 +26,10 @@ class Text:
 
 
 class Column:
-    """A column: its `head` as written, its `variable`, and its place in a row."""
+    """A column: its `head` as written, its `variable`, and its index in a row."""
 
-    def __init__(self, head: str, variable: Variable | Text, unit: str | None, place: int):
-        self.head, self.variable, self.unit, self.place = head, variable, unit, place
+    def __init__(self, head: str, variable: Variable | Text, unit: str | None, index: int):
+        self.head, self.variable, self.unit, self.index = head, variable, unit, index
 
     def value(self, cell: str) -> Number | str:
         """The value of a cell in SI."""
@@ -51,8 +51,8 @@ class CsvTable:
         (line, heads), *rows = lines_of(self.file, texts=texts)
         self._need(heads, needed)
         self.columns: dict[str, Column] = {}
-        for place, head in enumerate(heads):
-            column = self._column(line, head, place, known)
+        for index, head in enumerate(heads):
+            column = self._column(line, head, index, known)
             if column.variable.name in self.columns:
                 raise self.problem(line, column.head, "it appears twice; remove one of the columns")
             self.columns[column.variable.name] = column
@@ -62,8 +62,8 @@ class CsvTable:
 
     def problem(self, line: int, head: str | None = None, text: str = "", cell: str | None = None) -> DifferentialError:
         """Error about a line, or about a cell in the column `head`."""
-        place = f"{self.file}, line {line}" + (f", column {head}" if head else "")
-        return DifferentialError(f"{place}{'' if cell is None else f', value {chr(34)}{cell}{chr(34)}'}: {text}")
+        where = f"{self.file}, line {line}" + (f", column {head}" if head else "")
+        return DifferentialError(f"{where}{'' if cell is None else f', value {chr(34)}{cell}{chr(34)}'}: {text}")
 
     def problem_at(self, line: int, name: str, text: str, cell: str | None = None) -> DifferentialError:
         """Error about a cell, by the name of its column."""
@@ -76,10 +76,10 @@ class CsvTable:
             what = " and no column ".join(missing)
             raise DifferentialError(f"{self.file}: it has no column {what}; the first line names the columns")
 
-    def _column(self, line, head, place, known):
+    def _column(self, line, head, index, known):
         match = _HEAD.match(head)
         if not match:
-            raise self.problem(line, head.strip() or place + 1, "write a name, and a unit in brackets")
+            raise self.problem(line, head.strip() or index + 1, "write a name, and a unit in brackets")
         name, unit = match["name"], match["unit"]
         try:
             variable = known(name)
@@ -88,15 +88,15 @@ class CsvTable:
         if unit is not None:
             try:
                 # converts any value, so that a wrong unit is an error of the header
-                Column(head, variable, unit.strip(), place).value("0")
+                Column(head, variable, unit.strip(), index).value("0")
             except DifferentialError as failure:
                 raise self.problem(line, head.strip(), _reason(failure)) from None
-        return Column(head.strip(), variable, unit and unit.strip(), place)
+        return Column(head.strip(), variable, unit and unit.strip(), index)
 
     def _row(self, line, cells):
         values = {}
         for name, column in self.columns.items():
-            cell = cells[column.place]
+            cell = cells[column.index]
             if cell:
                 try:
                     values[name] = column.value(cell)

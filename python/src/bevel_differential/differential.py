@@ -194,26 +194,26 @@ def _advance(instance, batches, record, steps, signals):
     """Steps through all points and records. Sets changed values before each step, and records again if they jump."""
     readers = batches.readers(instance, record)
     variables = [table.variable for table in signals.tables]
-    driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[place] for place in signals.straight))
+    driven, straight = Batches.of(tuple(variables)), Batches.of(tuple(variables[index] for index in signals.straight))
     # writers store only addresses, so the blocks must stay alive here
     blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
     writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
-    made = place = 0
+    applied = index = 0
 
     def read(time):
-        nonlocal place
+        nonlocal index
         for get, component, references, count, address, width in readers:
-            if get(component, references, count, address + place * width) >= DISCARD:
+            if get(component, references, count, address + index * width) >= DISCARD:
                 instance.check(DISCARD, f"reading outputs at {time:g} s", "failed")
-        place += 1
+        index += 1
 
     columns = (steps[name].tolist() for name in ("begin", "size", "end", "due", "jumps", "recorded"))
     for row, (begin, size, end, due, jumps, recorded) in enumerate(zip(*columns)):
         if row:
-            while made < due:
-                changed = dict(signals.changes[made][1])
+            while applied < due:
+                changed = dict(signals.changes[applied][1])
                 Batches.of(tuple(changed)).set(instance, list(changed.values()))
-                made += 1
+                applied += 1
             for write, component, references, count, address, width in writers:
                 status = write(component, references, count, address + row * width)
                 if status >= DISCARD:
@@ -230,7 +230,7 @@ def _structured(points, variables, batches, record):
     fields = [("time", np.float64)] + [(variable.name, kinds[variable.kind]) for variable in variables]
     result = np.empty(len(points), fields)
     result["time"] = points
-    for (_, places, _, _), block in zip(batches.groups, record):
-        for column, place in enumerate(places):
-            result[variables[place].name] = block[:, column]
+    for (_, indices, _, _), block in zip(batches.groups, record):
+        for column, index in enumerate(indices):
+            result[variables[index].name] = block[:, column]
     return result

@@ -74,9 +74,9 @@ class Fmu:
     @classmethod
     def by_hash(cls, file: str, sha256: str, display_units: Sequence[str] = ()) -> "Fmu":
         """FMU with this SHA-256: `file`, or else the default FMU of this machine. It shows values in `display_units`."""
-        for place in (Path(file), Path(usual())):
-            if place.is_file() and cls.of(place).sha256 == sha256:
-                return cls.of(place).displaying(display_units)
+        for path in (Path(file), Path(usual())):
+            if path.is_file() and cls.of(path).sha256 == sha256:
+                return cls.of(path).displaying(display_units)
         raise DifferentialError(f"{file}: neither this file nor the default FMU of this machine, {usual()}, is the requested one "
                                 f"(SHA-256 {sha256[:12]}…); install the same wheel on all machines, or set BEVEL_DIFFERENTIAL_FMU")
 

@@ -56,7 +56,7 @@ class Signals:
         self.constants, self.tables = list(constants), list(tables)
         self.changes = sorted(changes, key=lambda change: change[0])
         # indices of the tables that are linear within steps
-        self.straight = [place for place, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
+        self.straight = [index for index, table in enumerate(self.tables) if slopes and table.variable.causality == "input"]
         self._cache: Any = None, None
 
     def steps(self, stop: float, step: float | None) -> np.ndarray:
@@ -68,11 +68,11 @@ class Signals:
         return cached[1]
 
     def _scheduled(self, stop, step):
-        for place, table in enumerate(self.tables):
-            if step is None and place not in self.straight and not table.is_piecewise_constant:
+        for index, table in enumerate(self.tables):
+            if step is None and index not in self.straight and not table.is_piecewise_constant:
                 why = "a parameter is held" if table.variable.causality == "parameter" else "without input_slopes an input is held"
                 raise DifferentialError(f"{table.variable.name}: its table changes between its points, but {why} within a step; give a step")
-        times, tables = [time for time, _ in self.changes], [table.numbers(place in self.straight) for place, table in enumerate(self.tables)]
+        times, tables = [time for time, _ in self.changes], [table.numbers(index in self.straight) for index, table in enumerate(self.tables)]
         try:
             count, steps = schedule(np.concatenate([[stop, step or 0.0, len(times)], times, *tables]), len(tables))
         except OSError as missing:

@@ -62,9 +62,9 @@ def by_unit(fmu: Fmu, record: np.ndarray, names: Iterable[str]) -> Panels:
 
 def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: list[tuple[str, np.ndarray]]) -> None:
     """Draws the curves of a panel, with a legend next to it."""
-    for place, (name, values) in enumerate(curves):
+    for index, (name, values) in enumerate(curves):
         # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
-        panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - place) / len(curves),
+        panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - index) / len(curves),
                    drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_ylabel(_quantity([name for name, _ in curves], unit))
     if times[-1] > times[0]:

@@ -34,8 +34,8 @@ class Port:
                 raise DifferentialError(f"{variable.name}: it is of the kind {variable.kind}, and a port sets Real variables; use `set`")
         self._instance, self._inputs = instance, driven
         # outputs of other kinds have other functions: their places, and how they are read
-        self._places = [place for place, variable in enumerate(shown) if variable.kind != "Real"]
-        self._others = Batches.of(tuple(shown[place] for place in self._places))
+        self._places = [index for index, variable in enumerate(shown) if variable.kind != "Real"]
+        self._others = Batches.of(tuple(shown[index] for index in self._places))
         shown = [variable for variable in shown if variable.kind == "Real"]
         self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance._set_rates
         self._values, self._rates, self._outputs = (array("d", [0.0] * len(each)) for each in (driven, driven, shown))
@@ -70,8 +70,8 @@ class Port:
             instance.check(status, "getting Real variables")
         values: list[Number] = self._outputs.tolist()
         if self._places:
-            for place, value in zip(self._places, self._others.get(instance)):
-                values.insert(place, value)
+            for index, value in zip(self._places, self._others.get(instance)):
+                values.insert(index, value)
         return values
 
     def _write(self, values, rates):
@@ -97,8 +97,8 @@ class Port:
             names = ", ".join(variable.name for variable in self._inputs) or "a port without inputs"
             raise DifferentialError(f"{names}: there are {len(given)} {what} for {len(buffer)} inputs; give one for "
                                     "each input, in this order")
-        for place, item in enumerate(given):
-            buffer[place] = item if isinstance(item, float) and isfinite(item) else number(self._inputs[place], item)
+        for index, item in enumerate(given):
+            buffer[index] = item if isinstance(item, float) and isfinite(item) else number(self._inputs[index], item)
 
 
 def _address(buffer):

@@ -109,7 +109,7 @@ class Scene(Runner):
         warn([*self.warnings, *self.off_outputs(outputs, values).texts])
         return found
 
-    def says(self, values: Mapping[str, Value] | None = None) -> str:
+    def plan_text(self, values: Mapping[str, Value] | None = None) -> str:
         """Description by the FMU of the model that it simulates at the start of the scene."""
         with self.fmu.open() as instance:
             instance.log(["logEvents"])

@@ -22,7 +22,7 @@ def csv_text(file: FileName) -> str:
     if not Path(file).is_file():
         raise DifferentialError(f"{file}: there is no such file")
     rows = [["" if cell is None else cell for cell in row] for row in _rows(file)]
-    width = 1 + max((place for row in rows for place, cell in enumerate(row) if cell != ""), default=-1)
+    width = 1 + max((index for row in rows for index, cell in enumerate(row) if cell != ""), default=-1)
     out = io.StringIO()
     # an empty row keeps its line, so that messages name the lines of the sheet
     csv.writer(out, lineterminator="\n").writerows([*row, *[""] * width][:width] if any(cell != "" for cell in row) else [] for row in rows)

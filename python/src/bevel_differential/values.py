@@ -167,7 +167,7 @@ class Variable:
             raise DifferentialError(f"{self.name} = {written}: {bare[0]} has no unit, but others have one; write it at each "
                                     "number")
         second = self.differences() if written.startswith("normal(") or BAND.search(written) else self
-        return tuple((second if place == 1 else self).number(part) for place, part in enumerate(parts))
+        return tuple((second if index == 1 else self).number(part) for index, part in enumerate(parts))
 
     def has_unit(self, value: Value) -> bool:
         """True if `value` is written with its unit."""

@@ -120,12 +120,12 @@ class Evidence:
         for line, cells in rows:
             name, variable, unit, tolerance = (cells[head.index(column)] for column in COLUMNS)
             if name == scene:
-                place = f"{shown}, line {line}"
-                if unit != (wanted := _at(place, self.fmu.variable, variable).unit or "1"):
-                    raise DifferentialError(f"{place}: {variable} has the unit {wanted}, not {unit!r}")
-                allowed[variable] = _at(place, Quantity("tolerance", "1").number, tolerance)
+                where = f"{shown}, line {line}"
+                if unit != (wanted := _at(where, self.fmu.variable, variable).unit or "1"):
+                    raise DifferentialError(f"{where}: {variable} has the unit {wanted}, not {unit!r}")
+                allowed[variable] = _at(where, Quantity("tolerance", "1").number, tolerance)
                 if not allowed[variable] > 0.0:
-                    raise DifferentialError(f"{place}: tolerance = {tolerance}: it must be above 0")
+                    raise DifferentialError(f"{where}: tolerance = {tolerance}: it must be above 0")
         return allowed
 
     def _file(self, role, name):
@@ -138,12 +138,12 @@ class Evidence:
         return self.folder / source, source
 
 
-def _at(place, read, text):
-    """Returns `read(text)`; errors name the place."""
+def _at(where, read, text):
+    """Returns `read(text)`; errors name the where."""
     try:
         return read(text)
     except DifferentialError as error:
-        raise DifferentialError(f"{place}: {error}") from None
+        raise DifferentialError(f"{where}: {error}") from None
 
 
 def start_values(fmu: Fmu, file: Path, shown: str) -> dict[str, Number]:
@@ -167,12 +167,12 @@ def start_values(fmu: Fmu, file: Path, shown: str) -> dict[str, Number]:
 def table(fmu: Fmu, file: Path, shown: str) -> np.ndarray:
     """Table of variables over time as a structured array; its first field is "time" in s."""
     (line, head), *rows = lines_of(file, shown)
-    place = f"{shown}, line {line}"
+    where = f"{shown}, line {line}"
     if head[0] != "time":
-        raise DifferentialError(f"{place}: the first column is {head[0]!r}; it must be time")
+        raise DifferentialError(f"{where}: the first column is {head[0]!r}; it must be time")
     if twice := [name for name in head if head.count(name) > 1]:
-        raise DifferentialError(f"{place}: the column {twice[0]} appears twice")
-    variables = [Quantity("time", "s"), *(_at(place, fmu.variable, name) for name in head[1:])]
+        raise DifferentialError(f"{where}: the column {twice[0]} appears twice")
+    variables = [Quantity("time", "s"), *(_at(where, fmu.variable, name) for name in head[1:])]
     values = [tuple(_at(f"{shown}, line {line}", variable.number, cell) for variable, cell in zip(variables, cells)) for line, cells in rows]
     found = np.array(values, [(name, float) for name in head])
     for (line, _), step in zip(rows[1:], np.diff(found["time"])):

@@ -67,7 +67,7 @@ impl Pull {
 
 /// A loaded pair: the data that its couplings depend on.
 #[derive(Clone, Copy, Debug)]
-pub struct PairPlace {
+pub struct PairPosition {
     /// Left (0) or right (1) side gear.
     pub side: usize,
     /// Flank.
@@ -92,20 +92,20 @@ pub struct Coupling {
     pub hessian: [f64; 3],
 }
 
-/// Coupling `t` as a polynomial of u about `middle` [rad]. `places` returns both positions at u. The polynomial covers
-/// the range of u in which both positions are between `low` and `high`; this range is shorter by `apart`. If the range
-/// is empty, the polynomial is constant: `t` with the positions at `middle`, limited to `low` and `high`.
+/// Coupling `t` as a polynomial of u about `middle` [rad]. `positions` returns both positions at u. The polynomial
+/// covers the range of u in which both positions are between `low` and `high`; this range is shorter by `apart`. If the
+/// range is empty, the polynomial is constant: `t` with the positions at `middle`, limited to `low` and `high`.
 fn polynomial_of(
     [low, high]: [f64; 2],
     (middle, apart): (f64, f64),
-    places: impl Fn(f64) -> [f64; 2],
+    positions: impl Fn(f64) -> [f64; 2],
     t: &dyn Fn([f64; 2]) -> f64,
 ) -> Polynomial {
     let half = 0.5 * (high - low - apart.abs());
     if half > 0.0 {
-        Polynomial::new([middle - half, middle + half], |u| t(places(u)))
+        Polynomial::new([middle - half, middle + half], |u| t(positions(u)))
     } else {
-        Polynomial::constant(t(places(middle).map(|s| s.clamp(low, high))))
+        Polynomial::constant(t(positions(middle).map(|s| s.clamp(low, high))))
     }
 }
 
@@ -177,7 +177,7 @@ impl PairCouplings {
 
     /// The coupling of `a` and `b`, with second derivatives if `CURVATURE`.
     #[inline(always)]
-    pub fn coupling<const CURVATURE: bool>(&self, a: &PairPlace, b: &PairPlace) -> Coupling {
+    pub fn coupling<const CURVATURE: bool>(&self, a: &PairPosition, b: &PairPosition) -> Coupling {
         let alike = a.flank == b.flank;
         let (polynomial, with) = if a.side != b.side {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };

@@ -36,17 +36,17 @@ impl Detailed {
     /// Load per width [N/m] of the pair of `slice` at the cone distance `cone` [m], which need not be the slice's own.
     pub fn line_load(&self, slice: &SliceLoad, cone: f64) -> f64 {
         let arc = slice.approach.arc - slice.opening.at(cone) / cone;
-        self.line_load_at(&self.spring.place(slice.s), &slice.approach, arc, cone)
+        self.line_load_at(&self.spring.local(slice.s), &slice.approach, arc, cone)
     }
 
-    /// Load per width [N/m] at the `place` of a spring and the cone distance `cone` [m], if the flanks penetrate by
+    /// Load per width [N/m] of a `local` spring and the cone distance `cone` [m], if the flanks penetrate by
     /// `arc` [rad].
-    pub fn line_load_at(&self, place: &<AnySpring as Spring>::Place, approach: &Approach, arc: f64, cone: f64) -> f64 {
+    pub fn line_load_at(&self, local: &<AnySpring as Spring>::Local, approach: &Approach, arc: f64, cone: f64) -> f64 {
         if arc <= 0.0 {
             return 0.0;
         }
         let rate = approach.rate - approach.opening_rate / cone;
-        let elastic = self.spring.respond(place, arc);
+        let elastic = self.spring.respond(local, arc);
         cone * self.damping.apply(elastic.torque, elastic.stiffness, arc, rate).total
     }
 
@@ -55,8 +55,8 @@ impl Detailed {
     pub fn face_load_factor(&self, known: &KnownSlice, opening: &Opening) -> f64 {
         let Some(ends) = self.face.ends() else { return 1.0 };
         let approach = known.arc + opening.at(known.cone) / known.cone;
-        let place = self.spring.place(known.s);
-        let load = |arc: f64| if arc > 0.0 { self.spring.respond(&place, arc).torque } else { 0.0 };
+        let local = self.spring.local(known.s);
+        let load = |arc: f64| if arc > 0.0 { self.spring.respond(&local, arc).torque } else { 0.0 };
         let mut torque = 0.0;
         for part in self.face.loaded(approach, opening, &mut PointStorage::default()) {
             for node in part.nodes {

@@ -43,7 +43,7 @@ impl Detailed {
         let Some([inner, outer]) = self.friction_face.as_ref().and_then(Face::ends) else {
             return value_at(slice.cone, here.load).max(0.0);
         };
-        let (opening, place) = (slice.opening, self.spring.place(slice.s));
+        let (opening, local) = (slice.opening, self.spring.local(slice.s));
         let (edge, depth) = opening.edge.unwrap_or((outer, 0.0));
         let edge = edge.clamp(inner, outer);
         let approach = slice.approach.arc - opening.turn;
@@ -55,7 +55,7 @@ impl Detailed {
             let Some(Span { ends, .. }) = loaded_span(approach, even, opening.bend, [from, to]) else { continue };
             largest = largest.max(largest_between(ends, |cone| {
                 let arc = approach - even / cone - opening.bend * cone;
-                value_at(cone, self.line_load_at(&place, &slice.approach, arc, cone))
+                value_at(cone, self.line_load_at(&local, &slice.approach, arc, cone))
             }));
         }
         largest
@@ -79,17 +79,17 @@ fn largest_between([from, to]: [f64; 2], f: impl Fn(f64) -> f64) -> f64 {
 
 /// Largest value of `f` near its only peak between `low` and `high`, by the golden section.
 fn peak(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
-    let place = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-    let [mut left, mut right] = place(low, high);
+    let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
+    let [mut left, mut right] = inner(low, high);
     let (mut at_left, mut at_right) = (f(left), f(right));
     for _ in 0..SECTIONS {
         if at_left > at_right {
             (high, right, at_right) = (right, left, at_left);
-            left = place(low, high)[0];
+            left = inner(low, high)[0];
             at_left = f(left);
         } else {
             (low, left, at_left) = (left, right, at_right);
-            right = place(low, high)[1];
+            right = inner(low, high)[1];
             at_right = f(right);
         }
     }

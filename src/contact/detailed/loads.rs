@@ -64,7 +64,7 @@ pub struct SliceLoad<'a> {
     /// Kind of contact.
     pub spot: Spot,
     /// Arc Δ past the end of the path, or the position on the path if the pair is on it [rad].
-    pub place: f64,
+    pub spot_arc: f64,
     /// Cone distance [m].
     pub cone: f64,
     /// Fraction of the face that the slice represents, by its share of J.

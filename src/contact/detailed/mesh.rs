@@ -191,12 +191,12 @@ impl Detailed {
             if parts.iter().all(Part::is_empty) {
                 return;
             }
-            let place = spring.place(pair.s);
+            let local = spring.local(pair.s);
             for part in parts {
                 for node in part.nodes {
                     let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
                     if arc > 0.0 {
-                        energy += node.weight * spring.respond(&place, arc).energy;
+                        energy += node.weight * spring.respond(&local, arc).energy;
                     }
                 }
             }
@@ -291,7 +291,7 @@ impl Detailed {
             return;
         }
         let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
-        let touching = Touching { name, pair, place: None, opening: &opening, arcs, parts, motion };
+        let touching = Touching { name, pair, local: None, opening: &opening, arcs, parts, motion };
         self.add_touching((spring, teeth, needs_thrust), totals, touching, look);
     }
 }

@@ -3,7 +3,7 @@
 //! Bodies move a tooth as a whole, so the own arc of a pair replaces the pair's arc in every slice. The load that acts
 //! on other pairs is computed from the elastic torque over the face, ω = M/J.
 
-use super::super::bodies::{PairCouplings, PairPlace};
+use super::super::bodies::{PairCouplings, PairPosition};
 use super::super::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use super::directions::Arcs;
 use super::face::{Part, PointStorage};
@@ -38,8 +38,8 @@ struct Near<P> {
     opening: Opening,
     axial: [f64; 2],
     arcs: Arcs,
-    pair_place: PairPlace,
-    place: P,
+    pair_position: PairPosition,
+    local: P,
 }
 
 /// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
@@ -52,36 +52,36 @@ struct ElasticLoad {
     load: f64,
     by_arc: f64,
     by_opening: f64,
-    by_place: f64,
+    by_s: f64,
     energy: f64,
 }
 
 impl Detailed {
     /// Elastic load of a pair at its own arc `arc` [rad].
     #[inline(always)]
-    fn elastic_load<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> ElasticLoad {
+    fn elastic_load<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Local>, arc: f64) -> ElasticLoad {
         if !OPEN {
             // one point represents the load of a face whose flanks fit
             if arc <= 0.0 {
                 return ElasticLoad::default();
             }
-            let elastic = spring.respond(&near.place, arc);
-            let (load, by_arc, by_place) = (elastic.torque, elastic.stiffness, elastic.torque_by_place);
-            return ElasticLoad { load, by_arc, by_opening: 0.0, by_place, energy: elastic.energy };
+            let elastic = spring.respond(&near.local, arc);
+            let (load, by_arc, by_s) = (elastic.torque, elastic.stiffness, elastic.torque_by_s);
+            return ElasticLoad { load, by_arc, by_opening: 0.0, by_s, energy: elastic.energy };
         }
         let (opening, mut sums) = (&near.opening, Sums::default());
         let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
         for part in self.face.loaded(arc, opening, &mut PointStorage::default()) {
-            sums.add::<S, true, true>(&part, (spring, &near.place, &Damping::NONE), &still, opening, None, |_| {});
+            sums.add::<S, true, true>(&part, (spring, &near.local, &Damping::NONE), &still, opening, None, |_| {});
         }
-        let [by_arc, by_opening, by_place, ..] = sums.by[0].map(|by| by / self.moment);
+        let [by_arc, by_opening, by_s, ..] = sums.by[0].map(|by| by / self.moment);
         let (load, energy) = (sums.torque / self.moment, sums.energy / self.moment);
-        ElasticLoad { load, by_arc, by_opening, by_place, energy }
+        ElasticLoad { load, by_arc, by_opening, by_s, energy }
     }
 
     /// Load and its slope with respect to the arc, for the iterations that solve for the own arcs.
     #[inline(never)]
-    fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Place>, arc: f64) -> [f64; 2] {
+    fn load_of<S: Spring, const OPEN: bool>(&self, spring: &S, near: &Near<S::Local>, arc: f64) -> [f64; 2] {
         let ElasticLoad { load, by_arc, .. } = self.elastic_load::<S, OPEN>(spring, near, arc);
         [load, by_arc]
     }
@@ -94,7 +94,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        pairs: &mut Pairs<Near<S::Place>>,
+        pairs: &mut Pairs<Near<S::Local>>,
     ) {
         // excess material presses before flanks without errors would touch
         let excess = [0, 1].map(|side| {
@@ -123,9 +123,9 @@ impl Detailed {
                 }
                 pairs.add(pair.depth, || {
                     let tooth = if side == 0 { name.tooth } else { shared.opposite.wrapping_sub(name.tooth) };
-                    let pair_place = PairPlace { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
-                    let place = spring.place(pair.s);
-                    Near { name: *name, pair: *pair, opening, axial, arcs, pair_place, place }
+                    let pair_position = PairPosition { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
+                    let local = spring.local(pair.s);
+                    Near { name: *name, pair: *pair, opening, axial, arcs, pair_position, local }
                 });
             });
         }
@@ -139,7 +139,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        see: &mut See<S::Place>,
+        see: &mut See<S::Local>,
     ) {
         let mut pairs = Pairs::none();
         self.gather::<S, OPEN>(spring, shared, states, lookout, &mut pairs);
@@ -149,18 +149,24 @@ impl Detailed {
         let changes = |k: usize, own: f64| {
             let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
             if let Some(near) = near_of(k) {
-                let (at, pair) = (3 * near.pair_place.side, &near.pair);
+                let (at, pair) = (3 * near.pair_position.side, &near.pair);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
                 let elastic_load = self.elastic_load::<S, OPEN>(spring, near, own);
-                let by_place = elastic_load.by_place + elastic_load.by_opening * near.opening.even.d;
-                change.place = (at + 1, pair.s_slope, by_place * pair.s_slope);
+                let by_s = elastic_load.by_s + elastic_load.by_opening * near.opening.even.d;
+                change.position = (at + 1, pair.s_slope, by_s * pair.s_slope);
                 change.opening = (at + 2, elastic_load.by_opening * near.axial[0]);
             }
             (by, change)
         };
-        let place = |k: usize| near_of(k).map(|near| &near.pair_place);
+        let position_of = |k: usize| near_of(k).map(|near| &near.pair_position);
         let arcs = pairs.arcs();
-        let sharing = Sharing { bodies: shared.bodies, arcs, place: &place, law: &law, is_linear: S::LINEAR && !OPEN };
+        let sharing = Sharing {
+            bodies: shared.bodies,
+            arcs,
+            position_of: &position_of,
+            law: &law,
+            is_linear: S::LINEAR && !OPEN,
+        };
         sharing.solve(if SLOPES { Some(&changes) } else { None }, &mut |k, share| {
             if let Some(near) = near_of(k) {
                 see(near, pairs.arcs()[k], share);
@@ -177,7 +183,7 @@ impl Detailed {
         shared: &SharedTeeth,
         states: &[DetailedState; 2],
         lookout: f64,
-        see: &mut See<S::Place>,
+        see: &mut See<S::Local>,
     ) {
         if self.may_open(shared) {
             self.share::<S, true, false>(spring, shared, states, lookout, see);
@@ -256,7 +262,7 @@ impl Detailed {
         let mut opening_by_others = OpeningByOthers::default();
         let lookout = OpeningByOthers::LOOKOUT;
         with_teeth!(&self.spring, spring => self.share_at(spring, shared, states, lookout, &mut |near, arc, share| {
-            opening_by_others.add(near.pair_place.side, near.pair.flank, near.pair.number, arc - share.own);
+            opening_by_others.add(near.pair_position.side, near.pair.flank, near.pair.number, arc - share.own);
         }), ());
         opening_by_others
     }
@@ -278,7 +284,7 @@ impl Detailed {
             }
         };
         self.share::<S, OPEN, SLOPES>(spring, shared, states, 0.0, &mut |near, arc, share| {
-            let (side, opening) = (near.pair_place.side, &near.opening);
+            let (side, opening) = (near.pair_position.side, &near.opening);
             let pair = ToothPair { depth: share.own, ..near.pair };
             let mut storage = PointStorage::default();
             let parts = self.loaded_parts::<OPEN>(pair.depth, opening, &mut storage);
@@ -300,7 +306,7 @@ impl Detailed {
             let touching = Touching {
                 name: &near.name,
                 pair: &pair,
-                place: Some(near.place),
+                local: Some(near.local),
                 opening,
                 arcs: near.arcs,
                 parts,

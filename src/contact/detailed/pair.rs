@@ -64,7 +64,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
     /// Derivatives with respect to q, x, w, their rates, and then q, x, w of the other mesh. The argument holds the
     /// derivatives with respect to A, E, s, Ȧ, Ė.
     #[inline(always)]
-    pub fn slopes<const WIDE: usize>(&self, &[arc, even, place, rate, opening_rate]: &By) -> [f64; WIDE] {
+    pub fn slopes<const WIDE: usize>(&self, &[arc, even, s, rate, opening_rate]: &By) -> [f64; WIDE] {
         let ([q, x], [ex, ew]) = (self.slope, self.opening);
         let mut slopes = [0.0; WIDE];
         let of_arc = if SHARED { self.own[0] } else { [q, x, 0.0] };
@@ -74,7 +74,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
                 arc * of_arc[0] + rate * self.rate_slope[0],
                 arc * of_arc[1]
                     + even * ex
-                    + place * self.s_slope
+                    + s * self.s_slope
                     + rate * self.rate_slope[1]
                     + opening_rate * self.opening_rate_slope[0],
                 if SHARED { by_w + arc * of_arc[2] } else { by_w },
@@ -83,7 +83,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
                 opening_rate * ew,
             ]
         } else {
-            let by_x = arc * of_arc[1] + place * self.s_slope + rate * self.rate_slope[1];
+            let by_x = arc * of_arc[1] + s * self.s_slope + rate * self.rate_slope[1];
             [arc * of_arc[0] + rate * self.rate_slope[0], by_x, 0.0, rate * q, rate * x, 0.0]
         };
         slopes[..LOCAL].copy_from_slice(&local);

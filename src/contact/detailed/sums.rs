@@ -53,14 +53,14 @@ pub struct Sums {
     /// ΣT/R [N].
     pub normal: f64,
     /// ΣU_s [N·m].
-    pub by_place: f64,
+    pub by_s: f64,
     /// Σh T with the signed coefficient of friction h [N·m].
     pub friction: f64,
     /// Heat of contact damping [W].
     pub heat: f64,
     /// Elastic energy [J], summed only together with derivatives.
     pub energy: f64,
-    /// Derivatives of `torque`, `normal`, `by_place` and `friction`.
+    /// Derivatives of `torque`, `normal`, `by_s` and `friction`.
     pub by: [By; 4],
     /// Derivatives of `friction` with respect to both speeds and to the relative radius of curvature over R.
     pub friction_by: [f64; 3],
@@ -87,7 +87,7 @@ impl Sums {
     pub fn add<S: Spring, const SLOPES: bool, const OPEN: bool>(
         &mut self,
         part: &Part,
-        (spring, place, damping): (&S, &S::Place, &Damping),
+        (spring, local, damping): (&S, &S::Local, &Damping),
         at: &Approach,
         opening: &Opening,
         pair_friction: Option<&PairFriction>,
@@ -101,38 +101,38 @@ impl Sums {
                 continue;
             }
             let rate = if OPEN { at.rate - at.opening_rate * node.per_cone } else { at.rate };
-            let elastic = spring.respond(place, arc);
+            let elastic = spring.respond(local, arc);
             let damped = damping.apply(elastic.torque, elastic.stiffness, arc, rate);
             let (weight, per_cone) = (node.weight, node.per_cone);
             let torque = weight * damped.total;
             self.torque += torque;
             self.normal += torque * per_cone;
-            self.by_place += weight * elastic.by_place;
+            self.by_s += weight * elastic.by_s;
             self.heat += weight * (damped.total - elastic.torque) * rate;
             let mut by = [0.0; 3];
             if SLOPES {
                 self.energy += weight * elastic.energy;
                 // damping is either added to the elastic torque or scales it
-                let by_place = match *damping {
+                let by_s = match *damping {
                     _ if damped.total <= 0.0 => 0.0,
-                    Damping::Step { .. } => elastic.torque_by_place,
-                    Damping::HuntCrossley { lambda } => elastic.torque_by_place * (1.0 + lambda * rate),
+                    Damping::Step { .. } => elastic.torque_by_s,
+                    Damping::HuntCrossley { lambda } => elastic.torque_by_s * (1.0 + lambda * rate),
                 };
-                by = [damped.by_depth, by_place, damped.by_rate];
+                by = [damped.by_depth, by_s, damped.by_rate];
                 add::<OPEN>(&mut self.by[0], weight, per_cone, by);
                 add::<OPEN>(&mut self.by[1], weight * per_cone, per_cone, by);
-                add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_place, elastic.by_place_twice, 0.0]);
+                add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_s, elastic.by_s_twice, 0.0]);
             }
             // derivatives along the face, for points that move
             let moving = if SLOPES && !S::LINEAR { part.moves.as_ref() } else { None };
             let along = moving.map(|moves| {
                 let closing = (part.even * per_cone) * per_cone - opening.bend;
                 let along = by[0] * closing + by[2] * at.opening_rate * per_cone * per_cone;
-                let place = elastic.torque_by_place * closing + 2.0 * elastic.by_place * per_cone;
+                let by_cone = elastic.torque_by_s * closing + 2.0 * elastic.by_s * per_cone;
                 let along = [along + 2.0 * damped.total * per_cone, along + damped.total * per_cone];
                 move_with(&mut self.by[0], moves, node, weight * damped.total, weight * along[0]);
                 move_with(&mut self.by[1], moves, node, torque * per_cone, weight * per_cone * along[1]);
-                move_with(&mut self.by[2], moves, node, weight * elastic.by_place, weight * place);
+                move_with(&mut self.by[2], moves, node, weight * elastic.by_s, weight * by_cone);
                 (moves, along)
             });
             let friction = pair_friction.map(|pair_friction| {
@@ -175,14 +175,14 @@ impl Sums {
 /// Adds to derivatives with respect to A, E, s, Ȧ, Ė: `weight` times a quantity's derivatives with respect to p, s and
 /// ṗ.
 #[inline(always)]
-fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_place, by_rate]: [f64; 3]) {
+fn add<const OPEN: bool>(to: &mut By, weight: f64, per_cone: f64, [by_arc, by_s, by_rate]: [f64; 3]) {
     let (arc, rate) = (weight * by_arc, weight * by_rate);
     to[0] += arc;
     if OPEN {
         to[1] -= arc * per_cone;
         to[4] -= rate * per_cone;
     }
-    to[2] += weight * by_place;
+    to[2] += weight * by_s;
     to[3] += rate;
 }
 

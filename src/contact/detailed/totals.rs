@@ -46,7 +46,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         let (torque, normal) = (sums.torque, sums.normal);
         let ([aq, ax], [ex, ew]) = (motion.slope, motion.opening);
         self.value[Q] -= torque * aq;
-        self.value[X] -= torque * ax + sums.by_place * motion.s_slope;
+        self.value[X] -= torque * ax + sums.by_s * motion.s_slope;
         if OPEN {
             self.value[X] += normal * ex;
             self.value[W] += normal * ew;
@@ -56,10 +56,10 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
             return;
         }
         self.energy += sums.energy;
-        let [by_torque, by_place] = [0, 2].map(|i| motion.slopes(&sums.by[i]));
+        let [by_torque, by_s] = [0, 2].map(|i| motion.slopes(&sums.by[i]));
         self.slope(Q, -aq, &by_torque);
         self.slope(X, -ax, &by_torque);
-        self.slope(X, -motion.s_slope, &by_place);
+        self.slope(X, -motion.s_slope, &by_s);
         let [qq, xx] = motion.curvature;
         self.slopes[Q][0] -= torque * qq;
         self.slopes[Q][1] -= torque * qq;
@@ -95,8 +95,8 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
         let mut by = motion.slopes(&sums.by[3]);
         let [sliding, sum_speed, radius] = sums.friction_by;
         let [by_sliding, by_sum_speed] = motion.speed_slopes(&pair_friction.geometry);
-        for (i, place) in [1, 3, 4].into_iter().enumerate() {
-            by[place] += sliding * by_sliding[i] + sum_speed * by_sum_speed[i];
+        for (i, index) in [1, 3, 4].into_iter().enumerate() {
+            by[index] += sliding * by_sliding[i] + sum_speed * by_sum_speed[i];
         }
         by[1] += radius * pair_friction.geometry.radius_slope * motion.s_slope;
         let [planet_slope, side_slope] = pair_friction.geometry.arm_slope.map(|slope| slope * motion.s_slope);

@@ -12,8 +12,8 @@ pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
     pub name: &'a PairName,
     /// The pair. If elastic gear bodies move it, its depth is its own arc (`contact::shared`).
     pub pair: &'a ToothPair,
-    /// Place of the pair in the elastic law, if known already.
-    pub place: Option<P>,
+    /// Values of the elastic law at the position of the pair, if known already.
+    pub local: Option<P>,
     /// Opening of the flanks.
     pub opening: &'a Opening,
     /// Arcs of the pair, if the axial seats need them.
@@ -37,10 +37,10 @@ impl Detailed {
         &self,
         (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, WIDE>,
-        touching: Touching<S::Place, OPEN, SHARED>,
+        touching: Touching<S::Local, OPEN, SHARED>,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let Touching { name, pair, place, opening, mut arcs, parts, motion } = touching;
+        let Touching { name, pair, local, opening, mut arcs, parts, motion } = touching;
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
@@ -57,7 +57,7 @@ impl Detailed {
             let whole = self.friction_face.as_ref().filter(|_| !OPEN || !self.face.is_distributed()).map(Face::nodes);
             PairFriction { law, speeds: motion.speeds(&geometry), geometry, whole }
         });
-        let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.place));
+        let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.spot_arc));
         let mut see = |node: &LoadedNode| {
             let Some(normal) = &normal else { return };
             let force = node.torque * node.node.weight * node.node.per_cone;
@@ -65,7 +65,7 @@ impl Detailed {
             look(&SliceLoad {
                 pair,
                 spot: pair.spot,
-                place: pair.place,
+                spot_arc: pair.spot_arc,
                 cone: node.node.cone,
                 share: node.node.weight / self.moment,
                 line_load: force / node.node.width,
@@ -81,8 +81,8 @@ impl Detailed {
                 opening,
             });
         };
-        let place = place.unwrap_or_else(|| spring.place(pair.s));
-        let law = (spring, &place, &self.damping);
+        let local = local.unwrap_or_else(|| spring.local(pair.s));
+        let law = (spring, &local, &self.damping);
         let mut sums = Sums::default();
         for part in if OPEN { &parts[..] } else { &parts[..1] } {
             let (at, pair_friction) = (&motion.approach, pair_friction.as_ref());

@@ -57,8 +57,8 @@ impl<'a> InDetail<'a> {
         let moved_by = |flank: Flank, number: i64| moved.map_or(0.0, |moved| moved(flank, number));
         if self.gaps.is_some() {
             let (teeth, state) = (self.mesh_teeth(at.planet, s), at.detailed(s));
-            return mesh.kink_of_open(&at.mesh(s), h, |flank, number, place| {
-                detailed.opened(&teeth, &state, (flank, number, place), mesh.whole.cone) + moved_by(flank, number)
+            return mesh.kink_of_open(&at.mesh(s), h, |flank, number, s| {
+                detailed.opened(&teeth, &state, (flank, number, s), mesh.whole.cone) + moved_by(flank, number)
             });
         }
         if moved.is_some() {
@@ -75,7 +75,7 @@ impl<'a> InDetail<'a> {
             side,
             flank,
             spot: slice.spot,
-            place: slice.place,
+            spot_arc: slice.spot_arc,
             teeth: self.contact.perfect.teeth(slice.name),
             s: slice.s,
             cone: slice.cone,

@@ -91,7 +91,7 @@ pub(super) fn load(
         side: s,
         flank: pair.flank,
         spot: pair.spot,
-        place: pair.place,
+        spot_arc: pair.spot_arc,
         teeth: contact.perfect.teeth(at.name(s, pair.flank, pair.number)),
         s: pair.s,
         cone: mesh.whole.cone,
@@ -112,15 +112,15 @@ pub fn components(pair: &Pair, mesh: &Mesh, contact: &ToothPair) -> [f64; 3] {
     let corner = &mesh.engagement.corner;
     let (planet, side) = match contact.spot {
         Spot::Path => (
-            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.place),
-            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.place),
+            cos(pair.gears[0].base) * sin(pair.pitch_arc[0] + contact.spot_arc),
+            cos(pair.gears[1].base) * sin(pair.pitch_arc[1] - contact.spot_arc),
         ),
         Spot::PlanetTip => {
-            let corner = corner[0].exact(contact.place);
+            let corner = corner[0].exact(contact.spot_arc);
             (along(corner.own_polar, lever_p * (1.0 - corner.gap.d)), along(corner.mate_polar, lever_s))
         }
         Spot::SideTip => {
-            let corner = corner[1].exact(contact.place);
+            let corner = corner[1].exact(contact.spot_arc);
             (along(corner.mate_polar, lever_p), along(corner.own_polar, lever_s * (1.0 - corner.gap.d)))
         }
     };

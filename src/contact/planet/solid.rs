@@ -55,13 +55,13 @@ impl PlanetContact for Solid<'_> {
         let mesh = &self.contact.mesh;
         for s in visit.sides.clone() {
             self.solid.loaded(&at.mesh(s), |load| {
-                let (spot, place) = mesh.engagement.rigid_spot(load.s);
+                let (spot, spot_arc) = mesh.engagement.rigid_spot(load.s);
                 let tooth = ToothLoad {
                     planet: at.planet,
                     side: s,
                     flank: load.flank,
                     spot,
-                    place,
+                    spot_arc,
                     teeth: self.contact.perfect.teeth(at.name(s, load.flank, load.number)),
                     s: load.s,
                     cone: load.slice.cone,

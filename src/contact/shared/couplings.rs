@@ -1,6 +1,6 @@
 //! Couplings of all pairs that can be loaded.
 
-use crate::contact::bodies::{Coupling, PairCouplings, PairPlace};
+use crate::contact::bodies::{Coupling, PairCouplings, PairPosition};
 
 /// Maximum number of pairs of a planet's two meshes that can be loaded at the same time. Flanks approach by at most
 /// half a base pitch. At this limit, a mesh with a dozen teeth has four such pairs, and a mesh with two hundred teeth
@@ -26,14 +26,14 @@ impl<T> Pairs<T> {
     /// or is dropped if none is shallower.
     #[inline(always)]
     pub fn add(&mut self, arc: f64, pair: impl FnOnce() -> T) {
-        let mut place = self.count;
+        let mut index = self.count;
         if self.count < MAX_PAIRS {
             self.count += 1;
         } else {
             let shallowest = (0..MAX_PAIRS).min_by(|&k, &l| self.arc[k].total_cmp(&self.arc[l]));
-            place = shallowest.filter(|&k| self.arc[k] < arc).unwrap_or(MAX_PAIRS);
+            index = shallowest.filter(|&k| self.arc[k] < arc).unwrap_or(MAX_PAIRS);
         }
-        if let (Some(to), Some(depth)) = (self.pairs.get_mut(place), self.arc.get_mut(place)) {
+        if let (Some(to), Some(depth)) = (self.pairs.get_mut(index), self.arc.get_mut(index)) {
             (*to, *depth) = (Some(pair()), arc);
         }
     }
@@ -75,20 +75,20 @@ impl<const K: usize> Couplings<K> {
     /// Couplings of an empty set of pairs.
     const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Returns the couplings of the first `count` pairs at their `places`.
+    /// Returns the couplings of the first `count` pairs at their `positions`.
     #[inline(always)]
-    pub fn new(bodies: &PairCouplings, count: usize, places: &[Option<&PairPlace>; K]) -> Self {
+    pub fn new(bodies: &PairCouplings, count: usize, positions: &[Option<&PairPosition>; K]) -> Self {
         let mut all = Self { count, ..Self::NONE };
-        for_each_two::<false>(bodies, &places[..count], |k, l, t: &Coupling| all.set(k, l, t));
+        for_each_two::<false>(bodies, &positions[..count], |k, l, t: &Coupling| all.set(k, l, t));
         all
     }
 
-    /// Returns the couplings of the first `count` pairs at their `places`, with second derivatives.
+    /// Returns the couplings of the first `count` pairs at their `positions`, with second derivatives.
     #[inline(always)]
     pub fn with_curvatures(
         bodies: &PairCouplings,
         count: usize,
-        places: &[Option<&PairPlace>; K],
+        positions: &[Option<&PairPosition>; K],
     ) -> (Self, CouplingCurvatures<K>) {
         let mut all = Self { count, ..Self::NONE };
         let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
@@ -97,7 +97,7 @@ impl<const K: usize> Couplings<K> {
             (curvatures.own[k][l], curvatures.own[l][k]) = (t.hessian[0], t.hessian[2]);
             (curvatures.both[k][l], curvatures.both[l][k]) = (t.hessian[1], t.hessian[1]);
         };
-        for_each_two::<true>(bodies, &places[..count], set);
+        for_each_two::<true>(bodies, &positions[..count], set);
         (all, curvatures)
     }
 
@@ -133,15 +133,15 @@ impl<const K: usize> Couplings<K> {
     }
 }
 
-/// Calls `visit` with every two of the pairs at `places` and their coupling, with second derivatives if `CURVATURE`.
+/// Calls `visit` with every two of the pairs at `positions` and their coupling, with second derivatives if `CURVATURE`.
 #[inline(always)]
 fn for_each_two<const CURVATURE: bool>(
     bodies: &PairCouplings,
-    places: &[Option<&PairPlace>],
+    positions: &[Option<&PairPosition>],
     mut visit: impl FnMut(usize, usize, &Coupling),
 ) {
-    for (k, a) in places.iter().enumerate() {
-        for (l, b) in places[..k].iter().enumerate() {
+    for (k, a) in positions.iter().enumerate() {
+        for (l, b) in positions[..k].iter().enumerate() {
             if let (Some(a), Some(b)) = (a, b) {
                 visit(k, l, &bodies.coupling::<CURVATURE>(a, b));
             }

@@ -6,7 +6,7 @@ use super::{CouplingCurvatures, Couplings, OwnArcs};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Change {
     /// Index of the coordinate, ∂s, and ∂ω at a constant own arc.
-    pub place: (usize, f64, f64),
+    pub position: (usize, f64, f64),
     /// Index of the coordinate, and ∂ω at a constant own arc.
     pub opening: (usize, f64),
 }
@@ -34,10 +34,10 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
         let n = couplings.count;
         let mut right = arc;
         for k in 0..n {
-            let (coordinate, slope, _) = changes[k].place;
+            let (coordinate, slope, _) = changes[k].position;
             right[k][coordinate] -= along[k] * slope;
             for l in (0..n).filter(|&l| l != k) {
-                let Change { place: (coordinate, slope, load), opening: (opening, opened) } = changes[l];
+                let Change { position: (coordinate, slope, load), opening: (opening, opened) } = changes[l];
                 right[k][coordinate] -= couplings.by_own[l][k] * own.load[l] * slope + couplings.value[k][l] * load;
                 right[k][opening] -= couplings.value[k][l] * opened;
             }
@@ -46,17 +46,17 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
         let mut load = right;
         for k in 0..n {
             load[k] = load[k].map(|by| own.stiffness[k] * by);
-            load[k][changes[k].place.0] += changes[k].place.2;
+            load[k][changes[k].position.0] += changes[k].position.2;
             load[k][changes[k].opening.0] += changes[k].opening.1;
         }
         let mut along_by = [[0.0; Z]; K];
         for k in 0..n {
-            let (coordinate, slope, _) = changes[k].place;
+            let (coordinate, slope, _) = changes[k].position;
             along_by[k] = load[k].map(|by| by * along[k]);
             for l in (0..n).filter(|&l| l != k) {
                 let of_other = own.load[k] * own.load[l];
                 along_by[k][coordinate] += curvatures.own[k][l] * of_other * slope;
-                along_by[k][changes[l].place.0] += curvatures.both[k][l] * of_other * changes[l].place.1;
+                along_by[k][changes[l].position.0] += curvatures.both[k][l] * of_other * changes[l].position.1;
                 let by_other = own.load[k] * couplings.by_own[k][l];
                 for z in 0..Z {
                     along_by[k][z] += by_other * load[l][z];

@@ -17,8 +17,8 @@ impl OpeningByOthers {
 
     /// Adds the arc `by` [rad] of pair `number` of `flank` in the mesh with side gear `side`.
     pub fn add(&mut self, side: usize, flank: Flank, number: i64, by: f64) {
-        if let Some(place) = self.pairs.get_mut(self.count) {
-            *place = Some((side, flank, number, by));
+        if let Some(slot) = self.pairs.get_mut(self.count) {
+            *slot = Some((side, flank, number, by));
             self.count += 1;
         }
     }

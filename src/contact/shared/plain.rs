@@ -3,7 +3,7 @@
 //! One point represents the load of a face whose flanks fit, and the side gears stay on their axes.
 
 use super::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
-use crate::contact::bodies::{PairCouplings, PairPlace};
+use crate::contact::bodies::{PairCouplings, PairPosition};
 use crate::contact::detailed::PairName;
 use crate::contact::impact::Force;
 use crate::contact::mesh::{MeshForce, MeshState};
@@ -40,8 +40,8 @@ pub struct SharedForce {
 #[derive(Clone, Copy)]
 struct Near<P> {
     pair: ToothPair,
-    pair_place: PairPlace,
-    place: P,
+    pair_position: PairPosition,
+    local: P,
 }
 
 /// Callback for each pair, with the approach of its flanks [rad] and its share of the load.
@@ -58,7 +58,7 @@ impl SharedMeshes<'_> {
     /// Gathers the pairs that are pressed, that others may pull into contact, or that are within `lookout` times the
     /// deepest approach of touching.
     #[inline(always)]
-    fn gather<S: Spring>(&self, spring: &S, states: &[MeshState; 2], lookout: f64, pairs: &mut Pairs<Near<S::Place>>) {
+    fn gather<S: Spring>(&self, spring: &S, states: &[MeshState; 2], lookout: f64, pairs: &mut Pairs<Near<S::Local>>) {
         let half = self.mesh.half_backlash();
         // approaches of drive and coast flanks, left and right
         let depth = states.each_ref().map(|state| [-state.position[0] - half, state.position[0] - half]);
@@ -76,8 +76,8 @@ impl SharedMeshes<'_> {
                     }
                     pairs.add(pair.depth, || {
                         let tooth = self.tooth(side, flank, pair.number);
-                        let pair_place = PairPlace { side, flank, number: pair.number, tooth, s: pair.s };
-                        Near { pair: *pair, pair_place, place: spring.place(pair.s) }
+                        let pair_position = PairPosition { side, flank, number: pair.number, tooth, s: pair.s };
+                        Near { pair: *pair, pair_position, local: spring.local(pair.s) }
                     });
                 });
             }
@@ -86,9 +86,9 @@ impl SharedMeshes<'_> {
 
     /// Response of a pair at its own arc `own` [rad] and the rate `rate` [m/s] of the whole approach.
     #[inline(always)]
-    fn respond<S: Spring>(&self, spring: &S, near: &Near<S::Place>, own: f64, rate: f64) -> Response {
+    fn respond<S: Spring>(&self, spring: &S, near: &Near<S::Local>, own: f64, rate: f64) -> Response {
         let Mesh { whole, damping, .. } = self.mesh;
-        spring.respond_whole::<true>(&near.place, (whole, damping), whole.cone * own, rate)
+        spring.respond_whole::<true>(&near.local, (whole, damping), whole.cone * own, rate)
     }
 
     /// Calls `see` with each pair that may be loaded and its share of the load. With `SLOPES`, the share includes its
@@ -98,29 +98,34 @@ impl SharedMeshes<'_> {
         spring: &S,
         states: &[MeshState; 2],
         lookout: f64,
-        see: &mut See<S::Place>,
+        see: &mut See<S::Local>,
     ) {
         let mut pairs = Pairs::none();
         self.gather(spring, states, lookout, &mut pairs);
         let near_of = |k: usize| pairs.get(k);
         let load = |k: usize, arc: f64| {
             let (Some(near), false) = (near_of(k), arc <= 0.0) else { return [0.0; 2] };
-            let elastic = spring.respond(&near.place, arc);
+            let elastic = spring.respond(&near.local, arc);
             [elastic.torque, elastic.stiffness]
         };
         let changes = |k: usize, own: f64| {
             let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
             if let Some(near) = near_of(k) {
-                let (pair, at) = (&near.pair, 3 * near.pair_place.side);
+                let (pair, at) = (&near.pair, 3 * near.pair_position.side);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
-                let by_place = if own > 0.0 { spring.respond(&near.place, own).torque_by_place } else { 0.0 };
-                change.place = (at + 1, pair.s_slope, by_place * pair.s_slope);
+                let by_s = if own > 0.0 { spring.respond(&near.local, own).torque_by_s } else { 0.0 };
+                change.position = (at + 1, pair.s_slope, by_s * pair.s_slope);
             }
             (by, change)
         };
-        let place = |k: usize| near_of(k).map(|near| &near.pair_place);
-        let sharing =
-            Sharing { bodies: self.bodies, arcs: pairs.arcs(), place: &place, law: &load, is_linear: S::LINEAR };
+        let position_of = |k: usize| near_of(k).map(|near| &near.pair_position);
+        let sharing = Sharing {
+            bodies: self.bodies,
+            arcs: pairs.arcs(),
+            position_of: &position_of,
+            law: &load,
+            is_linear: S::LINEAR,
+        };
         sharing.solve(if SLOPES { Some(&changes) } else { None }, &mut |k, share| {
             if let Some(near) = near_of(k) {
                 see(near, pairs.arcs()[k], share);
@@ -133,7 +138,7 @@ impl SharedMeshes<'_> {
         &self,
         spring: &S,
         states: &[MeshState; 2],
-        mut see: impl FnMut(&Near<S::Place>, f64, &Share),
+        mut see: impl FnMut(&Near<S::Local>, f64, &Share),
     ) {
         self.share::<S, SLOPES>(spring, states, 0.0, &mut |near, arc, share| {
             if share.own > 0.0 {
@@ -146,7 +151,7 @@ impl SharedMeshes<'_> {
     pub fn force<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> [MeshForce; 2] {
         let mut sum = [MeshForce::default(); 2];
         self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
-            let side = near.pair_place.side;
+            let side = near.pair_position.side;
             self.add(spring, &mut sum[side], near, &states[side], share);
         });
         sum
@@ -158,7 +163,7 @@ impl SharedMeshes<'_> {
         &self,
         spring: &S,
         to: &mut MeshForce,
-        near: &Near<S::Place>,
+        near: &Near<S::Local>,
         state: &MeshState,
         share: &Share,
     ) -> Response {
@@ -166,8 +171,8 @@ impl SharedMeshes<'_> {
         let response = self.respond(spring, near, share.own, rate);
         let torque = self.mesh.whole.cone * response.force.total;
         to.force[0] -= torque * pair.slope[0];
-        to.force[1] -= torque * pair.slope[1]
-            + (response.by_place - self.mesh.whole.moment * share.load * share.along) * pair.s_slope;
+        to.force[1] -=
+            torque * pair.slope[1] + (response.by_s - self.mesh.whole.moment * share.load * share.along) * pair.s_slope;
         to.heat += (response.force.total - response.force.elastic) * rate;
         response
     }
@@ -187,13 +192,13 @@ impl SharedMeshes<'_> {
         &self,
         spring: &S,
         sum: &mut SharedForce,
-        near: &Near<S::Place>,
+        near: &Near<S::Local>,
         (states, arc): (&[MeshState; 2], f64),
         share: &Share,
     ) {
         let Some([own_by, along_by]) = share.slopes else { return };
         let (moment, r) = (self.mesh.whole.moment, self.mesh.whole.cone);
-        let (pair, side) = (&near.pair, near.pair_place.side);
+        let (pair, side) = (&near.pair, near.pair_position.side);
         let state = &states[side];
         let response = self.add(spring, &mut sum.force[side], near, state, share);
         let f = &response.force;
@@ -207,12 +212,12 @@ impl SharedMeshes<'_> {
                 let here = other == side;
                 // derivatives through the own arc, the position on the path, and the rate at constant speeds
                 let mut torque = r * r * f.by_depth * own_by[z];
-                let mut along = r * response.elastic_by_place * own_by[z] - moment * along_by[z];
+                let mut along = r * response.elastic_by_s * own_by[z] - moment * along_by[z];
                 if here {
                     torque += r * r * f.by_rate * turn[b];
                     if b == 1 {
-                        torque += r * response.total_by_place * pair.s_slope;
-                        along += response.by_place_twice * pair.s_slope;
+                        torque += r * response.total_by_s * pair.s_slope;
+                        along += response.by_s_twice * pair.s_slope;
                     }
                 }
                 let to = &mut sum.by_position[side][other];
@@ -236,7 +241,7 @@ impl SharedMeshes<'_> {
     pub fn energy<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> f64 {
         let mut sum = 0.0;
         self.for_each_loaded::<S, false>(spring, states, |near, arc, share| {
-            let alone = spring.respond(&near.place, share.own).energy;
+            let alone = spring.respond(&near.local, share.own).energy;
             sum += self.mesh.whole.moment * (alone + 0.5 * share.load * (arc - share.own));
         });
         sum
@@ -246,8 +251,8 @@ impl SharedMeshes<'_> {
     pub fn opening_by_others<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> OpeningByOthers {
         let mut opening_by_others = OpeningByOthers::default();
         self.share::<S, false>(spring, states, OpeningByOthers::LOOKOUT, &mut |near, arc, share| {
-            let Near { pair, pair_place, .. } = near;
-            opening_by_others.add(pair_place.side, pair.flank, pair.number, arc - share.own);
+            let Near { pair, pair_position, .. } = near;
+            opening_by_others.add(pair_position.side, pair.flank, pair.number, arc - share.own);
         });
         opening_by_others
     }
@@ -262,7 +267,7 @@ impl SharedMeshes<'_> {
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
         self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
-            if near.pair_place.side == side {
+            if near.pair_position.side == side {
                 let pair = ToothPair { depth: share.own, ..near.pair };
                 let rate = self.mesh.rate(&pair, &states[side]);
                 visit(&pair, &self.respond(spring, near, share.own, rate).force);

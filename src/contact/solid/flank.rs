@@ -62,7 +62,7 @@ impl Flanks {
     /// path of contact, they are those of that end, which is nearly correct.
     pub fn closest(&self, s: f64) -> [f64; 2] {
         let s = s.max(self.path[0]).min(self.path[1]);
-        self.on_path.map(|[at_pitch, per_place]| at_pitch + per_place * s)
+        self.on_path.map(|[at_pitch, per_s]| at_pitch + per_s * s)
     }
 }
 

@@ -76,7 +76,7 @@ impl SolidMesh {
             let share = slice.share * self.cone / slice.cone;
             let force = Force { total: share * whole.total, elastic: share * whole.elastic, ..whole };
             if let Some((placement, patch)) = self.patch(near, placed) {
-                let point = Vector3::new(patch.place[0], patch.place[1], 1.0).normalize();
+                let point = Vector3::new(patch.position[0], patch.position[1], 1.0).normalize();
                 let sign = if near.flank == Flank::Drive { 1.0 } else { -1.0 };
                 let components = |w: [f64; 3]| {
                     let [planet, side, across] = placement.components(w);

@@ -35,7 +35,7 @@ const HIGH: f64 = 20.0;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Patch {
     /// Coordinates of its centre in the plane of projection [rad].
-    pub place: [f64; 2],
+    pub position: [f64; 2],
     /// Mean normal into the side gear, in the rows of a placement.
     pub normal: [f64; 3],
 }
@@ -59,7 +59,7 @@ struct SoftIntegral<const N: usize> {
     /// Exponent and its exponential at the previous corner.
     before: (Both<N>, f64),
     /// Position of the previous corner [rad].
-    place: Both<N>,
+    before_u: Both<N>,
 }
 
 impl<const N: usize> SoftIntegral<N> {
@@ -76,7 +76,7 @@ impl<const N: usize> SoftIntegral<N> {
             walked: zero,
             begin: one,
             before: one,
-            place: zero,
+            before_u: zero,
         }
     }
 
@@ -127,7 +127,7 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
             self.begin.0 = Both { v: 0.0, ..at.overlap } * self.per;
         }
         self.finish();
-        (self.place, self.before) = (at.u, self.begin);
+        (self.before_u, self.before) = (at.u, self.begin);
     }
 
     #[inline(always)]
@@ -138,8 +138,8 @@ impl<const N: usize> Follow<N> for SoftIntegral<N> {
         let exponent = Both { v: at.overlap.v - self.from, ..at.overlap } * self.per;
         let exponential = exp(exponent.v);
         let mean = mean_exponential([self.before.0.v, exponent.v], [self.before.1, exponential]);
-        self.walked = self.walked + (at.u - self.place) * Both::through_both(self.before.0, exponent, &mean);
-        (self.place, self.before) = (at.u, (exponent, exponential));
+        self.walked = self.walked + (at.u - self.before_u) * Both::through_both(self.before.0, exponent, &mean);
+        (self.before_u, self.before) = (at.u, (exponent, exponential));
     }
 }
 
@@ -150,7 +150,7 @@ struct PatchMean<'a, F> {
     soft: &'a Softness,
     before: Corner<0>,
     weight: f64,
-    place: [f64; 2],
+    position: [f64; 2],
     sum: Vector3<f64>,
 }
 
@@ -167,8 +167,8 @@ impl<F: Fn(usize, usize) -> Vector3<f64>> Follow<0> for PatchMean<'_, F> {
         for end in [&self.before, at] {
             // normal of the flank into which the corner is pressed
             self.sum += (self.normal)(end.mate, end.ray) * (0.5 * weight);
-            self.place[0] += 0.5 * weight * end.u.v;
-            self.place[1] += 0.5 * weight * end.height;
+            self.position[0] += 0.5 * weight * end.u.v;
+            self.position[1] += 0.5 * weight * end.height;
         }
         self.before = *at;
     }
@@ -202,10 +202,11 @@ impl FlankSection<'_> {
     pub fn patch(&self, soft: &Softness, normal: impl Fn(usize, usize) -> Vector3<f64>) -> Option<Patch> {
         let depth = self.depth::<0>(soft)?.v;
         let before = Corner::default();
-        let mut mean = PatchMean { normal, depth, soft, before, weight: 0.0, place: [0.0; 2], sum: Vector3::zeros() };
+        let mut mean =
+            PatchMean { normal, depth, soft, before, weight: 0.0, position: [0.0; 2], sum: Vector3::zeros() };
         self.walk(soft, &mut mean)?;
         let length = mean.sum.norm();
         (mean.weight > 0.0 && length > 0.0)
-            .then(|| Patch { place: mean.place.map(|p| p / mean.weight), normal: (mean.sum / length).into() })
+            .then(|| Patch { position: mean.position.map(|p| p / mean.weight), normal: (mean.sum / length).into() })
     }
 }

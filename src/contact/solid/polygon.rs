@@ -22,7 +22,7 @@ fn parts<const N: usize>(ray: &TurningRay, pair: usize, angle: SineCosine) -> Tw
 
 /// Position along the flank of a ray of a tooth at the given angle [rad].
 #[inline(always)]
-pub fn place<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
+pub fn position_of<const N: usize>(ray: &TurningRay, angle: SineCosine) -> Single<N> {
     let ((across, _), (toward, _)) = (parts(ray, 0, angle).parts(), parts(ray, 1, angle).parts());
     across.over(toward, 1.0 / toward.v)
 }

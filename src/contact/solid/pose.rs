@@ -161,9 +161,9 @@ impl Placement {
             let [away, across, axis] = [0, 1, 2].map(|i| frame.column(i).into_owned());
             [across * w.x - away * w.y, away * w.x + across * w.y, axis * w.z]
         };
-        let (place, normal) = (by(ray.direction - ray.normal * relief), by(ray.normal));
+        let (point, normal) = (by(ray.direction - ray.normal * relief), by(ray.normal));
         let part = |i: usize, moved: Vector3<f64>| {
-            let w = place[i] + moved;
+            let w = point[i] + moved;
             [[w.x, w.y], [w.z, normal[i].y]]
         };
         TurningRay { sine: part(0, Vector3::zeros()), cosine: part(1, Vector3::zeros()), fixed: part(2, offset) }
@@ -186,8 +186,8 @@ impl Placement {
     pub fn polars(&self, point: Vector3<f64>, cone: f64) -> [f64; 2] {
         let on_gears = [point - self.offset / cone, point];
         [0, 1].map(|gear| {
-            let (axis, place) = (self.frames[gear].column(2), on_gears[gear]);
-            atan2(axis.cross(&place).norm(), axis.dot(&place))
+            let (axis, point) = (self.frames[gear].column(2), on_gears[gear]);
+            atan2(axis.cross(&point).norm(), axis.dot(&point))
         })
     }
 

@@ -1,6 +1,6 @@
 //! Walks along both polygons of a section, corner by corner, as long as the overlap contributes to the load.
 
-use super::polygon::{Measure, ProjectedFacet, ProjectedRay, place};
+use super::polygon::{Measure, ProjectedFacet, ProjectedRay, position_of};
 use super::turned::Both;
 use super::{SineCosine, Softness, TurningRay};
 
@@ -96,7 +96,7 @@ impl FlankSection<'_> {
             // neighbouring facets have nearly the same length
             let facets_ahead = (u - rays[0].u.v) / (rays[1].u.v - rays[0].u.v);
             i = ((i as f64 + facets_ahead) as u32 as usize).min(last);
-            let at = |i: usize| self.rays[gear].get(i).map(|ray| place::<0>(ray, self.angles[gear]).v);
+            let at = |i: usize| self.rays[gear].get(i).map(|ray| position_of::<0>(ray, self.angles[gear]).v);
             while at(i + 1)? < u {
                 i += 1;
             }
@@ -113,8 +113,8 @@ impl FlankSection<'_> {
     /// Returns `None` if the flanks are apart.
     #[inline(always)]
     pub fn walk<const N: usize>(&self, soft: &Softness, follow: &mut impl Follow<N>) -> Option<()> {
-        let planet_tip = place::<N>(self.rays[0].first()?, self.angles[0]);
-        let side_tip = place::<N>(self.rays[1].last()?, self.angles[1]);
+        let planet_tip = position_of::<N>(self.rays[0].first()?, self.angles[0]);
+        let side_tip = position_of::<N>(self.rays[1].last()?, self.angles[1]);
         // involutes touch at u = 0 or at a tip
         let u = 0.0f64.max(planet_tip.v).min(side_tip.v);
         let (planet, side) = (self.around::<N>(0, u)?, self.around::<N>(1, u)?);

@@ -48,7 +48,7 @@ fn between(range: [f64; 2], j: usize) -> f64 {
 }
 
 /// Evenly spaced positions on `range`, including both ends.
-pub fn places(range: [f64; 2]) -> impl Iterator<Item = f64> {
+pub fn positions(range: [f64; 2]) -> impl Iterator<Item = f64> {
     (0..=SEARCH).map(move |j| between(range, j))
 }
 

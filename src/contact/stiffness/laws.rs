@@ -34,25 +34,25 @@ impl Line {
 impl Spring for Line {
     const LINEAR: bool = true;
     /// 1/q, and the slopes of q.
-    type Place = [f64; 3];
+    type Local = [f64; 3];
 
     #[inline(always)]
-    fn place(&self, s: f64) -> [f64; 3] {
+    fn local(&self, s: f64) -> [f64; 3] {
         let q = self.table.at(s);
         [1.0 / (q.v + self.shift), q.d, q.dd]
     }
 
     #[inline(always)]
-    fn respond(&self, &[c, by_place, by_place_twice]: &[f64; 3], p: f64) -> Elastic {
+    fn respond(&self, &[c, by_s, by_s_twice]: &[f64; 3], p: f64) -> Elastic {
         let load = c * p;
-        let arc_by_place = load * by_place;
+        let arc_by_s = load * by_s;
         Elastic {
             energy: 0.5 * p * load,
             torque: load,
             stiffness: c,
-            by_place: -0.5 * load * arc_by_place,
-            torque_by_place: -c * arc_by_place,
-            by_place_twice: c * arc_by_place * arc_by_place - 0.5 * load * load * by_place_twice,
+            by_s: -0.5 * load * arc_by_s,
+            torque_by_s: -c * arc_by_s,
+            by_s_twice: c * arc_by_s * arc_by_s - 0.5 * load * load * by_s_twice,
         }
     }
 }
@@ -126,10 +126,10 @@ impl LineWeber {
 
 impl Spring for LineWeber {
     /// Q with its slopes.
-    type Place = Jet;
+    type Local = Jet;
 
     #[inline(always)]
-    fn place(&self, s: f64) -> Jet {
+    fn local(&self, s: f64) -> Jet {
         self.table.at(s)
     }
 
@@ -146,14 +146,14 @@ impl Spring for LineWeber {
             let limit = self.local * self.limit;
             0.5 * load * (p - limit) + 0.25 * limit * self.limit
         };
-        let arc_by_place = load * q.d;
+        let arc_by_s = load * q.d;
         Elastic {
             energy,
             torque: load,
             stiffness: tangent,
-            by_place: -0.5 * load * arc_by_place,
-            torque_by_place: -tangent * arc_by_place,
-            by_place_twice: tangent * arc_by_place * arc_by_place - 0.5 * load * load * q.dd,
+            by_s: -0.5 * load * arc_by_s,
+            torque_by_s: -tangent * arc_by_s,
+            by_s_twice: tangent * arc_by_s * arc_by_s - 0.5 * load * load * q.dd,
         }
     }
 }

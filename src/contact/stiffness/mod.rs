@@ -110,7 +110,7 @@ impl PairStiffness {
         // a corner whose tooth is not a beam at the end of the path is not used past it
         let corner_range =
             [0, 1].map(|i| if range[i] == path[i] { corners[i].length(&teeth, base_pitch) } else { 0.0 });
-        let limit = beams::places(range)
+        let limit = beams::positions(range)
             .map(|s| limit_line_load(&teeth, s * outer_cone) / outer_cone)
             .fold(f64::INFINITY, f64::min);
         let on_path = |s: f64| {
@@ -194,8 +194,8 @@ impl PairStiffness {
 }
 
 /// Line load [N/m] at the outer section for which b is `DEEPEST` times √(t₁t₂).
-fn limit_line_load(teeth: &SectionPair, place: f64) -> f64 {
-    let rolls = teeth.rolls(place);
+fn limit_line_load(teeth: &SectionPair, s: f64) -> f64 {
+    let rolls = teeth.rolls(s);
     let depth = |i: usize| teeth.sections[i].load(rolls[i]).depth;
     DEEPEST * DEEPEST * depth(0) * depth(1) / teeth.half_width_squared(rolls, 1.0)
 }

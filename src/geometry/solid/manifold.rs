@@ -90,7 +90,7 @@ struct NodeRow {
 
 impl NodeRow {
     /// Position of `node` of tooth number `tooth` [m].
-    fn place(&self, gear: &Gear, node: &Node, tooth: f64) -> Vector3<f64> {
+    fn position(&self, gear: &Gear, node: &Node, tooth: f64) -> Vector3<f64> {
         let turn = gear.tooth_pitch() * tooth;
         let point = direction(node.polar, node.azimuth + turn) * self.cone;
         if self.missing == 0.0 || node.part != Part::Flank {
@@ -159,8 +159,8 @@ impl<'a> Surface<'a> {
             for tooth in 0..self.teeth {
                 // a node in the middle of a gap belongs to two flanks, so crowning does not move it
                 let whole = NodeRow { missing: 0.0, ..*row };
-                let place = |(i, node)| if i == 0 { &whole } else { row }.place(gear, node, tooth as f64);
-                vertices.extend(self.nodes.iter().enumerate().map(place));
+                let position = |(i, node)| if i == 0 { &whole } else { row }.position(gear, node, tooth as f64);
+                vertices.extend(self.nodes.iter().enumerate().map(position));
             }
         }
         let row = |k: usize| (0..around).map(|i| k as u32 * around + i).collect::<Vec<u32>>();

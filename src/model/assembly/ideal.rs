@@ -71,7 +71,7 @@ impl Ideal {
 
     /// Accelerations under inputs that are parabolas of time, and their derivatives with respect to time, by order.
     #[inline]
-    pub fn course(&self, inputs: &Inputs, derivatives: &InputDerivatives) -> [IdealMotion; 3] {
+    pub fn motion_by_order(&self, inputs: &Inputs, derivatives: &InputDerivatives) -> [IdealMotion; 3] {
         let mass = self.mass();
         let [first, second] = &derivatives.rates;
         // accelerations are linear in inputs and their rates; most hosts give lines, which have no second derivatives

@@ -32,7 +32,7 @@ pub struct Event {
     pub what: Happening,
     /// Index of the body that friction starts or stops holding: side gears, then planet groups, then wheels. It is 0
     /// for teeth.
-    pub place: u8,
+    pub body: u8,
     /// Time [s].
     pub time: f64,
     /// Number of the event since the start, from 1; 0 before the first event.
@@ -49,7 +49,7 @@ pub struct Events {
 }
 
 finite! {
-    Event { time; what, place, count }
+    Event { time; what, body, count }
     Events { recent }
 }
 
@@ -65,14 +65,14 @@ pub struct AdvanceOptions {
 impl Event {
     /// Number of the side (1 left, 2 right) or of the planet group to which the event belongs; 0 for teeth.
     pub fn number(&self) -> i32 {
-        let place = usize::from(self.place);
+        let body = usize::from(self.body);
         let first = match self.what {
             Happening::Nothing | Happening::ToothBreaks => return 0,
-            _ if place >= FRICTION_WHEELS => FRICTION_WHEELS,
-            _ if place >= FRICTION_PLANETS => FRICTION_PLANETS,
+            _ if body >= FRICTION_WHEELS => FRICTION_WHEELS,
+            _ if body >= FRICTION_PLANETS => FRICTION_PLANETS,
             _ => 0,
         };
-        (place - first) as i32 + 1
+        (body - first) as i32 + 1
     }
 }
 
@@ -95,8 +95,8 @@ impl Events {
     }
 
     /// Records an event at `time` [s].
-    pub fn record(&mut self, what: Happening, place: usize, time: f64) {
-        let event = Event { what, place: place as u8, time, count: self.count().wrapping_add(1) };
+    pub fn record(&mut self, what: Happening, body: usize, time: f64) {
+        let event = Event { what, body: body as u8, time, count: self.count().wrapping_add(1) };
         self.recent.rotate_right(1);
         self.recent[0] = event;
     }
@@ -173,12 +173,12 @@ mod tests {
             (left, slides, free, Happening::Nothing),
             (0, held, FrictionState { stiffness: 2e5, ..held }, Happening::Nothing),
         ];
-        for (place, from, to, what) in changes {
+        for (body, from, to, what) in changes {
             let (mut before, mut after, mut events) = ([slides; FRICTION_BODIES], [slides; _], Events::default());
-            (before[place], after[place]) = (from, to);
+            (before[body], after[body]) = (from, to);
             let is_event = what != Happening::Nothing;
-            assert_eq!(events.record_friction([&before, &after], 0.5), is_event, "{place}: {from:?} to {to:?}");
-            let expected = Event { what, place: place as u8, time: 0.5, count: 1 };
+            assert_eq!(events.record_friction([&before, &after], 0.5), is_event, "{body}: {from:?} to {to:?}");
+            let expected = Event { what, body: body as u8, time: 0.5, count: 1 };
             assert_eq!(*events.last(), if is_event { expected } else { Event::default() });
         }
     }

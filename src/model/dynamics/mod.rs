@@ -6,12 +6,13 @@
 //!   `dry_friction`: friction under these loads;
 //! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
 //! - `motion`: interface of the equations to an integrator;
-//! - `ideal`: equations without teeth; `ideal_course`: motion of ideal gears without effects, in closed form;
+//! - `ideal`: equations without teeth; `closed_form`: motion of ideal gears without effects, in closed form;
 //! - `ledger_rates`, `energy_floor`: powers that are computed with the forces, and the energy that a step does not
 //!   resolve;
 //! - `state`, `acting_inputs`, `timeline`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
 pub mod acting_inputs;
+mod closed_form;
 mod driven;
 #[cfg(test)]
 #[path = "tests/driven.rs"]
@@ -24,7 +25,6 @@ mod energy_floor_tests;
 pub mod equations;
 pub mod event;
 pub mod ideal;
-mod ideal_course;
 #[cfg(test)]
 #[path = "tests/ideal.rs"]
 mod ideal_tests;

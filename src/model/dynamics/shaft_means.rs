@@ -53,8 +53,8 @@ impl CycleCounter {
         0.5 * (left - right) / self.pitch
     }
 
-    /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s]. The side gears turned by `turned` [rad] relative to
-    /// the carrier. If a cycle begins within the step, `curves` divides the step there.
+    /// Adds the impulses `torque` [N·m·s] of a step of size `h` [s]. The side gears turned by `turned` [rad] relative
+    /// to the carrier. If a cycle begins within the step, `curves` divides the step there.
     #[inline]
     pub fn add(
         &self,
@@ -79,8 +79,8 @@ impl CycleCounter {
 }
 
 impl TorqueMeans {
-    /// Adds a step of size `h` [s] at whose end `cycles` have been rolled since the mesh cycle began. A step may contain
-    /// any number of whole cycles; only the last one gives means.
+    /// Adds a step of size `h` [s] at whose end `cycles` have been rolled since the mesh cycle began. A step may
+    /// contain any number of whole cycles; only the last one gives means.
     #[inline(never)]
     fn divide(&mut self, cycles: f64, h: f64, StepCurves { rolling, torque }: &StepCurves) {
         let begin = rolling.at(0.0) - self.cycles;
@@ -125,11 +125,11 @@ impl TorqueMeans {
 mod tests {
     use super::*;
 
-    /// Rolls through the positions `places`, in cycles, with steps of 0.1 s. Torques are `torque` at the middle of each
-    /// step.
-    fn rolled(places: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> TorqueMeans {
+    /// Rolls through the positions `positions`, in cycles, with steps of 0.1 s. Torques are `torque` at the middle of
+    /// each step.
+    fn rolled(positions: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> TorqueMeans {
         let (cycle, mut means) = (CycleCounter { pitch: 2.0 }, TorqueMeans::default());
-        for pair in places.windows(2) {
+        for pair in positions.windows(2) {
             let by = 2.0 * (pair[1] - pair[0]);
             let torque = torque(0.5 * (pair[0] + pair[1]));
             cycle.add(&mut means, [by, -by], (0.1, torque.map(|t| 0.1 * t)), || StepCurves {
@@ -143,8 +143,8 @@ mod tests {
     #[test]
     fn a_whole_cycle_in_either_direction_from_any_position_gives_its_means() {
         for (sign, begin) in [(1.0, 0.0), (-1.0, 0.0), (1.0, 0.37), (-1.0, 0.37)] {
-            let places: Vec<f64> = (0..30).map(|i| sign * (begin + 0.1 * f64::from(i))).collect();
-            let ([left, right], took) = rolled(&places, |_| [7.0, 3.0]).last.unwrap();
+            let positions: Vec<f64> = (0..30).map(|i| sign * (begin + 0.1 * f64::from(i))).collect();
+            let ([left, right], took) = rolled(&positions, |_| [7.0, 3.0]).last.unwrap();
             assert!((left - 7.0).abs() < 1e-12 && (right - 3.0).abs() < 1e-12 && (took - 1.0).abs() < 1e-12);
         }
     }
@@ -153,10 +153,10 @@ mod tests {
     fn rolling_backward_is_counted_like_rolling_forward() {
         // uneven steps, a ripple that the means depend on, and a return past the beginning
         let steps = (0..80).map(|i| if i < 9 { -0.03 } else { 0.04 + 0.01 * f64::from(i % 7) });
-        let places: Vec<f64> = steps.scan(0.0, |at, by| Some(std::mem::replace(at, *at + by))).collect();
-        let mirrored: Vec<f64> = places.iter().map(|x| -x).collect();
+        let positions: Vec<f64> = steps.scan(0.0, |at, by| Some(std::mem::replace(at, *at + by))).collect();
+        let mirrored: Vec<f64> = positions.iter().map(|x| -x).collect();
         let ripple = |x: f64| [5.0 + (7.0 * x).sin(), 4.0 + (5.0 * x).cos()];
-        let (forward, backward) = (rolled(&places, ripple), rolled(&mirrored, |x| ripple(-x)));
+        let (forward, backward) = (rolled(&positions, ripple), rolled(&mirrored, |x| ripple(-x)));
         assert!(forward.last.is_some());
         assert_eq!(backward, TorqueMeans { cycles: -forward.cycles, ..forward });
     }
@@ -214,18 +214,18 @@ mod tests {
 
     #[test]
     fn an_oscillation_about_a_cycle_boundary_counts_no_cycle() {
-        let places: Vec<f64> = (0..30).map(|i| if i % 2 == 0 { 1e-9 } else { -1e-9 }).collect();
-        assert_eq!(rolled(&places, |_| [7.0, 3.0]).last, None);
+        let positions: Vec<f64> = (0..30).map(|i| if i % 2 == 0 { 1e-9 } else { -1e-9 }).collect();
+        assert_eq!(rolled(&positions, |_| [7.0, 3.0]).last, None);
         // rolling forward and back to the start counts no cycle either
         assert_eq!(rolled(&[-0.1, 0.1, 0.5, 0.8, 0.5, 0.1, -0.1], |_| [7.0, 3.0]).last, None);
     }
 
     #[test]
     fn means_are_kept_until_rolling_has_nearly_stopped() {
-        let mut places = vec![0.0, 0.5, 1.0, 1.5, 2.0, 2.1];
-        assert!(rolled(&places, |_| [7.0, 3.0]).mean().is_some());
+        let mut positions = vec![0.0, 0.5, 1.0, 1.5, 2.0, 2.1];
+        assert!(rolled(&positions, |_| [7.0, 3.0]).mean().is_some());
         // an oscillation about the end of the last cycle does not renew them
-        places.extend((0..5).map(|i| if i % 2 == 0 { 1.9 } else { 2.1 }));
-        assert_eq!(rolled(&places, |_| [7.0, 3.0]).mean(), None);
+        positions.extend((0..5).map(|i| if i % 2 == 0 { 1.9 } else { 2.1 }));
+        assert_eq!(rolled(&positions, |_| [7.0, 3.0]).mean(), None);
     }
 }

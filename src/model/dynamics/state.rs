@@ -200,7 +200,7 @@ impl State {
     pub fn is_valid(&self) -> bool {
         self.is_valid_without_pending_step()
             && self.pending_step.as_ref().is_none_or(PendingStep::is_valid)
-            && self.control.after_jump.is_valid()
+            && self.control.after_discontinuity.is_valid()
             && self.events.is_finite()
             && self.timeline.pause.is_finite()
             && self.inputs.is_finite()

@@ -159,8 +159,8 @@ impl Simulation {
         let size = self.natural_size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
         let mut displaced = Self { forces: None, ..self.clone() };
-        let read = STENCIL.map(|(place, _)| {
-            self.displace(&mut displaced, direction, place * apart);
+        let read = STENCIL.map(|(offset, _)| {
+            self.displace(&mut displaced, direction, offset * apart);
             read(&displaced)
         });
         StencilReadings { read, apart }
@@ -245,13 +245,13 @@ impl Simulation {
 
     /// Derivative of the speed of an imposed carrier if its angle changes by `angle` and its command by `command`.
     fn carrier_speed_slope(&self, angle: f64, command: f64) -> f64 {
-        let at = |place: f64| {
+        let at = |offset: f64| {
             let mut state = self.state;
-            state.q[CARRIER] += place * APART * angle;
-            let command = self.inputs.carrier_speed + place * APART * command;
+            state.q[CARRIER] += offset * APART * angle;
+            let command = self.inputs.carrier_speed + offset * APART * command;
             self.model.body_effects().carrier_speed(&state.q, command)
         };
         let here = at(0.0);
-        STENCIL.iter().map(|(place, weight)| weight * (at(*place) - here)).sum::<f64>() / APART
+        STENCIL.iter().map(|(offset, weight)| weight * (at(*offset) - here)).sum::<f64>() / APART
     }
 }

@@ -60,7 +60,7 @@ impl Simulation {
 
     /// Moves to `states` at an event. They must differ from the present states only in positions. The energy of this
     /// jump is work of the host. Fails if the step up to the event fails.
-    pub fn jump_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
+    pub fn displace_to_states(&mut self, states: &[f64; STATES]) -> Result<(), StepFailure> {
         self.complete_step_to_event()?;
         let stored = |simulation: &Self, from: &Accepted| {
             energy(&simulation.model, &simulation.inputs, &from.applied_to(&simulation.state))

@@ -12,7 +12,7 @@ use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
-use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, places_of};
+use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
 use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
 use crate::numeric::{sin, sqrt};
@@ -182,7 +182,7 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
     let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
     // without a computed flash temperature, flanks are as warm as their gears
-    let strength = &mut out.readings[const { places_of("strength", Changes::Always) }];
+    let strength = &mut out.readings[const { indices_of("strength", Changes::Always) }];
     strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
 }
 
@@ -191,8 +191,8 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
 #[inline(never)]
 fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl FrictionEquations<N>, at: &Point<N>) {
     each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
-        if let Some(place) = places_of(source.effect, Changes::Always).next() {
-            out.readings[place] = out.readings[place].max(pv);
+        if let Some(index) = indices_of(source.effect, Changes::Always).next() {
+            out.readings[index] = out.readings[index].max(pv);
         }
     });
 }
@@ -272,7 +272,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     }
     if let Some(strength) = &model.strength {
         let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        let readings = &mut out.readings[const { places_of("strength", Changes::Always) }];
+        let readings = &mut out.readings[const { indices_of("strength", Changes::Always) }];
         strength.read_stresses(meshes, readings);
         strength.read_flash(flash, &state.thermal.temperatures(), readings);
     }

@@ -58,7 +58,7 @@ struct Gathered {
     /// Sum of force × height [N·m].
     by_height: f64,
     /// Sum of force × position on the path [N·rad].
-    by_place: f64,
+    by_s: f64,
     /// Cone distance [m] and line load [N/m] of the sections.
     sections: [[f64; 2]; SECTIONS],
     /// Number of sections.
@@ -76,7 +76,7 @@ impl Gathered {
             teeth: load.teeth,
             force: 0.0,
             by_height: 0.0,
-            by_place: 0.0,
+            by_s: 0.0,
             sections: [[0.0; 2]; SECTIONS],
             count: 0,
             is_whole: load.share > WHOLE,
@@ -87,7 +87,7 @@ impl Gathered {
     fn add(&mut self, load: &ToothLoad, height: f64) {
         self.force += load.normal;
         self.by_height += load.normal * height;
-        self.by_place += load.normal * load.s;
+        self.by_s += load.normal * load.s;
         if self.count < SECTIONS {
             self.sections[self.count] = [load.cone, load.line_load];
             self.count += 1;
@@ -105,9 +105,9 @@ impl Gathered {
     }
 
     fn line(&self, contact: &LineContact, grows: bool) -> PairLine {
-        let (cones, place) = (cones(contact), self.by_place / self.force);
+        let (cones, s) = (cones(contact), self.by_s / self.force);
         let line_load = self.known.unwrap_or_else(|| cones.map(|cone| self.line_load(contact, cone, grows)));
-        let pressure = std::array::from_fn(|i| contact.pressure_at(line_load[i], cones[i], place).unwrap_or(0.0));
+        let pressure = std::array::from_fn(|i| contact.pressure_at(line_load[i], cones[i], s).unwrap_or(0.0));
         PairLine {
             tooth: self.teeth[0] as f64,
             force: if self.flank == Flank::Drive { self.force } else { -self.force },
@@ -140,9 +140,9 @@ fn height(pair: &Pair, mesh: &Mesh, load: &ToothLoad) -> f64 {
     let planet = &pair.gears[0];
     let polar = match (load.touch, load.spot) {
         (Some(touch), _) => touch.polar[0],
-        (None, Spot::Path) => planet.polar_at(pair.pitch_arc[0] + load.place),
+        (None, Spot::Path) => planet.polar_at(pair.pitch_arc[0] + load.spot_arc),
         (None, Spot::PlanetTip) => planet.tip,
-        (None, Spot::SideTip) => mesh.engagement.corner[1].exact(load.place).mate_polar,
+        (None, Spot::SideTip) => mesh.engagement.corner[1].exact(load.spot_arc).mate_polar,
     };
     pair.mean_cone * (polar - planet.pitch)
 }
@@ -166,10 +166,10 @@ pub fn pair_lines(
             return;
         }
         let is_it = |own: &Gathered| (own.flank, own.teeth) == (load.flank, load.teeth);
-        let place = gathered.iter_mut().find(|place| place.as_ref().is_none_or(is_it));
-        if let Some(place) = place {
+        let slot = gathered.iter_mut().find(|slot| slot.as_ref().is_none_or(is_it));
+        if let Some(slot) = slot {
             let known = || line_load.map(|line_load| cones(contact).map(line_load));
-            place.get_or_insert_with(|| Gathered::new(load, known())).add(load, height(pair, mesh, load));
+            slot.get_or_insert_with(|| Gathered::new(load, known())).add(load, height(pair, mesh, load));
         }
     });
     // the most loaded pairs are kept, and sorted by height below

@@ -10,21 +10,21 @@ use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
 use crate::model::scene::Inputs;
 
-/// Returns the jump of the accelerations [rad/s²] if `inputs` change only torques within the pending step. Returns
+/// Returns the change of the accelerations [rad/s²] if `inputs` change only torques within the pending step. Returns
 /// `None` if the integration must restart.
-pub fn jump_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64> {
+pub fn torque_change_within(model: &Model, inputs: &Inputs, state: &State) -> Option<f64> {
     if state.pending_step.is_none() || state.inputs.values == *inputs {
         return None;
     }
     let effects = model.body_effects();
     let must_restart =
         state.inputs.derivatives.is_some() || effects.may_have_dry_friction(state) || effects.scale_carrier_inputs();
-    if must_restart { None } else { jump_of_accelerations(model, &state.inputs.values, inputs) }
+    if must_restart { None } else { change_of_accelerations(model, &state.inputs.values, inputs) }
 }
 
-/// Jump of the accelerations if inputs change from `before` to `inputs` [rad/s²], or `None` if more than torques
+/// Change of the accelerations if inputs change from `before` to `inputs` [rad/s²], or `None` if more than torques
 /// change.
-fn jump_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
+fn change_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
     let [before, inputs] = [before, inputs].map(|inputs| effective_inputs(model, inputs));
     let with_torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..before };

@@ -9,11 +9,11 @@ use crate::model::effect_kinds::Changes;
 use crate::model::effects::coupling_advice::{Coupling, Cut, PORTS, PortStep, Shaft};
 use crate::model::scene::{CARRIER, Inputs};
 use crate::model::setup::STEP_READINGS;
-use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::effect_outputs::indices_of;
 use crate::numeric::quotient;
 
 /// Positions and their rates of all ports.
-type Places = [[f64; 2]; PORTS];
+type PortMotion = [[f64; 2]; PORTS];
 
 /// Value of `inputs` at each port: torques, or the speeds of sides driven by speed.
 fn given(inputs: &Inputs, side_imposed: [bool; 2]) -> [f64; PORTS] {
@@ -38,7 +38,7 @@ impl Simulation {
         let derivatives = self.state.inputs.derivatives.as_ref();
         let rates = derivatives.map(|derivatives| derivatives.rates.each_ref().map(|rates| given(rates, side_imposed)));
         if self.memories.coupling_advice.get().is_some_and(|coupling| coupling.last.is_none()) {
-            let last = Some((self.time(), self.places()));
+            let last = Some((self.time(), self.port_motion()));
             self.memories.coupling_advice.get_mut().into_iter().for_each(|coupling| coupling.last = last);
         }
         let begin = self.time();
@@ -66,7 +66,7 @@ impl Simulation {
     /// second `rates` of the inputs.
     #[inline]
     fn record(&self, coupling: &mut Coupling, before: [f64; PORTS], (begin, rates): (f64, Option<[[f64; PORTS]; 2]>)) {
-        let (time, end) = (self.time(), self.places());
+        let (time, end) = (self.time(), self.port_motion());
         let Some((last, start)) = coupling.last.replace((time, end)) else { return };
         let mut steps = before.map(|given| PortStep { given, mean: given, h: time - last, ..PortStep::default() });
         if let Some([first, second]) = rates {
@@ -103,8 +103,8 @@ impl Simulation {
         }
     }
 
-    /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears, and the
-    /// end of a half-shaft that twists moves alone.
+    /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears,
+    /// and the end of a half-shaft that twists moves alone.
     pub(in crate::model) fn cut_with_mobility(&self) -> Cut {
         let ideal = &self.model.ideal;
         let under = |inputs: &Inputs| {
@@ -141,7 +141,7 @@ impl Simulation {
     }
 
     /// Angle and speed of each port driven by torque; twist and torque of a half-shaft whose wheel is driven by speed.
-    fn places(&self) -> Places {
+    fn port_motion(&self) -> PortMotion {
         let (model, state) = (&self.model, &self.state);
         let (plan, layout) = (&model.ideal.plan, &model.layout);
         let position = |i: usize| state.position(i, &model.periods);
@@ -165,7 +165,7 @@ impl Simulation {
     /// Sets the readings of the effect in the ledger.
     pub(in crate::model) fn read_coupling(&self, readings: &mut [f64; STEP_READINGS]) {
         let Some(coupling) = self.memories.coupling_advice.get() else { return };
-        let readings = &mut readings[const { places_of("coupling_advice", Changes::ByStep) }];
+        let readings = &mut readings[const { indices_of("coupling_advice", Changes::ByStep) }];
         readings[..PORTS].copy_from_slice(&coupling.errors());
         let wanted = self.model.parameters.specs.coupling_advice.wanted_ratio;
         let (step, state) = coupling.advice(wanted, &self.cut_with_mobility());

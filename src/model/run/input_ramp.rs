@@ -11,7 +11,7 @@ use crate::model::scene::{InputDerivatives, Inputs};
 use crate::numeric::Finite;
 
 /// Mask of the inputs that jump: 1 for each of them.
-const JUMPING: Inputs = Inputs { lock: 1.0, fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
+const UNRAMPED: Inputs = Inputs { lock: 1.0, fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
 
 /// Inputs as set by the host.
 #[derive(Clone, Copy, Debug)]
@@ -38,8 +38,8 @@ impl Simulation {
     }
 
     /// Applies the inputs that do not ramp. The others keep the values and rates that they have reached.
-    pub fn apply_jumps(&mut self, host: &HostInputs) {
-        let at_once = JUMPING.plus(1.0, &host.follow);
+    pub fn apply_unramped(&mut self, host: &HostInputs) {
+        let at_once = UNRAMPED.plus(1.0, &host.follow);
         self.set_inputs(&self.inputs.pick(&host.values, &at_once));
         let reached = self.state.inputs.derivatives.unwrap_or(InputDerivatives::ZERO);
         self.set_rates(reached.pick(&host.derivatives, &host.follow));
@@ -47,7 +47,7 @@ impl Simulation {
 
     /// Prepares a step in which all inputs reach the host's values at the time `until` [s].
     pub fn ramp_inputs(&mut self, host: &HostInputs, until: f64) {
-        self.apply_jumps(host);
+        self.apply_unramped(host);
         self.note_ramps(&host.follow);
         let first = self.inputs.rates_to(&host.values, until - self.time());
         let lines = InputDerivatives { rates: [first, Inputs::ZERO] };

@@ -47,7 +47,7 @@ pub struct Integration<'a> {
     pub pauses: bool,
     /// Inputs that act.
     pub inputs: &'a Inputs,
-    /// Time on the clock [s] and jump of the accelerations [rad/s²], if only torques have changed within the pending
+    /// Time on the clock [s] and change of the accelerations [rad/s²], if only torques have changed within the pending
     /// step.
     pub change: Option<(f64, f64)>,
     /// Fatigue damage and mesh history, to which completed steps add; `None` if nothing reads them.
@@ -161,11 +161,11 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut trajectory);
         trajectory.end_at(clock.end);
-        if let Some((time, jump)) = change {
+        if let Some((time, acceleration_change)) = change {
             equations.applied_mut().change = inputs.torques_since(&state.inputs.values);
-            if !trajectory.change_at(time, jump) {
+            if !trajectory.change_at(time, acceleration_change) {
                 // no part of the pending step precedes the change
-                state.control.jump(Some(jump));
+                state.control.discontinuity(Some(acceleration_change));
             }
         }
     }

@@ -32,13 +32,13 @@ fn extend(budget: &mut u64, model: &Model, advanced: f64, remaining: f64) {
 
 /// Restarts the integration at the present, because inputs or something else have changed.
 pub fn restart(model: &Model, inputs: &Inputs, (state, memories): (&mut State, &mut Memories)) {
-    let is_jump = state.pending_step.is_some();
+    let is_discontinuous = state.pending_step.is_some();
     complete(model, (state, Some(memories)));
-    if is_jump {
-        state.control.jump(None);
+    if is_discontinuous {
+        state.control.discontinuity(None);
     }
     state.timeline.pause = None;
-    imposed::jump(model, inputs, state);
+    imposed::apply(model, inputs, state);
     apply_changes(model, inputs, state);
     state.timeline.begin_constant_inputs();
     state.inputs.values = *inputs;
@@ -74,13 +74,13 @@ pub fn complete(model: &Model, (state, memories): (&mut State, Option<&mut Memor
     wrap_and_constrain(model, state);
 }
 
-/// Integrates to `until` [s], or to the first event if `options.pauses`; the state then contains a pause. `jump` is the
-/// jump of the accelerations at the present [rad/s²] if only torques have changed within the pending step. Fails if a
-/// step fails; the time is then the last one that was reached.
+/// Integrates to `until` [s], or to the first event if `options.pauses`; the state then contains a pause.
+/// `acceleration_change` is the change of the accelerations at the present [rad/s²] if only torques have changed within
+/// the pending step. Fails if a step fails; the time is then the last one that was reached.
 pub fn integrate(
     model: &Model,
     (inputs, state, memories): (&mut Inputs, &mut State, &mut Memories),
-    (until, options, mut jump): (f64, AdvanceOptions, Option<f64>),
+    (until, options, mut acceleration_change): (f64, AdvanceOptions, Option<f64>),
 ) -> Result<(), StepFailure> {
     let mut budget = integration::budget(model);
     while state.time() < until {
@@ -89,7 +89,7 @@ pub fn integrate(
         let outcome = if state.inputs.derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
             step_to_stop(model, inputs, (state, memories), stop, &mut budget)
         } else {
-            step_past_stop(model, inputs, (state, memories), (stop, options, jump.take()), &mut budget)
+            step_past_stop(model, inputs, (state, memories), (stop, options, acceleration_change.take()), &mut budget)
         };
         advance_inputs(inputs, state, state.time() - begin);
         outcome?;
@@ -142,11 +142,12 @@ fn step_past_stop(
     model: &Model,
     inputs: &Inputs,
     (state, memories): (&mut State, &mut Memories),
-    (stop, options, jump): (Stop, AdvanceOptions, Option<f64>),
+    (stop, options, acceleration_change): (Stop, AdvanceOptions, Option<f64>),
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = clock(model, state);
-    let mut change = jump.map(|jump| (change::begin_interval(state, &mut clock), jump));
+    let mut change =
+        acceleration_change.map(|acceleration_change| (change::begin_interval(state, &mut clock), acceleration_change));
     let mut last = state.timeline.last_communication_point(&clock);
     let mut begin = last.time - last.clock;
     let mut target = if stop.is_change { clock.end } else { last.clock + (stop.time - last.time) };

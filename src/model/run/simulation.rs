@@ -41,8 +41,8 @@ enum Beginning {
     /// The inputs have not changed.
     None,
     /// Only torques have changed, which causes no event. The pending step is completed up to the change, and the
-    /// integration continues. The value is the jump of the accelerations [rad/s²].
-    Within(f64),
+    /// integration continues. The value is the change of the accelerations [rad/s²].
+    Torques(f64),
     /// The integration restarts without an event.
     Silent,
     /// The integration restarts with an event.
@@ -56,8 +56,8 @@ impl Simulation {
         Self::resume_with(parameters, inputs, (state, None), &Given::default())
     }
 
-    /// Simulation of `parameters` that continues from `state`, with the `memories`, or without earlier ones. `given` contains
-    /// optional data. Fails with all problems of the parameters, or if a memory belongs to another scene.
+    /// Simulation of `parameters` that continues from `state`, with the `memories`, or without earlier ones. `given`
+    /// contains optional data. Fails with all problems of the parameters, or if a memory belongs to another scene.
     pub fn resume_with(
         parameters: &Parameters,
         inputs: &Inputs,
@@ -114,7 +114,7 @@ impl Simulation {
             self.state.thermal = Thermal::uniform(parameters.oil.temperature);
         }
         // the next step restarts the integration under the new parameters
-        self.state.control.jump(None);
+        self.state.control.discontinuity(None);
         self.state.timeline.pause = None;
         self.memories.tuned();
         self.forces = None;
@@ -156,8 +156,8 @@ impl Simulation {
 
     fn begin_under_inputs(&mut self) -> Beginning {
         let Self { model, state, memories, inputs, .. } = self;
-        if let Some(jump) = change::jump_within(model, inputs, state) {
-            return Beginning::Within(jump);
+        if let Some(acceleration_change) = change::torque_change_within(model, inputs, state) {
+            return Beginning::Torques(acceleration_change);
         }
         let count = state.events.count();
         restart(model, inputs, (state, memories));
@@ -184,9 +184,10 @@ impl Simulation {
         let beginning = self.begin_step();
         let Self { model, state, memories, inputs, .. } = self;
         let model = &**model;
-        let jump = if let Beginning::Within(jump) = beginning { Some(jump) } else { None };
+        let acceleration_change =
+            if let Beginning::Torques(acceleration_change) = beginning { Some(acceleration_change) } else { None };
         // the pending step may already contain the requested time
-        let continues = state.pending_step.is_some() && jump.is_none();
+        let continues = state.pending_step.is_some() && acceleration_change.is_none();
         let change = if continues { next_change(model, state) } else { None };
         let is_before_change = change.is_none_or(|change| until + resolution(change) < change);
         if continues && is_before_change && state.move_within(until, options.is_part, model.layout.count()) {
@@ -202,8 +203,8 @@ impl Simulation {
             match &state.inputs.derivatives {
                 None => model.ideal.advance(state, inputs, h),
                 Some(derivatives) => {
-                    let course = model.ideal.course(inputs, derivatives);
-                    model.ideal.advance_along(state, &course, h);
+                    let motions = model.ideal.motion_by_order(inputs, derivatives);
+                    model.ideal.advance_along(state, &motions, h);
                 }
             }
             if !state.is_motion_finite() {
@@ -212,7 +213,7 @@ impl Simulation {
             }
             if state.inputs.derivatives.is_some() {
                 progress::advance_inputs(inputs, state, h);
-                // exact to the last bit, because the next step would treat any difference as a jump
+                // exact to the last bit, because the next step would treat any difference as a discontinuity
                 model.ideal.impose(state, inputs);
             }
             state.timeline.pause = None;
@@ -224,7 +225,7 @@ impl Simulation {
         }
         let before = (*inputs, *state);
         let checkpoint = memories.checkpoint();
-        let mut outcome = progress::integrate(model, (inputs, state, memories), (until, options, jump));
+        let mut outcome = progress::integrate(model, (inputs, state, memories), (until, options, acceleration_change));
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
             // the pending step cannot be completed: restart at the present, from where another step may succeed
             (*inputs, *state) = before;

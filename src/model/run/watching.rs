@@ -13,7 +13,7 @@ use crate::model::effects::mesh_history::{MOST_QUANTITIES, MeshHistory};
 use crate::model::effects::strength::{Fatigue, GearStrength, MeshLoad, RatedPlanet, RatedStep, Sample};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
-use crate::model::setup::effect_outputs::places_of;
+use crate::model::setup::effect_outputs::indices_of;
 use crate::model::setup::{Parameters, STEP_READINGS};
 
 /// Memories at the start of a run of `model` at `start` [s].
@@ -40,10 +40,10 @@ impl Simulation {
     /// Sets the readings of damage and mesh history.
     pub(in crate::model) fn read_damage_and_history(&self, readings: &mut [f64; STEP_READINGS]) {
         if let (Some(strength), Some(fatigue)) = (&self.model.strength, self.memories.strength.get()) {
-            strength.read_damage(fatigue, &mut readings[const { places_of("strength", Changes::ByStep) }]);
+            strength.read_damage(fatigue, &mut readings[const { indices_of("strength", Changes::ByStep) }]);
         }
         if let Some(history) = self.memories.mesh_history.get() {
-            history.read(&self.model.ideal.plan, &mut readings[const { places_of("mesh_history", Changes::ByStep) }]);
+            history.read(&self.model.ideal.plan, &mut readings[const { indices_of("mesh_history", Changes::ByStep) }]);
         }
     }
 }
@@ -144,8 +144,8 @@ fn rated_planets(equations: &Largest, model: &Model) -> ([RatedPlanet; MAX_PLANE
     (planets, plan.planets)
 }
 
-/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts. If only the ends of
-/// the step are known, quantities follow straight lines.
+/// Adds a completed step to the mesh history. Only the accepted fraction of its dense output counts. If only the ends
+/// of the step are known, quantities follow straight lines.
 pub fn add_to_history(equations: &Largest, model: &Model, step: &StepMotion, history: &mut MeshHistory) {
     let pitch = model.periods[LEFT];
     let curve = |of: &dyn Fn(&Point<MAX_SIZE>) -> f64| {

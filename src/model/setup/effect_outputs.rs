@@ -68,13 +68,13 @@ const fn is_same(a: &str, b: &str) -> bool {
 pub const ALL_HEATS: [Heat; HEATS] = {
     let contact =
         Heat { output: "heat.contact", description: "Heat of contact damping since the start", at_wheels: false };
-    let (mut heats, mut place, mut i) = ([contact; HEATS], CONTACT_HEAT, 0);
+    let (mut heats, mut index, mut i) = ([contact; HEATS], CONTACT_HEAT, 0);
     while i < EFFECTS.len() {
         if is_first(i)
             && let Some(heat) = EFFECTS[i].heat
         {
-            place += 1;
-            heats[place] = heat;
+            index += 1;
+            heats[index] = heat;
         }
         i += 1;
     }
@@ -93,7 +93,7 @@ pub fn readings() -> impl Iterator<Item = &'static Reading> {
 }
 
 /// Indices of the readings of the effect `name` among all readings with the same `changes`.
-pub const fn places_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
+pub const fn indices_of(name: &str, changes: Changes) -> std::ops::Range<usize> {
     let (mut before, mut i) = (0, 0);
     while i < EFFECTS.len() {
         let count = counted_of(i, matches!(changes, Changes::ByStep));

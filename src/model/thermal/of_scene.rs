@@ -5,12 +5,12 @@ use super::{CASE, CLUTCH, GEARS, NODES, Thermal, WASHERS};
 use crate::geometry::solid::mass::GearMass;
 use crate::model::effect_kinds::{BUILT, Changes};
 use crate::model::scene::{Inputs, Start};
-use crate::model::setup::effect_outputs::{ALL_HEATS, places_of};
+use crate::model::setup::effect_outputs::{ALL_HEATS, indices_of};
 use crate::model::setup::{HEATS, Parameters};
 use crate::problem::Problem;
 
-/// Places of the temperatures and of the heat stored and given off, among the readings of a step.
-const READINGS: std::ops::Range<usize> = places_of("warm_up", Changes::ByStep);
+/// Indices of the temperatures and of the heat stored and given off, among the readings of a step.
+const READINGS: std::ops::Range<usize> = indices_of("warm_up", Changes::ByStep);
 
 /// Network of a scene whose planet and side gear have the given `masses`; `None` if temperatures are constant.
 pub fn network(p: &Parameters, masses: &[GearMass; 2]) -> Option<Box<Network<HEATS>>> {

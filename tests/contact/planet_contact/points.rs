@@ -174,7 +174,7 @@ impl Planet {
             let is_full = arc * self.cone() * PER_FULL_DEPTH >= 1.0;
             pattern.points.push((name, load.spot, cone, ends, [load.normal <= 0.0, is_full]));
             // the table of a corner's gap has ever shorter cells toward the end of the path
-            let past_end = if load.spot == Spot::Path { f64::INFINITY } else { load.place };
+            let past_end = if load.spot == Spot::Path { f64::INFINITY } else { load.spot_arc };
             pattern.nearest[load.side] = pattern.nearest[load.side].min(past_end);
             match pairs.iter_mut().find(|(pair, _)| *pair == name) {
                 Some((_, deepest)) => *deepest = deepest.max(arc),

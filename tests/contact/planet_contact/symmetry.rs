@@ -160,12 +160,12 @@ fn components_of_a_normal_force_match_the_normal_in_space() {
         let side_axis = Vector3::new(shaft_angle.sin(), 0.0, shaft_angle.cos());
         planet.loaded(at, |point, _| {
             // the first cell of a corner's table of gaps has slopes accurate to 2e-8
-            if point.spot != Spot::Path && point.place < 1e-6 {
+            if point.spot != Spot::Path && point.spot_arc < 1e-6 {
                 return;
             }
             spots[point.spot as usize] += 1;
             // the normal from the planet into the side gear; its reaction pushes the planet back
-            let normal = action.contact(point.spot, point.place, 1.0).normal;
+            let normal = action.contact(point.spot, point.spot_arc, 1.0).normal;
             let [planet, side] = [-normal.z, normal.dot(&side_axis)];
             // the remaining component is along the rotation, in which drive flanks push the side gear
             let left = (1.0 - planet * planet - side * side).sqrt();

@@ -28,8 +28,8 @@ impl UnitForce {
         let turn = load.turn();
         match load.spot {
             Spot::Path => Self::on_path(pair, load.s, turn),
-            Spot::PlanetTip => Self::at_corner(pair, 0, load.place, turn),
-            Spot::SideTip => Self::at_corner(pair, 1, load.place, turn),
+            Spot::PlanetTip => Self::at_corner(pair, 0, load.spot_arc, turn),
+            Spot::SideTip => Self::at_corner(pair, 1, load.spot_arc, turn),
         }
     }
 

@@ -48,14 +48,14 @@ def ramps(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     rows = [(*point, left, right, right - left, *ratio_of(left, right)) for point, (left, right, *_) in zip(points, found)]
     largest, (coast, drive) = torques[-1], ({row[0]: row[4] for row in rows if row[1] == torque} for torque in (torques[0], torques[-1]))
     shifted = words.listed(f"{of_torque.text(round(shift, 3), 3)} ({ramp(ratio)})" for ratio, shift in coast.items())
-    says = (f"at {of_torque.text(largest)} in drive, the slower wheel has {of_torque.text(max(drive.values()), 3)} more than the faster "
+    conclusion = (f"at {of_torque.text(largest)} in drive, the slower wheel has {of_torque.text(max(drive.values()), 3)} more than the faster "
             f"wheel with each ramp; in coast, this difference is {shifted}")
     if scene.value("limited_slip.preload") > 0.0:
-        says += (". At small torque only the preload remains, so the ratio of the torques grows there; it has no value where they oppose "
+        conclusion += (". At small torque only the preload remains, so the ratio of the torques grows there; it has no value where they oppose "
                  "each other")
-    write(out.with_suffix(".csv"), RAMP_HEAD, [["" if cell is None else cell for cell in row] for row in rows], says)
-    _draw_ramps(scene, out, rows, of_torque, says)
-    return says
+    write(out.with_suffix(".csv"), RAMP_HEAD, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
+    _draw_ramps(scene, out, rows, of_torque, conclusion)
+    return conclusion
 
 
 def ramp(ratio: float) -> str:
@@ -76,10 +76,10 @@ def clutch_curve(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     found = means(scene, [inputs((torque, SPEED, 2.0 * slip, temperature)) | curve.values for curve, slip in points], farm)
     rows = [(curve.name, slip, 0.5 * (right - left if slip else most - least))
             for (curve, slip), (left, right, _, least, most) in zip(points, found)]
-    says = _conclusion(rows, given, of_torque, of_slip)
-    write(out.with_suffix(".csv"), CURVE_HEAD, rows, says)
-    _draw_curves(scene, out, rows, given, of_torque, of_slip, says)
-    return says
+    conclusion = _conclusion(rows, given, of_torque, of_slip)
+    write(out.with_suffix(".csv"), CURVE_HEAD, rows, conclusion)
+    _draw_curves(scene, out, rows, given, of_torque, of_slip, conclusion)
+    return conclusion
 
 
 @dataclass(frozen=True)
@@ -131,22 +131,22 @@ def _slips(scene, given):
 
 
 def _conclusion(rows, given, of_torque, of_slip):
-    says = []
+    conclusion = []
     for curve in given:
         torques = {slip: torque for name, slip, torque in rows if name == curve.name}
         (first, least), *_, (last, most) = torques.items()
         ends = f"from {of_torque.text(least, 3)} at {of_slip.text(first, 3)} to {of_torque.text(most, 3)} at {of_slip.text(last, 3)}"
         if curve.holds:
-            says.append(f"with a point at slip 0, the pack breaks loose at {of_torque.text(least, 3)}")
+            conclusion.append(f"with a point at slip 0, the pack breaks loose at {of_torque.text(least, 3)}")
         elif curve.points:
             error = max(RESOLVED, *(abs(torques[slip] - torque) for slip, torque in curve.points))
-            says.append(f"the measured curve passes its points within {of_torque.text(error, 1)}, {ends}")
+            conclusion.append(f"the measured curve passes its points within {of_torque.text(error, 1)}, {ends}")
         else:
-            says.append(f"viscous torque grows {ends}")
-    return f"{'; '.join(says)}. Only a pack with a breakaway torque has torque without slip"
+            conclusion.append(f"viscous torque grows {ends}")
+    return f"{'; '.join(conclusion)}. Only a pack with a breakaway torque has torque without slip"
 
 
-def _draw_ramps(scene, out, rows, of_torque, says):
+def _draw_ramps(scene, out, rows, of_torque, conclusion):
     from .. import style
 
     with style.styled():
@@ -165,11 +165,11 @@ def _draw_ramps(scene, out, rows, of_torque, says):
         ratios.set_ylim(bottom=1.0)
         differences.legend(loc="upper center", frameon=True, framealpha=1.0, edgecolor="white")
         figure.suptitle(f"{scene.name}, differentiating", fontweight="bold", fontsize=12.5)
-        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
         style.save(figure, out.with_suffix(".png"))
 
 
-def _draw_curves(scene, out, rows, given, of_torque, of_slip, says):
+def _draw_curves(scene, out, rows, given, of_torque, of_slip, conclusion):
     from .. import style
 
     with style.styled():
@@ -188,7 +188,7 @@ def _draw_curves(scene, out, rows, given, of_torque, of_slip, says):
         panel.set_xlim(left=0.0)
         panel.set_ylim(bottom=0.0)
         panel.legend()
-        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
         style.save(figure, out.with_suffix(".png"))
 
 

@@ -35,7 +35,7 @@ def run(arguments: argparse.Namespace) -> int:
     for name in arguments.test or TESTS:
         scene = Path(arguments.scene or scene_file(name))
         with in_folder(arguments.out) as folder:
-            says = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
+            conclusion = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
             write_whole(folder / scene.name, scene.read_bytes())
-        print(f"{name}: {says} ({Path(arguments.out) / name}.png, .csv)")
+        print(f"{name}: {conclusion} ({Path(arguments.out) / name}.png, .csv)")
     return DONE

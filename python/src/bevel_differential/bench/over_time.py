@@ -31,14 +31,14 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     loud = np.flatnonzero(swings[0] > QUIET)
     slip = (left - right)[loud[-1] + count - 1] if len(loud) else 0.0
     last = "the end of the run-up, " if len(loud) and loud[-1] + count >= len(time) else ""
-    says = (f"friction that falls with speed lets the side gear swing by up to {slips.text(swings[0].max(), 3)}, and it judders up to "
+    conclusion = (f"friction that falls with speed lets the side gear swing by up to {slips.text(swings[0].max(), 3)}, and it judders up to "
             f"{last}a slip of {slips.text(slip, 3)} between the wheels; friction that rises keeps it below "
             f"{slips.text(swings[1][count:].max(), 2)} after the start")
-    _written(scene, falling, out, says, [
+    _written(scene, falling, out, conclusion, [
         (f"side gear − wheel, {slips.unit}", {"falling friction": (time, slips.values(falling["left.speed"] - left)),
                                               "rising friction": (time, slips.values(rising["left.speed"] - left))}),
         (f"difference of wheels, {slips.unit}", {"run-up": (time, slips.values(left - right))})])
-    return says
+    return conclusion
 
 
 def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
@@ -49,11 +49,11 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     effect = np.array([np.nan if held or ratio_of(*torques)[1] is None else ratio_of(*torques)[1]
                        for held, *torques in zip(record["held.sides"] > 0, left.tolist(), right.tolist())])
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
-    says = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
+    conclusion = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
             f"up to {warmth.text(record['temperature.clutch'].max(), 3)}: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
-    _written(scene, record, out, says, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("clutch", "oil", "case"))),
+    _written(scene, record, out, conclusion, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("clutch", "oil", "case"))),
                                 ("locking effect, %", {"LE": (time, effect)})])
-    return says
+    return conclusion
 
 
 def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
@@ -61,12 +61,12 @@ def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     record, (*_, warmth) = scene.run(), axes(scene)
     time, loss = record["time"], record["power.loss"]
     half = time[np.argmax(loss < 0.5 * (loss[0] + loss[-1]))]
-    says = (f"the loss is {loss[0]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
+    conclusion = (f"the loss is {loss[0]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
             f"{half:.0f} s, in which the oil warms up from {warmth.text(record['temperature.oil'][0], 3)} to "
             f"{warmth.text(float(np.interp(half, time, record['temperature.oil'])), 3)}")
-    _written(scene, record, out, says, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("oil", "gears", "case"))),
+    _written(scene, record, out, conclusion, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("oil", "gears", "case"))),
                                 ("power loss, W", {"loss": (time, loss)})])
-    return says
+    return conclusion
 
 
 def _ratio(effect):
@@ -77,7 +77,7 @@ def _temperatures(warmth, record, nodes):
     return {node: (record["time"], warmth.values(record[f"temperature.{node}"])) for node in nodes}
 
 
-def _written(scene: Scene, record: np.ndarray, out: Path, says: str,
+def _written(scene: Scene, record: np.ndarray, out: Path, conclusion: str,
              panels: Sequence[tuple[str, Mapping[str, tuple[np.ndarray, np.ndarray]]]]) -> None:
     from .. import style
 
@@ -92,5 +92,5 @@ def _written(scene: Scene, record: np.ndarray, out: Path, says: str,
             panel.legend()
         axes[0].set_title(scene.name)
         axes[-1].set_xlabel("time, s")
-        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
         style.save(figure, out.with_suffix(".png"))

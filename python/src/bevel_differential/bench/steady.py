@@ -29,10 +29,10 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     torques, (of_torque, *_) = SHARES * largest_torque(scene), axes(scene)
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
-    says = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
+    conclusion = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
             f"{of_torque.text(torques[-1])}: preload determines it at small torque, friction that grows with the torque at large torque. "
             "Left and right agree where solid and dashed lines meet")
-    return _written(scene, out, rows, says, "differentiating", 5)
+    return _written(scene, out, rows, conclusion, "differentiating", 5)
 
 
 def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
@@ -50,11 +50,11 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
         slipping = found[torque, speed, DIFFERENCE, temperature]
         over.append((total - 2.0 * figures[3]) / (slipping[1] - slipping[0]))
     held = [row[6] for row in rows if row[0] == torques[-1] and row[6] is not None]
-    says = (f"it holds up to {f'an LE of {min(held):.0f} to {max(held):.0f} %' if held else 'torques that oppose each other'} at "
+    conclusion = (f"it holds up to {f'an LE of {min(held):.0f} to {max(held):.0f} %' if held else 'torques that oppose each other'} at "
             f"{of_torque.text(torques[-1])}; breakaway needs {min(over):.2f} to "
             f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}. This is not a TBR, because "
             "nothing differentiates")
-    return _written(scene, out, rows, says, "breaking loose", 6)
+    return _written(scene, out, rows, conclusion, "breaking loose", 6)
 
 
 def largest_torque(scene: Scene) -> float:
@@ -88,11 +88,11 @@ def _range(rows, torque):
     return f"{text} or none" if known and len(known) < len(ratios) else text
 
 
-def _written(scene, out, rows, says, doing, column):
+def _written(scene, out, rows, conclusion, doing, column):
     from .. import style
 
     of_torque, _, _, warmth = axes(scene)
-    write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], says)
+    write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
     with style.styled():
         figure, panel = style.panels(1, 1, 5.6)
         for temperature, colour in zip(TEMPERATURES, style.CYCLE):
@@ -104,6 +104,6 @@ def _written(scene, out, rows, says, doing, column):
         panel.set(xlabel=of_torque.label, ylabel=("torque bias ratio T_high/T_low", "locking effect, %")[column - 5],
                  title=f"{scene.name}, {doing}")
         panel.legend()
-        style.caption(figure, f"{says[0].upper()}{says[1:]}.")
+        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
         style.save(figure, out.with_suffix(".png"))
-    return says
+    return conclusion

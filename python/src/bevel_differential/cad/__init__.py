@@ -51,16 +51,16 @@ def drawing(shape: dict[str, Any], part: str) -> bytes:
 def write(found: dict[str, Any], folder: FileName, kinds: Collection[str] = (), parts: Collection[str] = PARTS) -> list[str]:
     """Writes the files of an answer about gears, and files of `kinds` for `parts`. All are created before the first is written.
     Returns their names."""
-    made = {name: content.encode() for name, content in found["files"].items()}
+    files = {name: content.encode() for name, content in found["files"].items()}
     solids: dict[str, Any] = {}
     for part, kind in product(parts, kinds):
         if kind == "step":
-            made[f"{part}.step"] = step(found["shape"], part, solids)
+            files[f"{part}.step"] = step(found["shape"], part, solids)
         elif kind in MESHES:
-            made[f"{part}.{kind}"] = mesh(found["shape"], part, kind)
+            files[f"{part}.{kind}"] = mesh(found["shape"], part, kind)
         elif part in GEARS:
-            made[f"{part}.dxf"] = drawing(found["shape"], part)
+            files[f"{part}.dxf"] = drawing(found["shape"], part)
     with in_folder(folder) as stage:
-        for name, content in made.items():
+        for name, content in files.items():
             write_whole(stage / name, content)
-    return list(made)
+    return list(files)

@@ -83,17 +83,17 @@ def _section(space, gear, toe, heel):
               (heel * math.sin(root), at(heel, root), at(heel, root, -1.0)),
               (bore, (right, bore), (right, -bore))]
     dimensions = []
-    for place, (radius, one, other) in enumerate(sorted(across), 1):
+    for index, (radius, one, other) in enumerate(sorted(across), 1):
         if radius:
-            dimensions.append(space.add_linear_dim((right + APART * place, 0.0), other, one, angle=90, text="%%c<>",
+            dimensions.append(space.add_linear_dim((right + APART * index, 0.0), other, one, angle=90, text="%%c<>",
                                                    **_style()))
     along = [at(toe, tip), at(toe, root), at(heel, tip), at(heel, root)]
-    for place, point in enumerate(sorted(along, key=lambda point: point[0]), 1):
-        dimensions.append(space.add_linear_dim((left, -top - APART * place), apex, (point[0], -point[1]), **_style()))
-    for start, place in ((at(toe, tip), 1), (apex, 2)):
-        dimensions.append(space.add_aligned_dim(start, at(heel, tip), distance=APART * place, **_style()))
-    for place, polar in enumerate(sorted((root, pitch, tip)), 1):
-        reach = toe * (0.15 + 0.25 * place)
+    for index, point in enumerate(sorted(along, key=lambda point: point[0]), 1):
+        dimensions.append(space.add_linear_dim((left, -top - APART * index), apex, (point[0], -point[1]), **_style()))
+    for start, index in ((at(toe, tip), 1), (apex, 2)):
+        dimensions.append(space.add_aligned_dim(start, at(heel, tip), distance=APART * index, **_style()))
+    for index, polar in enumerate(sorted((root, pitch, tip)), 1):
+        reach = toe * (0.15 + 0.25 * index)
         dimensions.append(space.add_angular_dim_3p((left + reach * math.cos(polar / 2), reach * math.sin(polar / 2)), apex,
                                                    (right, 0.0), at(heel, polar), **_style()))
     for dimension in dimensions:

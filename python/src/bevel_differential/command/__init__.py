@@ -148,9 +148,9 @@ def _discard_output():
 def _run(name, arguments):
     if name not in COMMANDS:
         return _said(f"there is no command {name!r}{suggestion(name, COMMANDS)}; known: {', '.join(COMMANDS)}", WRONG)
-    place, extra, what = COMMANDS[name]
+    module_name, extra, what = COMMANDS[name]
     try:
-        module = importlib.import_module(place, PACKAGE)
+        module = importlib.import_module(module_name, PACKAGE)
         parser = Parser(prog=f"{NAME} {name}", description=what)
         module.add_arguments(parser)
         try:

@@ -32,12 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
 def page_file() -> Path:
     """Path of the page: in this package, or in the repository that contains it."""
     package = Path(str(importlib.resources.files(__package__.partition(".")[0])))
-    places = [package / "page" / FILE]
+    paths = [package / "page" / FILE]
     # in a checkout: src/bevel_differential, src, python, the repository
     if len(package.parents) > 2:
-        places.append(package.parents[2] / "target" / "page" / FILE)
-    for place in places:
-        if place.is_file():
-            return place.resolve()
+        paths.append(package.parents[2] / "target" / "page" / FILE)
+    for path in paths:
+        if path.is_file():
+            return path.resolve()
     raise DifferentialError("the page is not in this package. It is in wheels that are built where the page exists: in a checkout with "
                             "Rust, run `cargo run --release -- page`, then `cargo run --release -- wheel`", kind="failed")

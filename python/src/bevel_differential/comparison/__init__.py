@@ -73,12 +73,12 @@ class Comparison:
             unit, _ = self.shown(output)
             figures = {name: self._figures(output, name) for name in self.names}
             largest = max(float(np.max(np.abs(record[output].astype(float)))) for record in self.records.values())
-            for place, figure in enumerate(FIGURES):
-                values = {name: figures[name][place] for name in self.names}
+            for index, figure in enumerate(FIGURES):
+                values = {name: figures[name][index] for name in self.names}
                 differences = [part for name in others for part in self._difference(output, values[first], values[name], largest)]
                 shown = [float(self.fmu.variable(output).shown(value)[1]) for value in values.values()]
                 rows.append((output, unit, figure, *shown, *differences))
-        widths = (max(1, *(len(str(row[place])) for row in rows)) for place in range(3))
+        widths = (max(1, *(len(str(row[index])) for row in rows)) for index in range(3))
         fields = [(name, f"U{width}") for name, width in zip(("output", "unit", "figure"), widths)]
         fields += [(name, "f8") for name in self.names]
         fields += [(f"{name} - {first}{end}", "f8") for name in others for end in ("", ", %")]
@@ -189,14 +189,14 @@ def _names(scenes: Sequence[Scene], files: Sequence[Path | None]) -> list[str]:
     """Unique names of the scenes. Files with the same name get as many folders as needed; other scenes get a number."""
     paths = [None if file is None else file.resolve().with_suffix("").parts for file in files]
     names = [scene.name for scene in scenes]
-    for place, path in enumerate(paths):
-        alike = [other for k, other in enumerate(paths) if k != place and other is not None and scenes[k].name == scenes[place].name]
+    for index, path in enumerate(paths):
+        alike = [other for k, other in enumerate(paths) if k != index and other is not None and scenes[k].name == scenes[index].name]
         if path is None or not alike:
             continue
         if path in alike:
-            raise DifferentialError(f"{names[place]}: it is named twice; name different scenes", kind="use")
+            raise DifferentialError(f"{names[index]}: it is named twice; name different scenes", kind="use")
         depth = next(depth for depth in range(1, len(path) + 1) if all(path[-depth:] != other[-depth:] for other in alike))
-        names[place] = "/".join(path[-depth:])
+        names[index] = "/".join(path[-depth:])
     return [f"{name} ({names[:k].count(name) + 1})" if names.count(name) > 1 else name for k, name in enumerate(names)]
 
 

@@ -41,10 +41,10 @@ def draw(found: "Comparison", file: FileName | None) -> "Figure":
         # unused panels at the end
         for panel in panels[len(outputs):]:
             panel.remove()
-        for place in range(max(0, len(outputs) - columns), len(outputs)):
-            panels[place].tick_params(labelbottom=True)
-            if place >= columns * (rows - 1):
-                panels[place].set_xlabel(f"time, {unit}")
+        for index in range(max(0, len(outputs) - columns), len(outputs)):
+            panels[index].tick_params(labelbottom=True)
+            if index >= columns * (rows - 1):
+                panels[index].set_xlabel(f"time, {unit}")
         figure.align_ylabels(panels[:len(outputs)])
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(found.names))
         style.caption(figure, _caption(found), density=DENSITY)
@@ -56,10 +56,10 @@ def draw(found: "Comparison", file: FileName | None) -> "Figure":
 def _draw(panel, found, output, factor):
     unit, curves = found.shown(output)
     kind = found.fmu.variable(output).kind
-    for place, (name, values) in enumerate(curves.items()):
+    for index, (name, values) in enumerate(curves.items()):
         # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
-        panel.plot(factor * found.records[name]["time"], values, DASHES[place % len(DASHES)], label=name,
-                   linewidth=1.3 + 2.0 * (len(curves) - 1 - place) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
+        panel.plot(factor * found.records[name]["time"], values, DASHES[index % len(DASHES)], label=name,
+                   linewidth=1.3 + 2.0 * (len(curves) - 1 - index) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
     panel.set_title(output, loc="left", fontsize=style.SMALL)
     panel.set_ylabel(words.unit_text(unit))
     panel.ticklabel_format(axis="y", useOffset=False)
@@ -97,9 +97,9 @@ def _apart(found, output):
     for name in others:
         at = at_times(time, records[name]["time"], records[name][output].astype(float))
         away = np.abs(at - records[first][output].astype(float))
-        place = int(np.argmax(away))
-        if away[place] / size > best[0]:
-            shown = [float(at_times(time, records[each]["time"], curves[each])[place]) for each in (first, name)]
-            best = (float(away[place]) / size, f"at {words.moment(time[place], found.end)} it is "
+        index = int(np.argmax(away))
+        if away[index] / size > best[0]:
+            shown = [float(at_times(time, records[each]["time"], curves[each])[index]) for each in (first, name)]
+            best = (float(away[index]) / size, f"at {words.moment(time[index], found.end)} it is "
                     f"{words.quantity(shown[0], unit)} in {first} and {words.quantity(shown[1], unit)} in {name}")
     return best

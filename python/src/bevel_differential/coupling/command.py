@@ -36,29 +36,29 @@ def run(arguments: argparse.Namespace) -> int:
     hosts = [Host.parse(text) for text in arguments.host]
     with Scene.load(arguments.scene, arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
-        made = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)
+        result = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)
     for host in hosts:
         print(f"{host.port}: {host.words}")
-    print(f"longest stable step: {step(made.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")
-    if departure := made.departure:
+    print(f"longest stable step: {step(result.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")
+    if departure := result.departure:
         print(f"the teeth do not rest at this time: a disturbance grows by a factor e in {1.0 / departure:.3g} s, also without a cut; "
               "this growth is not counted (effects.thrust_friction and other friction stop it; --at names another time)")
-    if lost := made.mode():
-        twice = 2.0 * made.step
-        doubling = made.doubling(twice)
+    if lost := result.mode():
+        twice = 2.0 * result.step
+        doubling = result.doubling(twice)
         pace = f"; in steps of {step(twice)}, it doubles in {doubling:.3g} s" if math.isfinite(doubling) else ""
         print(f"beyond it grows: {lost.frequency:.3g} Hz at the port {lost.port}{pace}")
-    print(f"\nas the hosts see the ports in steps of {step(made.step)}:")
-    rows = [(port, f"{found.inertia:.4g}", f"{found.stiffness:.4g}") for port, found in made.apparent().items()]
+    print(f"\nas the hosts see the ports in steps of {step(result.step)}:")
+    rows = [(port, f"{found.inertia:.4g}", f"{found.stiffness:.4g}") for port, found in result.apparent().items()]
     print("\n".join(aligned([("port", "inertia, kg.m2", "stiffness, N.m/rad"), *rows], 1)))
-    limits = made.limits()
+    limits = result.limits()
     print("\nlongest stable step of each master:")
     masters = dict.fromkeys(master for master, _ in limits)
     print("\n".join(aligned([("master", *(f"inputs {name}" if name == "held" else "on lines" for name in INPUTS)),
                              *((master, *(step(limits[master, name]) for name in INPUTS)) for master in masters)], 1)))
     if arguments.plot:
-        print(f"\nwritten: {draw(made, arguments.plot)}")
-    return DONE if made.limit else FINDING
+        print(f"\nwritten: {draw(result, arguments.plot)}")
+    return DONE if result.limit else FINDING
 
 
 def step(limit: float) -> str:

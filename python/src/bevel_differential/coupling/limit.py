@@ -90,8 +90,8 @@ def _fastest(exchange, size):
     """Largest eigenvalue without those of rigid rotation, with its vector."""
     values, vectors = np.linalg.eig(exchange.matrix(size))
     counted = _counted(values, exchange)
-    place = counted[np.argmax(np.abs(values[counted]))]
-    return values[place], vectors[:, place]
+    index = counted[np.argmax(np.abs(values[counted]))]
+    return values[index], vectors[:, index]
 
 
 def _counted(values, exchange):

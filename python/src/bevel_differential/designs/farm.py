@@ -73,13 +73,13 @@ class Farm:
     def _passing_on(self, rows, order):
         """Yields the rows. Passes on the warnings of the first run in `order` that did not fail, and the first warning of each other
         variable with the number of its run, once for this farm."""
-        place, waiting, later = 0, {}, []
+        index, waiting, later = 0, {}, []
         with closing(rows):
             for row in rows:
                 if not self._warned:
                     waiting[row.run] = row.warnings
-                    while not self._warned and place < len(order) and order[place] in waiting:
-                        found, place = waiting[order[place]], place + 1
+                    while not self._warned and index < len(order) and order[index] in waiting:
+                        found, index = waiting[order[index]], index + 1
                         if found is not None:
                             self._warned = True
                             self._variables.update(map(_variable, found))

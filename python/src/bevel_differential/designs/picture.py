@@ -48,9 +48,9 @@ def draw(result: SweepResult, fmu: Fmu, file: FileName, objectives: Sequence["Ob
         if len(objectives) > 1:
             first, *others = objectives
             fronts = grid[1].subgridspec(1, min(len(others), MOST_FRONTS)).subplots(squeeze=False)[0]
-            for place, (panel, other) in enumerate(zip(fronts, others)):
+            for index, (panel, other) in enumerate(zip(fronts, others)):
                 designs.scatter(panel, str(first.want), str(other.want), best, style)
-                panel.set(xlabel=_aim(designs, first), ylabel=_aim(designs, other), title="" if place else "Pareto front")
+                panel.set(xlabel=_aim(designs, first), ylabel=_aim(designs, other), title="" if index else "Pareto front")
         handles, labels = panels[0][0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.0))
         style.caption(figure, _caption(designs, across, up, objectives, best), LEGEND)

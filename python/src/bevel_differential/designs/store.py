@@ -183,8 +183,8 @@ class Store:
             except pa.ArrowInvalid:
                 warn([f"{part}: it is incomplete; its runs are repeated"])
         table = pa.concat_tables(tables)
-        places = {run: place for place, run in enumerate(table["run"].to_pylist())}
-        return table.take(pa.array([places[run] for run in sorted(places)], pa.int64()))
+        indices = {run: index for index, run in enumerate(table["run"].to_pylist())}
+        return table.take(pa.array([indices[run] for run in sorted(indices)], pa.int64()))
 
     def _write(self, table, file):
         try:

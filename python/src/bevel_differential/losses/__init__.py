@@ -16,7 +16,7 @@ from ..scene import Scene
 from ..values import DifferentialError, FileName, Number
 from ..warned import silenced
 from ..writing import locked
-from .grid import Bound, estimates, places, refined, share_beyond, starting, torques_of
+from .grid import Bound, estimates, grid_points, refined, share_beyond, starting, torques_of
 from .loss_map import MAPPED, SIGNS, LossMap
 from .point import AXES, FIGURES, PointTask, benched
 
@@ -98,7 +98,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             opened.enter_context(going_on_later(store))
         runs = _Runs(task, store, opened.enter_context(Farm(**farm)))
         while True:
-            at = np.stack([places(lines) * [1.0, 1.0, sign, 1.0] for sign in SIGNS])
+            at = np.stack([grid_points(lines) * [1.0, 1.0, sign, 1.0] for sign in SIGNS])
             slipping = runs.at(at)
             figures = slipping[..., :MAPPED]
             errors = estimates(lines, torques_of(figures, at), bound.of_torques(figures, at))
@@ -108,7 +108,7 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             if finer is None:
                 break
             lines = finer
-        stuck = runs.at(places([*lines[:2], np.zeros(1), lines[3]]))
+        stuck = runs.at(grid_points([*lines[:2], np.zeros(1), lines[3]]))
         if len(lines[3]) < len(temperatures):
             lines = [*lines[:3], temperatures]
             slipping, stuck = (np.repeat(values, len(temperatures), axis=-2) for values in (slipping, stuck))

@@ -58,26 +58,26 @@ def run(arguments: argparse.Namespace) -> int:
     with Scene.load(arguments.scene, arguments.fmu, arguments.stop, arguments.unit, arguments.step) as scene:
         scene.set(once("--set", arguments.set))
         levels = {of.variable: of.levels() for of in _axes(scene, arguments)}
-        made = losses(scene, levels, within=arguments.within, bound=_bound(bound), unseen=unseen, seed=arguments.seed,
+        result = losses(scene, levels, within=arguments.within, bound=_bound(bound), unseen=unseen, seed=arguments.seed,
                       most=arguments.most, out=arguments.out, resume=arguments.resume, force=arguments.force, tell=print, progress=True,
                       **farm(arguments))
-    print(made.error)
+    print(result.error)
     if arguments.quick:
         print(f"quick: --bound {bound} --unseen {unseen}; a map has --bound {BOUND} --unseen {UNSEEN}")
-    if made.estimate > GOAL:
+    if result.estimate > GOAL:
         print(f"the map stops at --most {arguments.most} points in one direction: the estimated error is still above the bound")
-    if made.restless:
-        print(f"{made.restless} points do not settle: they have the means of their last cycles")
-    print(f"{made.new} runs in {made.seconds:.1f} s")
+    if result.restless:
+        print(f"{result.restless} points do not settle: they have the means of their last cycles")
+    print(f"{result.new} runs in {result.seconds:.1f} s")
     for file, write in ((arguments.csv, save), (arguments.simulink, save_for_simulink), (arguments.plot, draw),
                         (arguments.report, write_report)):
         if file:
-            print(f"written: {write(made, file)}")
-    if arguments.simulink and (why := lossless(made)):
+            print(f"written: {write(result, file)}")
+    if arguments.simulink and (why := lossless(result)):
         print(f"{arguments.simulink}: {why}")
-    if arguments.simulink and (why := left_out(made)):
+    if arguments.simulink and (why := left_out(result)):
         print(f"{arguments.simulink} has no tables of the coupling torque: {why}")
-    return FINDING if made.estimate > GOAL else DONE
+    return FINDING if result.estimate > GOAL else DONE
 
 
 def _axes(scene, arguments):

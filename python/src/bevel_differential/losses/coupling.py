@@ -14,7 +14,7 @@ Sources: https://mathworks.com/help/autoblks/ref/limitedslipdifferential.html; f
 import numpy as np
 
 from . import MeasuredMap
-from .grid import places, torques_of
+from .grid import grid_points, torques_of
 from .loss_map import DIFFERENCE, MAPPED, SIGNS
 
 SWITCH = "effects.limited_slip"
@@ -22,44 +22,44 @@ SWITCH = "effects.limited_slip"
 FEWEST = 2
 
 
-def left_out(made: MeasuredMap) -> str:
+def left_out(result: MeasuredMap) -> str:
     """Reason why there are no tables of the coupling torque; empty if there are."""
-    if made.scene.value(SWITCH):
+    if result.scene.value(SWITCH):
         return ""
     return f"{SWITCH} is off in the scene, so no clutch couples the axles"
 
 
-def middle(made: MeasuredMap) -> list[int]:
+def middle(result: MeasuredMap) -> list[int]:
     """Lines at which the tables are taken, by axis: the middle ones. Of the torques, it is the middle of those in drive, if there are any,
     because the middle of drive and coast is idling."""
-    found = [len(line) // 2 for line in made.lines]
-    in_drive = np.flatnonzero(made.lines[0] > 0.0)
+    found = [len(line) // 2 for line in result.lines]
+    in_drive = np.flatnonzero(result.lines[0] > 0.0)
     if len(in_drive):
         found[0] = int(in_drive[len(in_drive) // 2])
     return found
 
 
-def over_slip(made: MeasuredMap) -> tuple[np.ndarray, np.ndarray]:
+def over_slip(result: MeasuredMap) -> tuple[np.ndarray, np.ndarray]:
     """Slips dwT [rad/s], in both directions and 0, and coupling torques Tdw [N·m] at the middle of the other axes. Axle 1 is the left
     one. At slip 0, friction sticks, and the torque is that of the stuck differential, which moves straight ahead."""
-    torque, speed, _, warmth = middle(made)
-    still = _coupling(made, made.stuck, 0.0)[torque, speed, :, warmth]
-    ahead, behind = (_coupling(made, values, sign)[torque, speed, :, warmth] for values, sign in zip(made.slipping, SIGNS))
-    slips = 0.5 * made.lines[DIFFERENCE]
+    torque, speed, _, warmth = middle(result)
+    still = _coupling(result, result.stuck, 0.0)[torque, speed, :, warmth]
+    ahead, behind = (_coupling(result, values, sign)[torque, speed, :, warmth] for values, sign in zip(result.slipping, SIGNS))
+    slips = 0.5 * result.lines[DIFFERENCE]
     return np.concatenate([-slips[::-1], [0.0], slips]), np.concatenate([behind[::-1], still, ahead])
 
 
-def over_input(made: MeasuredMap) -> tuple[np.ndarray, np.ndarray]:
+def over_input(result: MeasuredMap) -> tuple[np.ndarray, np.ndarray]:
     """Torques Tin of the carrier [N·m], and magnitudes TTin of the coupling torque [N·m], which resists slip, at the middle of the other
     axes. TTin is the mean of both directions of slip."""
-    _, speed, slip, warmth = middle(made)
-    ahead, behind = (_coupling(made, values, sign)[:, speed, slip, warmth] for values, sign in zip(made.slipping, SIGNS))
-    return made.lines[0], 0.5 * (ahead - behind)
+    _, speed, slip, warmth = middle(result)
+    ahead, behind = (_coupling(result, values, sign)[:, speed, slip, warmth] for values, sign in zip(result.slipping, SIGNS))
+    return result.lines[0], 0.5 * (ahead - behind)
 
 
-def _coupling(made, values, sign):
+def _coupling(result, values, sign):
     """Right less left torque, shape (lines of each axis)."""
-    slips = sign * made.lines[DIFFERENCE] if sign else np.zeros(1)
-    lines = [slips if axis == DIFFERENCE else line for axis, line in enumerate(made.lines)]
+    slips = sign * result.lines[DIFFERENCE] if sign else np.zeros(1)
+    lines = [slips if axis == DIFFERENCE else line for axis, line in enumerate(result.lines)]
     # a difference of 0 has no sign in the file
-    return 0.0 - torques_of(values[..., :MAPPED], places(lines))[..., 0]
+    return 0.0 - torques_of(values[..., :MAPPED], grid_points(lines))[..., 0]

@@ -94,7 +94,7 @@ def starting(levels: Sequence[float]) -> np.ndarray:
     return lines
 
 
-def places(lines: Sequence[np.ndarray]) -> np.ndarray:
+def grid_points(lines: Sequence[np.ndarray]) -> np.ndarray:
     """Points at all crossings of the lines, shape (lines of each axis, axes)."""
     return np.stack(np.meshgrid(*lines, indexing="ij"), axis=-1)
 

@@ -10,7 +10,7 @@ from ..csv_table import lines_of
 from ..extras import require
 from ..output_file import is_parquet
 from ..values import DifferentialError, FileName
-from .grid import efficiency, figures_of, interpolated, places, torques_of
+from .grid import efficiency, figures_of, interpolated, grid_points, torques_of
 
 # number of figures of a slipping point in the map: torques left and right, loss
 MAPPED = 3
@@ -86,7 +86,7 @@ class LossMap:
         for lines, values, sign in sheets:
             here = np.sign(points[:, DIFFERENCE]) == sign
             if np.any(here):
-                grid = torques_of(values[..., :MAPPED], places(lines) * [1.0, 1.0, sign or 1.0, 1.0])
+                grid = torques_of(values[..., :MAPPED], grid_points(lines) * [1.0, 1.0, sign or 1.0, 1.0])
                 torques[here] = interpolated(lines, grid, unsigned[here])
         return figures_of(torques, points)
 
@@ -141,13 +141,13 @@ def _filled(file, lines, points, figures):
     """Figures at the positions of their points, shape (lines of each axis, figures)."""
     shape = tuple(map(len, lines))
     at = [np.minimum(np.searchsorted(line, points[:, axis]), len(line) - 1) for axis, line in enumerate(lines)]
-    on_lines = all(np.array_equal(line[place], points[:, axis]) for axis, (line, place) in enumerate(zip(lines, at)))
-    place = np.ravel_multi_index(at, shape)
-    if not on_lines or not np.array_equal(np.sort(place), np.arange(np.prod(shape))):
+    on_lines = all(np.array_equal(line[index], points[:, axis]) for axis, (line, index) in enumerate(zip(lines, at)))
+    index = np.ravel_multi_index(at, shape)
+    if not on_lines or not np.array_equal(np.sort(index), np.arange(np.prod(shape))):
         raise DifferentialError(f"{file}: it has {len(points)} rows for a grid of {' x '.join(map(str, shape))} points; rows of the map are "
                                 "missing, changed or doubled: write it again by `losses --csv`")
     found = np.empty((len(points), figures.shape[-1]))
-    found[place] = figures
+    found[index] = figures
     return found.reshape(*shape, -1)
 
 
@@ -177,15 +177,15 @@ def _need(file, names):
 
 def _columns(file, cells, lines, what):
     """Columns of the rows, with numbers converted. Rows that measured the error lack some figures, which become NaN."""
-    kept = [place for place, kind in enumerate(cells[KIND]) if kind in ("map", "stuck", UNSEEN)]
-    blank = {place for place in kept if cells[KIND][place] == UNSEEN}
-    found = {KIND: np.array([cells[KIND][place] for place in kept])}
+    kept = [index for index, kind in enumerate(cells[KIND]) if kind in ("map", "stuck", UNSEEN)]
+    blank = {index for index in kept if cells[KIND][index] == UNSEEN}
+    found = {KIND: np.array([cells[KIND][index] for index in kept])}
     for name in (*AXES, *FIGURES):
         try:
-            found[name] = np.array([_number(cells[name][place], place in blank) for place in kept], float)
+            found[name] = np.array([_number(cells[name][index], index in blank) for index in kept], float)
         except (TypeError, ValueError):
-            place = next(place for place in kept if not _is_number(cells[name][place]))
-            raise DifferentialError(f"{file}, {what} {lines[place]}, column {name}, value \"{cells[name][place]}\": it is a number") from None
+            index = next(index for index in kept if not _is_number(cells[name][index]))
+            raise DifferentialError(f"{file}, {what} {lines[index]}, column {name}, value \"{cells[name][index]}\": it is a number") from None
     if len(kept) == len(blank):
         raise DifferentialError(f"{file}: it has no rows of the kinds map and stuck; `losses --csv` writes them")
     return found

@@ -9,7 +9,7 @@ from ..records import write
 from ..values import FileName
 from ..writing import write_whole
 from . import MeasuredMap, coupling
-from .grid import efficiency, places, torques_of
+from .grid import efficiency, grid_points, torques_of
 from .loss_map import MAPPED, SIGNS
 
 MEANINGS = {
@@ -56,21 +56,21 @@ def bias(left: float, right: float) -> tuple[float | None, float | None]:
     return high / low, 100.0 * (high - low) / (high + low)
 
 
-def save(made: MeasuredMap, file: FileName) -> Path:
+def save(result: MeasuredMap, file: FileName) -> Path:
     """Writes points of the map, stuck points and unseen points. Ratio and effect of a stuck point are those at breakaway."""
-    return write(file, HEAD, _rows(made), made.error, made.scene.name, BETWEEN)
+    return write(file, HEAD, _rows(result), result.error, result.scene.name, BETWEEN)
 
 
-def _rows(made: MeasuredMap) -> Iterator[list[object]]:
-    at = places(made.lines)
-    for sign, values in zip(SIGNS, made.slipping):
+def _rows(result: MeasuredMap) -> Iterator[list[object]]:
+    at = grid_points(result.lines)
+    for sign, values in zip(SIGNS, result.slipping):
         for point, figures in zip((at * [1.0, 1.0, sign, 1.0]).reshape(-1, 4), values.reshape(-1, values.shape[-1])):
             yield _row("map", point, figures.tolist(), figures[:2])
-    still = places([*made.lines[:2], np.zeros(1), made.lines[3]])
-    for point, figures in zip(still.reshape(-1, 4), made.stuck.reshape(-1, made.stuck.shape[-1])):
+    still = grid_points([*result.lines[:2], np.zeros(1), result.lines[3]])
+    for point, figures in zip(still.reshape(-1, 4), result.stuck.reshape(-1, result.stuck.shape[-1])):
         left = figures[4]
         yield _row("stuck", point, figures.tolist(), (left, figures[0] + figures[1] - left))
-    for point, figures in zip(made.unseen, made.found):
+    for point, figures in zip(result.unseen, result.found):
         yield _row("unseen", point, [*figures.tolist(), "", ""], figures[:2])
 
 
@@ -78,53 +78,53 @@ def _row(kind, point, figures, torques):
     return [kind, *point.tolist(), *figures, *("" if one is None else float(one) for one in bias(*torques))]
 
 
-def save_for_simulink(made: MeasuredMap, file: FileName) -> Path:
+def save_for_simulink(result: MeasuredMap, file: FileName) -> Path:
     """Writes a MATLAB script with the arrays for the masks of blocks and for n-D Lookup Tables."""
-    torque, speed, slip, temperature = made.lines
-    share = _efficiencies(made)
+    torque, speed, slip, temperature = result.lines
+    share = _efficiencies(result)
     # over the signed difference, including the stuck means at 0
     slips = np.concatenate([-slip[::-1], [0.0], slip])
-    whole = np.concatenate([made.slipping[1][:, :, ::-1], made.stuck, made.slipping[0]], axis=2)[..., :MAPPED]
-    torques = torques_of(whole, places([torque, speed, slips, temperature]))
+    whole = np.concatenate([result.slipping[1][:, :, ::-1], result.stuck, result.slipping[0]], axis=2)[..., :MAPPED]
+    torques = torques_of(whole, grid_points([torque, speed, slips, temperature]))
     text = [
-        f"% Loss map of {made.scene.name}, SI (N.m, rad/s, K, W); {made.error}.",
+        f"% Loss map of {result.scene.name}, SI (N.m, rad/s, K, W); {result.error}.",
         "% Axes are those of the carrier. With a final drive of ratio i: torques / i, speeds * i.",
         "% Blocks Open Differential and Limited Slip Differential, Efficiency factors = Driveshaft torque, temperature and speed:",
         *CONVENTION,
-        *(f"% {text}." for text in [lossless(made)] if text),
+        *(f"% {text}." for text in [lossless(result)] if text),
         _vector("Trq_bpts", torque), _vector("omega_bpts", speed), _vector("Temp_bpts", temperature),
         _array("eta_tbl", np.clip(share, LEAST, 1.0)),
-        *_coupling(made),
+        *_coupling(result),
         "% n-D Lookup Tables, linear, over torque T, speed w, slip s = left - right, temperature; of the torques left and right TL, TR",
         "% and the loss P: locking = TL - TR, dragging = T - TL - TR, P = -locking s/2 + lost (|w| + |s|/2):",
         _vector("slip_bpts", slips),
-        *(_array(f"{name}_tbl", torques[..., place]) for place, name in enumerate(("locking", "dragging", "lost"))),
+        *(_array(f"{name}_tbl", torques[..., index]) for index, name in enumerate(("locking", "dragging", "lost"))),
     ]
     write_whole(file, "\n".join(text) + "\n")
     return Path(file)
 
 
-def lossless(made: MeasuredMap) -> str:
+def lossless(result: MeasuredMap) -> str:
     """Reason why all values of eta_tbl are 1; empty if some are below."""
-    if np.any(_efficiencies(made) < 1.0 - ROUNDING):
+    if np.any(_efficiencies(result) < 1.0 - ROUNDING):
         return ""
     return ("eta_tbl is 1 everywhere, because the scene has no drag, so that nothing is lost without a difference of wheel speeds; the losses "
             "by a difference are in locking_tbl and lost_tbl")
 
 
-def _efficiencies(made):
+def _efficiencies(result):
     """Efficiencies without a difference of wheel speeds, shape (torques, speeds, temperatures)."""
-    torque, speed, _, temperature = made.lines
-    return efficiency(places([torque, speed, np.zeros(1), temperature]), made.stuck[..., :MAPPED])[:, :, 0]
+    torque, speed, _, temperature = result.lines
+    return efficiency(grid_points([torque, speed, np.zeros(1), temperature]), result.stuck[..., :MAPPED])[:, :, 0]
 
 
-def _coupling(made):
+def _coupling(result):
     """Lines with the tables of the coupling torque, or with the reason why there are none."""
-    if why := coupling.left_out(made):
+    if why := coupling.left_out(result):
         return [f"% Limited Slip Differential: no table of the coupling torque, because {why}."]
-    torque, speed, slip, warmth = (f"{line[place]:.6g} {unit}" for line, place, unit in
-                                   zip(made.lines, coupling.middle(made), ("N.m", "rad/s", "rad/s", "K")))
-    (slips, of_slip), (inputs, of_input) = coupling.over_slip(made), coupling.over_input(made)
+    torque, speed, slip, warmth = (f"{line[index]:.6g} {unit}" for line, index, unit in
+                                   zip(result.lines, coupling.middle(result), ("N.m", "rad/s", "rad/s", "K")))
+    (slips, of_slip), (inputs, of_input) = coupling.over_slip(result), coupling.over_input(result)
     found = [
         "% Limited Slip Differential. The coupling torque is the difference of the axle torques, T2 - T1, of both clutches together: each",
         "% axle gets half of it. The slip is half the difference of the axle speeds, (w1 - w2)/2. Axle 1 is the left one. A final drive of",

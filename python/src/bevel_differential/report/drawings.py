@@ -40,7 +40,7 @@ def draw_section(picture: "Figure", pair: Pair) -> None:
     axes.set_axis_off()
 
 
-def _gear(axes, pair, i, place, colour):
+def _gear(axes, pair, i, position, colour):
     """Draws teeth and body on both sides of the axis, mirrored."""
     gear = pair.gears[i]
     inner, outer = MM * pair.inner_cone, MM * pair.outer_cone
@@ -55,7 +55,7 @@ def _gear(axes, pair, i, place, colour):
     body = [point(inner, gear.root), point(outer, gear.root), (bore, back), (bore, front)]
     for mirror in (1.0, -1.0):
         for shape, alpha in ((body, 0.28), (teeth, 0.75)):
-            points = np.array([place(mirror * radius, axis) for radius, axis in shape])
+            points = np.array([position(mirror * radius, axis) for radius, axis in shape])
             axes.fill(*points.T, facecolor=colour, alpha=alpha, lw=0)
             axes.plot(*np.vstack([points, points[:1]]).T, color=colour, lw=1.0)
 
@@ -88,12 +88,12 @@ def _dimensions(axes, pair):
         name += f", bore {words.mm(gear.bore)}" if gear.bore > 0.0 else ""
         for sense, which in ((-1.0, "left "), (1.0, "right ")) if i else ((-1.0, ""),):
             along_axis = sense * middle * math.cos(gear.root)
-            place = (along_axis, -0.3 * half) if i else (0.3 * width, along_axis)
-            axes.text(*place, which + name, fontsize=9, ha="center", va="center", rotation=90 if i else 0)
+            position = (along_axis, -0.3 * half) if i else (0.3 * width, along_axis)
+            axes.text(*position, which + name, fontsize=9, ha="center", va="center", rotation=90 if i else 0)
 
 
-def _between(axes, begin, end, offset, text, place=0.5):
-    """Draws an offset dimension between two points, with extension lines. Its text is at the fraction `place` of its length."""
+def _between(axes, begin, end, offset, text, position=0.5):
+    """Draws an offset dimension between two points, with extension lines. Its text is at the fraction `position` of its length."""
     for point in (begin, end):
         axes.plot(*zip(point, point + 1.04 * offset), color=svg_style.TEXT_COLOUR, lw=0.5, alpha=0.6)
     first, last = begin + offset, end + offset
@@ -101,7 +101,7 @@ def _between(axes, begin, end, offset, text, place=0.5):
     turned = math.degrees(math.atan2(*(last - first)[::-1]))
     # text is upright, or readable from below
     turned = 90.0 - (90.0 - turned) % 180.0
-    axes.text(*(first + place * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom",
+    axes.text(*(first + position * (last - first)), text, rotation=turned, rotation_mode="anchor", ha="center", va="bottom",
               fontsize=8.5)
 
 
@@ -139,21 +139,21 @@ def outline(gear: Gear) -> np.ndarray:
     return np.vstack([left, np.column_stack([np.full(4, gear.tip), tip]), right])
 
 
-def _teeth(axes, pair, gear, first, place, colour, label):
+def _teeth(axes, pair, gear, first, position, colour, label):
     """Draws the teeth near the pitch point as one closed shape, and the pitch circle."""
     step = 2.0 * math.pi / gear.teeth
     # tooth nearest to the pitch point
-    middle = min(range(gear.teeth), key=lambda k: math.hypot(*unrolled(pair, place(gear.pitch, first + k * step))))
+    middle = min(range(gear.teeth), key=lambda k: math.hypot(*unrolled(pair, position(gear.pitch, first + k * step))))
     points = np.vstack([outline(gear) + (0.0, first + (middle + k) * step) for k in range(-NEIGHBOURS, NEIGHBOURS + 1)])
-    first_end, last_end = (unrolled(pair, place(*points[k]))[0] for k in (0, -1))
+    first_end, last_end = (unrolled(pair, position(*points[k]))[0] for k in (0, -1))
     if last_end < first_end:
         points = points[::-1]
-    curve = np.array([unrolled(pair, place(polar, azimuth)) for polar, azimuth in points])
-    below = np.array([unrolled(pair, place(gear.root - 0.35 * (gear.tip - gear.root), azimuth)) for azimuth in points[::-1, 1]])
+    curve = np.array([unrolled(pair, position(polar, azimuth)) for polar, azimuth in points])
+    below = np.array([unrolled(pair, position(gear.root - 0.35 * (gear.tip - gear.root), azimuth)) for azimuth in points[::-1, 1]])
     shape = np.vstack([curve, below])
     axes.fill(*shape.T, color=colour, alpha=0.4, lw=0, label=label)
     axes.plot(*curve.T, color=colour, lw=1.5)
-    circle = np.array([unrolled(pair, place(gear.pitch, azimuth)) for azimuth in np.linspace(*points[[0, -1], 1], 60)])
+    circle = np.array([unrolled(pair, position(gear.pitch, azimuth)) for azimuth in np.linspace(*points[[0, -1], 1], 60)])
     axes.plot(*circle.T, color=colour, lw=0.8, ls="-.", label=f"pitch circle, {label}")
 
 

@@ -45,8 +45,8 @@ def _draw_bias(picture, run, left, right):
         for slope in {ratio, 1.0 / ratio}:
             ends = np.array([max(low, low / slope), min(reach, reach / slope)])
             plane.plot(ends, slope * ends, color=svg_style.GREY, lw=1.0 if ratio == 1.0 else 0.6, ls="-" if ratio == 1.0 else "--")
-            place = min(reach, reach / slope) * 0.96
-            plane.text(place, slope * place, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
+            at = min(reach, reach / slope) * 0.96
+            plane.text(at, slope * at, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
     plane.plot(left, right, color=svg_style.VIOLET, marker=".", ms=3, lw=0.8)
     plane.plot(left[-1], right[-1], "o", color=svg_style.VIOLET, ms=6)
     plane.set(xlabel=f"left torque, {unit}", ylabel=f"right torque, {unit}", title="right against left torque", xlim=(low, reach),

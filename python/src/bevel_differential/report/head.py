@@ -95,7 +95,7 @@ def _facts(run):
 def setup(run: Simulated) -> Section:
     """Section with plan, values that differ from the start values, and inputs over time."""
     found = Section("setup", "Set-up and plan")
-    found.say(f"The FMU says that it simulates: {run.says}.")
+    found.say(f"The FMU says that it simulates: {run.plan_text}.")
     if not run.scene.values:
         found.say("All values are the start values of the FMU.")
     else:

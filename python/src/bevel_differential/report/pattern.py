@@ -128,8 +128,8 @@ def _draw(picture, run, pair: Pair, loaded):
     panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
     for (flank, loads), (name, contacts), pressure in zip(panels, loaded, largest):
         # all lengths of a tooth grow with the distance from the apex
-        place = MM * np.outer(heights, cones / mean)
-        mesh = flank.pcolormesh(np.broadcast_to(MM * cones, place.shape), place, np.ma.masked_less(pressure / MPA, 0.02 * top),
+        height = MM * np.outer(heights, cones / mean)
+        mesh = flank.pcolormesh(np.broadcast_to(MM * cones, height.shape), height, np.ma.masked_less(pressure / MPA, 0.02 * top),
                                 cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
         ends = MM * cones[[0, -1]]
         for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):

@@ -29,7 +29,7 @@ class Simulated:
     """Scene and its record.
 
     `record`: all inputs, outputs and calculated parameters at the communication points, SI. `seconds`: time of a run of the scene as
-    it is written. `says`: the FMU's description of the simulated model. `added`: effects that only add outputs, switched on for the
+    it is written. `plan_text`: the FMU's description of the simulated model. `added`: effects that only add outputs, switched on for the
     record. `refused`: the FMU's reason to refuse such an effect, by effect. `difference`: largest difference between the scene's own
     outputs with and without the added effects, relative to their largest values. `drawn`: the scene's outputs, speeds and torques at
     times so close that lines between them show the oscillations of the shafts."""
@@ -37,7 +37,7 @@ class Simulated:
     scene: Scene
     record: np.ndarray
     seconds: float
-    says: str
+    plan_text: str
     warnings: list[str]
     added: tuple[str, ...]
     refused: dict[str, str]
@@ -68,7 +68,7 @@ class Simulated:
                  if variable.causality in ("input", "output", "calculatedParameter")]
         record = scene._record(names, added)
         warn(scene.warnings)
-        return cls(scene, record, min(seconds), scene.says(), scene.warnings, tuple(added), refused,
+        return cls(scene, record, min(seconds), scene.plan_text(), scene.warnings, tuple(added), refused,
                    _difference(as_written, record), _drawn(scene))
 
     def value(self, name: str) -> Number:

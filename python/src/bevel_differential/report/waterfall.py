@@ -201,10 +201,10 @@ def over_angle(angle: np.ndarray, values: np.ndarray, per_turn: int) -> tuple[np
     widths = np.diff(angle)
     pieces = 0.5 * widths * (values[1:] + values[:-1]) + widths**2 / 12.0 * (slopes[:-1] - slopes[1:])
     total = np.concatenate([[0.0], np.cumsum(pieces)])
-    place = np.clip(np.searchsorted(angle, edges, side="right") - 1, 0, len(angle) - 2)
-    width = widths[place]
-    share = (edges - angle[place]) / width
-    low, high, rise, fall = total[place], total[place + 1], width * values[place], width * values[place + 1]
+    index = np.clip(np.searchsorted(angle, edges, side="right") - 1, 0, len(angle) - 2)
+    width = widths[index]
+    share = (edges - angle[index]) / width
+    low, high, rise, fall = total[index], total[index + 1], width * values[index], width * values[index + 1]
     integral = low + share * (rise + share * (3.0 * (high - low) - 2.0 * rise - fall + share * (2.0 * (low - high) + rise + fall)))
     return 0.5 * (edges[1:] + edges[:-1]), np.diff(integral) / step
 

@@ -61,8 +61,8 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
         return found
     progress(0.0, "effects that are off")
     tried = [attempt(run, CONTROL, {TOLERANCE: 0.5 * float(run.value(TOLERANCE))})]
-    for place, name in enumerate(there):
-        progress(place / (len(there) + 1), "effects that are off")
+    for index, name in enumerate(there):
+        progress(index / (len(there) + 1), "effects that are off")
         tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
     tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
     if any(one.changes for one in tried if one.name != CONTROL):

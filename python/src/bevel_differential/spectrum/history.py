@@ -23,9 +23,9 @@ def history(differential: Differential, event: Event, teeth: tuple[int, int], pl
     the same teeth stay in mesh."""
     record = differential._record(event.signals, OUTPUTS, event.duration, min(event.step, event.duration), event.values)
     # planets, because they stay in place when bending teeth let the side gears turn
-    place = record["planet[1].spin_angle"] * (teeth[0] / (2.0 * pi))
-    found = strokes(place)
-    rolls = _rolls(_advance(place, found))
+    position = record["planet[1].spin_angle"] * (teeth[0] / (2.0 * pi))
+    found = strokes(position)
+    rolls = _rolls(_advance(position, found))
     growth = np.diff(damage_of(record), axis=0)
     # slow cycles contain the roots of teeth that stay in mesh
     growth[~rolls, :2] = 0.0
@@ -33,20 +33,20 @@ def history(differential: Differential, event: Event, teeth: tuple[int, int], pl
     for first, last in found:
         if np.any(rolls[first:last]):
             by_fmu = np.sum(growth[first:last], axis=0)
-            most = _most(record[first:last + 1], place[first:last + 1], (teeth[0], teeth[1] / planets), strength)
+            most = _most(record[first:last + 1], position[first:last + 1], (teeth[0], teeth[1] / planets), strength)
             meshing += np.maximum(most - by_fmu, 0.0)
     # a tooth that rolls out of mesh is unloaded
     stands = ~np.append(rolls[0], rolls)
     standing = stands * mesh_stress(record) if np.any(stands) else np.empty((2, 2, 0))
     return EventDamage.of(event, record, tuple(differential.warnings), roll=None, rolls=bool(found),
-                          advance=float(place[-1] - place[0]), meshing=meshing, standing=standing)
+                          advance=float(position[-1] - position[0]), meshing=meshing, standing=standing)
 
 
-def strokes(place: np.ndarray) -> list[tuple[int, int]]:
-    """First and last rows of the strokes of a motion through `place`, in pitches. Smaller returns than `LEAST_ROLL` do not end a stroke."""
+def strokes(position: np.ndarray) -> list[tuple[int, int]]:
+    """First and last rows of the strokes of a motion through `position`, in pitches. Smaller returns than `LEAST_ROLL` do not end a stroke."""
     found, first, far, way = list[tuple[int, int]](), 0, 0, 0.0
-    for row, here in enumerate(place):
-        moved = here - place[far]
+    for row, here in enumerate(position):
+        moved = here - position[far]
         if way == 0.0:
             if abs(moved) > LEAST_ROLL:
                 far, way = row, float(np.sign(moved))
@@ -58,11 +58,11 @@ def strokes(place: np.ndarray) -> list[tuple[int, int]]:
     return [*found, (first, far)] if way else found
 
 
-def _advance(place, found):
+def _advance(position, found):
     """Roll from row to row that brings new teeth into mesh, in pitches."""
-    advance = np.zeros(len(place) - 1)
+    advance = np.zeros(len(position) - 1)
     for first, last in found:
-        rolled = abs(place[first:last + 1] - place[first])
+        rolled = abs(position[first:last + 1] - position[first])
         advance[first:last] = np.diff(np.maximum.accumulate(rolled))
     return advance
 
@@ -70,17 +70,17 @@ def _advance(place, found):
 def _rolls(advance):
     """Rows in which a gear rolls: intervals, with short halts in them, of more roll than the bending of teeth or the crossing of their
     backlash can cause."""
-    places = np.flatnonzero(advance > 0.0)
+    positions = np.flatnonzero(advance > 0.0)
     found = np.zeros(len(advance), bool)
-    for stretch in np.split(places, np.flatnonzero(np.diff(places) > HALT) + 1):
+    for stretch in np.split(positions, np.flatnonzero(np.diff(positions) > HALT) + 1):
         if len(stretch) and np.sum(advance[stretch]) > LEAST_ROLL:
             found[stretch[0]:stretch[-1] + 1] = True
     return found
 
 
-def _most(record, place, between, strength):
+def _most(record, position, between, strength):
     """Largest Miner sums of a tooth in a stroke, shape (4,). `between`: pitches between two passes of a tooth of planet and side gear."""
-    way, rolled = load_signs(record), abs(place - place[0])
+    way, rolled = load_signs(record), abs(position - position[0])
     reverses = np.any(way > 0.0) and np.any(way < 0.0)
     # a planet's tooth is loaded from both sides in turn, and a side gear's if the load reverses
     curves = strength.idler, strength.idler if reverses else strength.bending

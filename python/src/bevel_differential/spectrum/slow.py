@@ -180,8 +180,8 @@ def closed_cycles(stress: np.ndarray) -> Iterator[tuple[float, float, float, int
     rainflow = require("rainflow", "design")
     begin = int(np.argmax(stress))
     around = [*range(begin, len(stress)), *range(begin + 1)]
-    for _, _, count, first, last in rainflow.extract_cycles([stress[place] for place in around]):
-        low, high = sorted((around[first], around[last]), key=lambda place: stress[place])
+    for _, _, count, first, last in rainflow.extract_cycles([stress[index] for index in around]):
+        low, high = sorted((around[first], around[last]), key=lambda index: stress[index])
         yield stress[low], stress[high], count, low, high
 
 
@@ -208,15 +208,15 @@ def _in_the_worst_order(histories, counts, loads, has_both_signs):
 
 def _pairs(peaks, valleys):
     """Pairs the highest peaks with the deepest valleys, as often as they occur."""
-    rows, place = [], 0
+    rows, index = [], 0
     for high, count, high_event in peaks:
-        while count > 0.0 and place < len(valleys):
-            low, left, low_event = valleys[place]
+        while count > 0.0 and index < len(valleys):
+            low, left, low_event = valleys[index]
             taken = min(count, left)
             rows.append((low, high, taken, low_event, high_event))
             count -= taken
-            valleys[place][1] -= taken
-            place += valleys[place][1] <= 0.0
+            valleys[index][1] -= taken
+            index += valleys[index][1] <= 0.0
     return rows
 
 

@@ -56,7 +56,7 @@ def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], 
 
 
 def _teeth(events, counts, ends, teeth, gear):
-    """Teeth with these places in the meshes: arrays `mesh` and `at` (positions) of the shape (teeth, places)."""
+    """Teeth with these positions in the meshes: arrays `mesh` and `at` (positions) of the shape (teeth, positions)."""
     (mesh, at), (period, stress, standing, loads) = teeth, gear
     begin, end = ends[:-1, None, None], ends[1:, None, None]
     rated = RATED * np.sign(loads.T)[:, mesh] * np.where(mesh == 0, -1.0, 1.0)
@@ -64,7 +64,7 @@ def _teeth(events, counts, ends, teeth, gear):
     for number in (0, 1):
         passes[:, number] = np.sum(passed * (mesh == number), axis=2).T
     was_in = is_in_mesh(begin, at, period)
-    loaded_first, loaded_last = (np.any(places, axis=2) for places in (was_in, is_in_mesh(end, at, period)))
+    loaded_first, loaded_last = (np.any(positions, axis=2) for positions in (was_in, is_in_mesh(end, at, period)))
     way = np.where(end < begin, -1.0, 1.0)
     visits = np.sum(passes_between(begin, end, at - 0.5 * way, period) + was_in, axis=2).astype(int)
     order = np.argsort(np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period)), axis=2, kind="stable")
@@ -110,11 +110,11 @@ def _visits(loads, number, was_in, is_in):
 def passes_between(begin: np.ndarray, end: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
     """Numbers of passes over positions `at` + i `period` on the way from `begin`, which does not count, to `end`, which does."""
     way = np.where(end < begin, -1.0, 1.0)
-    last, first = (np.floor(np.round(way * (place - at) / period, DECIMALS)) for place in (end, begin))
+    last, first = (np.floor(np.round(way * (position - at) / period, DECIMALS)) for position in (end, begin))
     return last - first
 
 
-def is_in_mesh(place: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
-    """True for teeth at the positions `at` + i `period` that are within half a pitch of `place`."""
-    turns = (place - at) / period
+def is_in_mesh(position: np.ndarray, at: np.ndarray, period: float) -> np.ndarray:
+    """True for teeth at the positions `at` + i `period` that are within half a pitch of `position`."""
+    turns = (position - at) / period
     return np.round(abs(turns - np.round(turns)) * period - 0.5, DECIMALS) <= 0.0

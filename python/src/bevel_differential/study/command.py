@@ -40,9 +40,9 @@ def run(arguments: argparse.Namespace) -> int:
     with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
         runs = simulate_cases(fmu, folder, part(progress, 0.0, SIMULATED / DRAWN * whole))
         draw(folder, runs, part(progress, SIMULATED / DRAWN * whole, whole))
-        for place, name in enumerate(scenes):
+        for index, name in enumerate(scenes):
             share = (1.0 - DRAWN) / len(scenes)
-            begin = DRAWN + place * share
+            begin = DRAWN + index * share
             with Scene.load(name, fmu=fmu) as scene:
                 write(scene, folder / f"{name}.html", False, part(progress, begin, begin + share))
         found = Comparison(start_values(fmu), runs)

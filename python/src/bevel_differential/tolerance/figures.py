@@ -143,12 +143,12 @@ def _verdict(study, result, one: Alternative, draws: Draws):
 
 def _why(study, result, one):
     """Text about the limited figure in whose variance the factors have the largest share."""
-    places = [result.names.index(name) for name in one.factors if name in result.names]
+    columns = [result.names.index(name) for name in one.factors if name in result.names]
     parts = []
     for limit in study.limits:
         indices = result.indices[str(limit.want)]
-        if places and isinstance(indices, Indices):
-            parts.append((float(np.max(indices.total[places])), str(limit.want)))
+        if columns and isinstance(indices, Indices):
+            parts.append((float(np.max(indices.total[columns])), str(limit.want)))
     if not parts:
         return ""
     part, want = max(parts)

@@ -123,24 +123,24 @@ class _Reading:
         if self.problems:
             raise DifferentialError("\n".join(self.problems))
 
-    def attempt(self, place, function, *arguments):
+    def attempt(self, where, function, *arguments):
         try:
             return function(*arguments)
         except DifferentialError as error:
-            self.problems.append(f"{place} {error}")
+            self.problems.append(f"{where} {error}")
             return None
 
     def alternative(self, entry):
         name, cost = entry.pop("name", None), entry.pop("cost", None)
-        place = "[[alternative]]"
+        where = "[[alternative]]"
         if cost is not None and (isinstance(cost, bool) or not isinstance(cost, (int, float)) or not -1.0 < cost < 100.0):
-            self.problems.append(f"{place} cost = {cost!r}: it is a fraction of the price of a differential, such as 0.02")
+            self.problems.append(f"{where} cost = {cost!r}: it is a fraction of the price of a differential, such as 0.02")
         given = flat(entry)
         if not given:
-            self.problems.append(f"{place} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
+            self.problems.append(f"{where} changes no tolerance: name a factor, such as tooth_errors.side_runout = \"finer\"")
         # errors of the factor itself have already been reported
         sound = {variable: text for variable, text in given.items() if self.factors.get(variable, True) is not None}
-        others = {variable: self.attempt(place, self.other, variable, text) for variable, text in sound.items()}
+        others = {variable: self.attempt(where, self.other, variable, text) for variable, text in sound.items()}
         written = ", ".join(f"{variable} = {other.text}" for variable, other in others.items() if other)
         return Alternative(str(name or written), others, cost)
 

@@ -163,8 +163,8 @@ def crossed(factors: int, runs: int, seed: int) -> np.ndarray:
 
 def is_drawn(factors: int, rows: int) -> np.ndarray:
     """True for rows of `crossed` that are draws of all factors (A and B), shape (rows,)."""
-    place = np.arange(rows) % (factors + 2)
-    return (place == 0) | (place == factors + 1) if factors else np.ones(rows, bool)
+    index = np.arange(rows) % (factors + 2)
+    return (index == 0) | (index == factors + 1) if factors else np.ones(rows, bool)
 
 
 def _problem(factors):

@@ -36,8 +36,8 @@ impl Oscillation {
     #[inline]
     pub fn add(&mut self, value: f64, h: f64) -> bool {
         let recent = (PERIODS * (self.intervals[0] + self.intervals[1])).max(LEAST_STEPS * h);
-        let keep = recent / (recent + h);
-        self.weight = keep * self.weight + 1.0;
+        let decay = recent / (recent + h);
+        self.weight = decay * self.weight + 1.0;
         let share = 1.0 / self.weight;
         let deviation = value - self.mean;
         // a constant value
@@ -46,7 +46,7 @@ impl Oscillation {
             return false;
         }
         self.mean += share * deviation;
-        self.deviations = keep * self.deviations + (1.0 - share) * deviation * deviation;
+        self.deviations = decay * self.deviations + (1.0 - share) * deviation * deviation;
         self.since += h;
         let is_far = self.deviations > 0.0 && deviation * deviation > SIDE * share * self.deviations;
         if !is_far || deviation * self.side > 0.0 {

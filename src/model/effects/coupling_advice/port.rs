@@ -132,15 +132,15 @@ finite!(Port { error, passed, errors, first_order, second_order, fastest, regres
 impl Port {
     /// Adds the second of four `steps` of a host with `delay`, whose values act `lag` steps late. Its energy error is
     /// `error` [J]. Its torque is the rate of the movement if the port `is_shaft`, or else the host's value. Old errors are
-    /// multiplied by `keep`.
+    /// multiplied by `decay`.
     #[inline]
-    pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), [delay, lag]: [f64; 2], keep: f64) {
+    pub fn add(&mut self, steps: [&PortStep; 4], (error, is_shaft): (f64, bool), [delay, lag]: [f64; 2], decay: f64) {
         let PortStep { given, moved, changed, h, is_line, .. } = *steps[1];
         self.error += error;
-        self.passed = keep * self.passed + steps[1].passed().abs();
-        self.errors = keep * self.errors + error.abs();
-        self.first_order *= keep;
-        self.second_order *= keep;
+        self.passed = decay * self.passed + steps[1].passed().abs();
+        self.errors = decay * self.errors + error.abs();
+        self.first_order *= decay;
+        self.second_order *= decay;
         if is_line && delay == 0.0 {
             self.second_order += error.abs() / (h * h);
         } else {
@@ -185,8 +185,8 @@ impl Port {
         if passed > 0.0 { self.errors / passed } else { 0.0 }
     }
 
-    /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It is
-    /// infinite without an error.
+    /// Communication step at which the ratio would be `wanted` [s]: the positive root of A h + B h² = `wanted` · W. It
+    /// is infinite without an error.
     pub fn step_of_ratio(&self, wanted: f64, least: f64) -> f64 {
         let (a, b, c) = (self.first_order, self.second_order, wanted * self.passed.max(least));
         if a + b > 0.0 { 2.0 * c / (a + sqrt(a * a + 4.0 * b * c)) } else { f64::INFINITY }
@@ -201,9 +201,10 @@ impl Port {
     /// Longest stable step [s] of a host that sets a torque, which acts `lag` steps late. Its springs give the unit the
     /// `rates` ω² [1/s²], and its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
     ///
-    /// A spring with a damper acts the time τ = λ/ω² ahead. With a = (ω h)²/2 and b = λ h, held inputs are stable if
-    /// b > (1 + 2 `lag`) a + `lag` b², a lower bound that is exact without lag, and if (1 + `lag`) b < 2. The line through two
-    /// values is a two-step Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up to λ h = 1, or
+    /// A spring with a damper acts the time τ = λ/ω² ahead. With a = (ω h)²/2 and b = λ h, held inputs are stable if b
+    /// > (1 + 2 `lag`) a + `lag` b², a lower bound that is exact without lag, and if (1 + `lag`) b < 2. The line
+    /// through two values is a two-step Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up
+    /// to λ h = 1, or
     /// 2 (√2 − 1) if the values are one step old.
     pub fn stable_step_of_torque(&self, lag: f64, [spring, damper]: [f64; 2]) -> f64 {
         let quotient = |a, b| quotient(a, b).unwrap_or(f64::INFINITY);
@@ -217,11 +218,11 @@ impl Port {
         }
     }
 
-    /// Longest stable step [s] of a host that sets the speed behind the unit's `shaft` k, c, which acts `lag` steps late. The
-    /// host has this `law`. The step is infinite if the cut shows no limit.
+    /// Longest stable step [s] of a host that sets the speed behind the unit's `shaft` k, c, which acts `lag` steps
+    /// late. The host has this `law`. The step is infinite if the cut shows no limit.
     ///
-    /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts the
-    /// time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `lag`) h = τ and up to ω h = 2.
+    /// The host's inertia with the mobility b and the half-shaft make an oscillation with ω² = k b, whose damping acts
+    /// the time τ = c/k + d_u/b ahead. Held inputs are stable up to (½ + `lag`) h = τ and up to ω h = 2.
     pub fn stable_step_of_speed(&self, lag: f64, shaft: Shaft, law: &Law) -> f64 {
         let Law { per_movement, per_rate, .. } = *law;
         if per_movement <= 0.0 {
@@ -237,9 +238,9 @@ impl Port {
     }
 }
 
-/// Longest stable step [s] of a two-step Adams-Bashforth method on an oscillation with the `rate` ω [1/s] and damping that
-/// acts the time τ `ahead` [s], if its values are `late` steps old. The factor 1 + `late` (ω h)²/2 + (ω h)⁴/4 in a step must not
-/// exceed the damping 1 + τ ω² h/2. Newton's method finds the step from above.
+/// Longest stable step [s] of a two-step Adams-Bashforth method on an oscillation with the `rate` ω [1/s] and damping
+/// that acts the time τ `ahead` [s], if its values are `late` steps old. The factor 1 + `late` (ω h)²/2 + (ω h)⁴/4 in a
+/// step must not exceed the damping 1 + τ ω² h/2. Newton's method finds the step from above.
 fn line_limit(ahead: f64, rate: f64, late: f64) -> f64 {
     if rate <= 0.0 || !ahead.is_finite() {
         return f64::INFINITY;
@@ -290,7 +291,8 @@ mod tests {
         assert!((found - exact).abs() < 1e-14, "{found} {exact}");
     }
 
-    /// A spring k with a damper c at an inertia J, held without delay: 2 c/k; a damper: 2 J/c, and one step later J/c; on lines, J/c.
+    /// A spring k with a damper c at an inertia J, held without delay: 2 c/k; a damper: 2 J/c, and one step later J/c;
+    /// on lines, J/c.
     #[test]
     fn stable_steps_of_torques_have_their_closed_forms() {
         let (k, c, j) = (9000.0, 12.0, 5.0);

@@ -29,7 +29,7 @@ const GROWTHS: u32 = 8;
 const LEAST_SHARE: f64 = 0.05;
 
 /// Position and its rate of each port at a communication point: angle and speed, or twist and torque of the half-shaft.
-pub type Places = [[f64; 2]; PORTS];
+pub type PortMotion = [[f64; 2]; PORTS];
 
 /// Cut between unit and host: the host's delay, and the half-shafts of sides driven by speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,7 +56,7 @@ impl Cut {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Coupling {
     /// Time [s], positions and their rates at the last communication point.
-    pub last: Option<(f64, Places)>,
+    pub last: Option<(f64, PortMotion)>,
     /// True for each port whose input follows the host's derivatives although other inputs ramp (`solver.input_ramp`).
     pub follows: [bool; PORTS],
     /// Last four steps of each port; the step with number n has the index n modulo 4.
@@ -91,10 +91,10 @@ impl Coupling {
         if self.count == 0 {
             self.steps = steps.map(|step| [step; 4]);
         }
-        let (before, place) = ((self.count.wrapping_sub(1) & 3) as usize, (self.count & 3) as usize);
+        let (before, index) = ((self.count.wrapping_sub(1) & 3) as usize, (self.count & 3) as usize);
         self.has_changed |=
             self.steps.iter().zip(steps).any(|(steps, step)| step.given != steps[before].given || step.is_line);
-        self.steps.iter_mut().zip(steps).for_each(|(steps, step)| steps[place] = *step);
+        self.steps.iter_mut().zip(steps).for_each(|(steps, step)| steps[index] = *step);
         self.count = self.count.wrapping_add(1);
         if self.has_changed && self.count > LAG as u64 {
             self.evaluate(cut);
@@ -105,16 +105,16 @@ impl Coupling {
     fn evaluate(&mut self, cut: &Cut) {
         let has_earlier = self.count > LAG as u64 + 1;
         // the oldest of the four steps is the one that the next step replaces
-        let places: [usize; 4] = std::array::from_fn(|k| (self.count as usize + k) & 3);
-        let h = self.steps[LEFT][places[3 - LAG]].h;
+        let indices: [usize; 4] = std::array::from_fn(|k| (self.count as usize + k) & 3);
+        let h = self.steps[LEFT][indices[3 - LAG]].h;
         let memory = self.ports.iter().fold(LEAST_STEPS * h, |longest, port| longest.max(port.oscillation.memory()));
-        let keep = memory / (memory + h);
-        self.weight = keep * self.weight + 1.0;
+        let decay = memory / (memory + h);
+        self.weight = decay * self.weight + 1.0;
         for (k, (port, steps)) in self.ports.iter_mut().zip(&self.steps).enumerate() {
-            let steps = places.map(|place| &steps[place]);
+            let steps = indices.map(|index| &steps[index]);
             if steps[1].h > 0.0 {
                 let error = SIGNS[k] * energy_difference(steps, cut.delay, has_earlier);
-                port.add(steps, (error, cut.shafts[k].is_some()), [cut.delay, cut.lag()], keep);
+                port.add(steps, (error, cut.shafts[k].is_some()), [cut.delay, cut.lag()], decay);
             }
         }
     }
@@ -140,9 +140,9 @@ impl Coupling {
         self.ports.iter().fold(0.0, |largest, port| largest.max(port.ratio(least)))
     }
 
-    /// Smallest advice of a port whose host reacts [s], and its meaning: the step at which the ratio would be `wanted`, but
-    /// at most the longest stable step, as far as it is known, and the present step. One step size cannot show that a
-    /// longer one is stable.
+    /// Smallest advice of a port whose host reacts [s], and its meaning: the step at which the ratio would be `wanted`,
+    /// but at most the longest stable step, as far as it is known, and the present step. One step size cannot show that
+    /// a longer one is stable.
     pub fn advice(&self, wanted: f64, cut: &Cut) -> (f64, AdviceState) {
         let none = |state| (0.0, state);
         if !self.has_changed {
@@ -167,8 +167,8 @@ impl Coupling {
         (by_ratio.min(stable).min(self.step()), AdviceState::Given)
     }
 
-    /// Longest stable step of each port [s]. Springs and dampers at several ports that move each other act together; the
-    /// sum over the ports is an upper bound of their rates.
+    /// Longest stable step of each port [s]. Springs and dampers at several ports that move each other act together;
+    /// the sum over the ports is an upper bound of their rates.
     fn stable_steps(&self, cut: &Cut) -> [f64; PORTS] {
         // torque drives the carrier and loads the sides
         let laws: [Law; PORTS] = std::array::from_fn(|port| self.ports[port].law(SIGNS[port]).unwrap_or_default());
@@ -191,8 +191,8 @@ impl Coupling {
         self.weight >= LEAST_WEIGHT && port.growths() >= GROWTHS
     }
 
-    /// True if the ratio of `port` is high although its values oscillate. Steps that are far too long show no period, and soon
-    /// end the run.
+    /// True if the ratio of `port` is high although its values oscillate. Steps that are far too long show no period,
+    /// and soon end the run.
     fn is_high(&self, port: &Port) -> bool {
         let exceeds = |ratio: f64| port.errors > ratio * port.passed.max(self.least_passed());
         self.weight >= LEAST_WEIGHT && port.oscillation.has_period() && exceeds(HIGH)
@@ -205,8 +205,8 @@ impl Coupling {
         self.ports.iter().any(|port| self.is_unstable(port) || self.is_high(port))
     }
 
-    /// Cause of a warning, if there is one: a swing at a port at which the host reacts grows by the cut, or its ratio is
-    /// high although its values oscillate.
+    /// Cause of a warning, if there is one: a swing at a port at which the host reacts grows by the cut, or its ratio
+    /// is high although its values oscillate.
     pub fn growth(&self, cut: &Cut) -> Option<Growth> {
         if !self.is_conspicuous() {
             return None;

@@ -59,24 +59,24 @@ pub struct Law {
 finite!(Law { per_movement, per_rate });
 
 impl Regression {
-    /// Adds a step in which the host's value is `given`, with its [Δu, x, y]. Sums are multiplied by `keep`, and the slow
-    /// parts by `keep_slow`.
+    /// Adds a step in which the host's value is `given`, with its [Δu, x, y]. Sums are multiplied by `decay`, and the
+    /// slow parts by `slow_decay`.
     #[inline]
-    pub fn add(&mut self, given: f64, mut values: [f64; VALUES], keep: f64, keep_slow: f64) {
-        self.slow_weight = keep_slow * self.slow_weight + 1.0;
+    pub fn add(&mut self, given: f64, mut values: [f64; VALUES], decay: f64, slow_decay: f64) {
+        self.slow_weight = slow_decay * self.slow_weight + 1.0;
         for slow in &mut self.slow {
             for (value, slow) in values.iter_mut().zip(slow) {
                 *slow += (*value - *slow) / self.slow_weight;
                 *value -= *slow;
             }
         }
-        self.weight = keep * self.weight + 1.0;
+        self.weight = decay * self.weight + 1.0;
         let share = 1.0 / self.weight;
         let rest = 1.0 - share;
         self.magnitude += share * (given.abs() - self.magnitude);
         let [u, x, y]: [f64; VALUES] = std::array::from_fn(|i| values[i] - self.means[i]);
         self.means = [self.means[0] + share * u, self.means[1] + share * x, self.means[2] + share * y];
-        let add = |sum: &mut f64, product: f64| *sum = keep * *sum + rest * product;
+        let add = |sum: &mut f64, product: f64| *sum = decay * *sum + rest * product;
         let [uu, ux, uy, xx, xy, yy] = &mut self.products;
         add(xx, x * x);
         add(xy, x * y);

@@ -109,10 +109,10 @@ mod tests {
         Curve { start, end, coefficients: [0.0; 3] }
     }
 
-    /// History of a quantity that equals the position, while the gears roll through `places` in cycles.
-    fn rolled(places: &[f64]) -> MeshHistory {
+    /// History of a quantity that equals the position, while the gears roll through `positions` in cycles.
+    fn rolled(positions: &[f64]) -> MeshHistory {
         let mut history = MeshHistory::default();
-        for pair in places.windows(2) {
+        for pair in positions.windows(2) {
             let curve = line(pair[0], pair[1]);
             history.add(&curve, &[curve], 1.0);
         }
@@ -122,9 +122,9 @@ mod tests {
     #[test]
     fn a_whole_cycle_either_way_gives_the_range_of_its_quantity() {
         for sign in [1.0, -1.0] {
-            let places = |count: i32| (0..count).map(|i| sign * 0.15 * f64::from(i)).collect::<Vec<_>>();
-            assert_eq!(rolled(&places(7)).last[0], 0.0);
-            let history = rolled(&places(8));
+            let positions = |count: i32| (0..count).map(|i| sign * 0.15 * f64::from(i)).collect::<Vec<_>>();
+            assert_eq!(rolled(&positions(7)).last[0], 0.0);
+            let history = rolled(&positions(8));
             assert!((history.last[0] - 1.0).abs() < 1e-15);
             assert!((history.rolled - sign * 0.05).abs() < 1e-15);
         }

@@ -15,8 +15,8 @@ use crate::strength::interval::{Three, at, crest, extremum, is_loaded_throughout
 use crate::strength::{Passing, loaded_flank};
 
 /// Tolerated second difference of the root stress of a tooth at its largest peak, as a fraction of this stress. The
-/// peak of the parabola is then within an eighth of this difference from the nearest sample. Lower peaks do less damage,
-/// and their tolerance grows with the fourth power of the ratio.
+/// peak of the parabola is then within an eighth of this difference from the nearest sample. Lower peaks do less
+/// damage, and their tolerance grows with the fourth power of the ratio.
 const BLUNT: f64 = 0.005;
 /// Tolerated second difference of the load of a flank that passes its rated point, as a fraction of the load.
 const ROUGH: f64 = 0.02;
@@ -227,12 +227,12 @@ impl GearStrength {
             for pair in mesh.pairs() {
                 let tooth = if self.is_single { 0 } else { pair.teeth[gear] };
                 let known = teeth[..count].iter().position(|(known, _)| *known == tooth);
-                let place = known.unwrap_or_else(|| {
+                let index = known.unwrap_or_else(|| {
                     (teeth[count], count) = ((tooth, [0.0; 3]), count + 1);
                     count - 1
                 });
                 let flank = loaded_flank(gear == 0 && s == 1, pair.drives);
-                teeth[place].1[instant] += if flank == 0 { pair.stress[gear] } else { -pair.stress[gear] };
+                teeth[index].1[instant] += if flank == 0 { pair.stress[gear] } else { -pair.stress[gear] };
             }
         }
         let ahead = if gear == 1 { planet.ahead[s] } else { 0 };

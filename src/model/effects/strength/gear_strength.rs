@@ -35,8 +35,8 @@ pub struct GearStrength {
     mean_cone: f64,
     /// True if one spring represents all teeth of a mesh.
     pub(super) is_single: bool,
-    /// Position of the rated point on the path of contact, from the position at which the planet's tooth is in the middle
-    /// of the mesh, in pitches.
+    /// Position of the rated point on the path of contact, from the position at which the planet's tooth is in the
+    /// middle of the mesh, in pitches.
     pub(super) rated_point: f64,
     flash: Flash,
     /// Contact temperature at which flanks scuff [K].
@@ -136,9 +136,9 @@ impl GearStrength {
     /// with the friction `law`. Beyond the ends of the path, the radii at the ends are used, as for pressure.
     pub fn flash(&self, detailed: &Detailed, law: &ToothFriction, slice: &SliceLoad) -> f64 {
         let Some(radius) = self.rating.contact.relative_radius(slice.s) else { return 0.0 };
-        detailed.largest_on_face(slice, law, |place| {
-            let sliding = Sliding { radius: radius * place.cone, ..place.sliding };
-            self.flash.temperature(&sliding, place.coefficient)
+        detailed.largest_on_face(slice, law, |point| {
+            let sliding = Sliding { radius: radius * point.cone, ..point.sliding };
+            self.flash.temperature(&sliding, point.coefficient)
         })
     }
 

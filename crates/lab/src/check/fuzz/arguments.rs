@@ -114,7 +114,7 @@ impl VariableKind {
         match item {
             Item::Row(_) => false,
             Item::Time | Item::EventTime | Item::Indicator(_) => self == Self::Float64,
-            Item::EventPlace | Item::EventCount => self == Self::Int32,
+            Item::EventBody | Item::EventCount => self == Self::Int32,
             Item::EventKind => self == Self::Enumeration,
             Item::EventText => self == Self::Text,
             Item::Planets(_) | Item::Pairs(_) => self == Self::Array,

@@ -24,14 +24,14 @@ impl Ideal {
         self.constrain(&mut state.v);
     }
 
-    /// Advances the motion by `h` [s] under inputs that are parabolas of time. The result is exact. `course` contains
+    /// Advances the motion by `h` [s] under inputs that are parabolas of time. The result is exact. `motions` are
     /// accelerations and torques with their derivatives.
     #[inline]
-    pub fn advance_along(&self, state: &mut State, course: &[IdealMotion; 3], h: f64) {
-        let carrier = Course { speed: state.v[CARRIER], acceleration: course.each_ref().map(|m| m.carrier) };
-        let spin = Course { speed: state.v[PLANET], acceleration: course.each_ref().map(|m| m.spin) };
+    pub fn advance_along(&self, state: &mut State, motions: &[IdealMotion; 3], h: f64) {
+        let carrier = SpeedCubic { speed: state.v[CARRIER], acceleration: motions.each_ref().map(|m| m.carrier) };
+        let spin = SpeedCubic { speed: state.v[PLANET], acceleration: motions.each_ref().map(|m| m.spin) };
         let (by_carrier, by_spin) = (carrier.moments(h), spin.moments(h));
-        for (k, m) in course.iter().enumerate() {
+        for (k, m) in motions.iter().enumerate() {
             state.work += m.net[0] * by_carrier[k] + m.net[1] * by_spin[k];
         }
         self.turn(state, by_carrier[0], by_spin[0]);
@@ -65,14 +65,14 @@ impl Ideal {
 }
 
 /// Motion whose acceleration is a parabola of time: ω = ω₀ + a t + ȧ t²/2 + ä t³/6.
-struct Course {
+struct SpeedCubic {
     /// Speed at the start, ω₀ [rad/s].
     speed: f64,
     /// Acceleration at the start and its derivatives: a, ȧ, ä [rad/s², rad/s³, rad/s⁴].
     acceleration: [f64; 3],
 }
 
-impl Course {
+impl SpeedCubic {
     /// Speed after `h` [s].
     fn speed_at(&self, h: f64) -> f64 {
         let [a, b, c] = self.acceleration;
