@@ -28,28 +28,35 @@ impl<const N: usize> Block<N> {
     #[inline(always)]
     pub fn fill<E: SecondOrder<N> + ?Sized>(
         &mut self,
-        system: (&E, Shape),
+        system: &E,
+        shape: Shape,
         lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
-        if N > IN_REGISTERS { self.fill_out_of_line(system, lin, s) } else { self.fill_inline(system, lin, s) }
+        if N > IN_REGISTERS {
+            self.fill_out_of_line(system, shape, lin, s)
+        } else {
+            self.fill_inline(system, shape, lin, s)
+        }
     }
 
     /// Out-of-line copy for large systems, for which the cost of a call is negligible.
     #[inline(never)]
     fn fill_out_of_line<E: SecondOrder<N> + ?Sized>(
         &mut self,
-        system: (&E, Shape),
+        system: &E,
+        shape: Shape,
         lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
-        self.fill_inline(system, lin, s)
+        self.fill_inline(system, shape, lin, s)
     }
 
     #[inline(always)]
     fn fill_inline<E: SecondOrder<N> + ?Sized>(
         &mut self,
-        (system, shape): (&E, Shape),
+        system: &E,
+        shape: Shape,
         lin: &Linearisation<N, E::Rates>,
         s: f64,
     ) -> Option<()> {
@@ -74,18 +81,18 @@ impl<const N: usize> Block<N> {
 
     /// Solves for the right-hand side `r` in place.
     #[inline(always)]
-    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
-        if N > IN_REGISTERS { self.solve_out_of_line(system, r) } else { self.solve_inline(system, r) }
+    pub fn solve<E: SecondOrder<N> + ?Sized>(&self, system: &E, shape: Shape, r: &mut Point<N>) {
+        if N > IN_REGISTERS { self.solve_out_of_line(system, shape, r) } else { self.solve_inline(system, shape, r) }
     }
 
     /// Out-of-line copy for large systems.
     #[inline(never)]
-    fn solve_out_of_line<E: SecondOrder<N> + ?Sized>(&self, system: (&E, Shape), r: &mut Point<N>) {
-        self.solve_inline(system, r);
+    fn solve_out_of_line<E: SecondOrder<N> + ?Sized>(&self, system: &E, shape: Shape, r: &mut Point<N>) {
+        self.solve_inline(system, shape, r);
     }
 
     #[inline(always)]
-    fn solve_inline<E: SecondOrder<N> + ?Sized>(&self, (system, shape): (&E, Shape), r: &mut Point<N>) {
+    fn solve_inline<E: SecondOrder<N> + ?Sized>(&self, system: &E, shape: Shape, r: &mut Point<N>) {
         let s = self.s;
         let pulled = times(shape, &self.stiffness, &r.q);
         add_times(&mut r.v, 1.0, &pulled);

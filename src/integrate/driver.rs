@@ -4,7 +4,7 @@
 use super::control::{Control, LARGEST_SHRINK, SAFETY};
 use super::{
     ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder, Statistics,
-    Trajectory, Trial,
+    StepOutput, TimedPoint, Trajectory, Trial,
 };
 
 /// A completed step, as passed to the observer.
@@ -218,17 +218,18 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
             Some(energy) => energy,
             None => {
                 let is_new = !std::mem::replace(&mut self.is_counted, true);
-                self.linearise((&trajectory.point, trajectory.time), is_new)
+                self.linearise(&trajectory.point, trajectory.time, is_new)
             }
         };
         let Size { h, cut, to_kink } = self.next_size(trajectory);
         let Trajectory { point, time, extension, resolution, .. } = trajectory;
         let norm = ErrorNorm { weights: system.weights(point), tolerance: self.context.tolerance };
-        let to = (&mut *self.context.statistics, &mut *extension);
-        let trial = self.method.step(system, (point, *time), &self.lin, h, &norm, to);
+        let start = TimedPoint { point, time: *time };
+        let to = StepOutput { counts: self.context.statistics, extension };
+        let trial = self.method.step(system, start, &self.lin, h, &norm, to);
         let mut error = trial.as_ref().map_or(f64::NAN, |trial| trial.size);
         if let Some(Trial { halfway: Some(halfway), .. }) = trial {
-            let crossing = system.crossing((point, *time), (&extension.end, *time + h));
+            let crossing = system.crossing(start, TimedPoint { point: &extension.end, time: *time + h });
             if let Some(fraction) = crossing.filter(|_| h > *resolution) {
                 self.cut_at_switch(h, fraction, *resolution);
                 return Ok(());
@@ -329,7 +330,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
             self.context.statistics.evaluations += 1;
             (last, energy) = (system.evaluate_at(&end, reached).1, system.energy(&end));
         } else {
-            energy = self.linearise((&end, reached), true);
+            energy = self.linearise(&end, reached, true);
             last = self.lin.ledger_rates;
         }
         if acceleration_change.is_some() {
@@ -419,10 +420,10 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         flow.map_err(Failure::Refused)
     }
 
-    /// Linearises the equations at the start of the next step, a point with its time [s], and returns the energies.
+    /// Linearises the equations at the start of the next step, `point` at `time` [s], and returns the energies.
     /// Counts the evaluation if it is new.
     #[inline(never)]
-    fn linearise(&mut self, (point, time): (&Point<N>, f64), is_new: bool) -> [f64; 2] {
+    fn linearise(&mut self, point: &Point<N>, time: f64, is_new: bool) -> [f64; 2] {
         let statistics = &mut self.context.statistics;
         statistics.evaluations += u64::from(is_new);
         statistics.jacobians += u64::from(is_new);

@@ -15,7 +15,7 @@
 //! contact that the linearisation does not contain yet.
 
 use super::linear::{Inverse, Shape};
-use super::{AfterStep, Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step};
+use super::{AfterStep, Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step, TimedPoint};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -44,7 +44,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
     let mut done = 0.0;
     while done < steps {
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
-        let end = sdirk(system, (point, *time), h, statistics).ok_or(Failure::Diverged)?;
+        let end = sdirk(system, TimedPoint { point, time: *time }, h, statistics).ok_or(Failure::Diverged)?;
         let middle = Point {
             q: std::array::from_fn(|i| 0.5 * (point.q[i] + end.q[i])),
             v: std::array::from_fn(|i| 0.5 * (point.v[i] + end.v[i])),
@@ -70,7 +70,7 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
 /// Computes one step. Returns `None` if a matrix is singular or a value is not finite.
 fn sdirk<const N: usize, S: SecondOrder<N> + ?Sized>(
     system: &S,
-    (start, time): (&Point<N>, f64),
+    TimedPoint { point: start, time }: TimedPoint<N>,
     h: f64,
     counts: &mut Statistics,
 ) -> Option<Point<N>> {

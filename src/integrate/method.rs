@@ -1,6 +1,6 @@
 //! Interface of one-step methods, as used by the driver, the step-size control and the tests.
 
-use super::{Extension, Linearisation, Point, SecondOrder, Statistics};
+use super::{Extension, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
 use crate::numeric::lanes;
 
 /// Result of a step that may still be rejected.
@@ -93,22 +93,29 @@ impl<const N: usize> ErrorNorm<N> {
     }
 }
 
+/// What a step writes in place.
+pub struct StepOutput<'a, const N: usize> {
+    /// Counters of evaluations.
+    pub counts: &'a mut Statistics,
+    /// Dense output, which has several hundred bytes.
+    pub extension: &'a mut Extension<N>,
+}
+
 /// A one-step method with an error estimate. It keeps no data between steps, so snapshots need not contain it.
 pub trait Method {
     /// Order p of the error estimate, 3 or 4: the estimate is proportional to h^(p+1).
     fn estimate_order(&self) -> u32;
 
-    /// Computes one step of size `h` [s] from `start`, a point with its time, at which `lin` was evaluated. Returns
-    /// `None` if the matrix is singular or an iteration does not converge; a shorter step is then tried. Counts its
-    /// evaluations. Writes the dense output in place, because it has several hundred bytes.
+    /// Computes one step of size `h` [s] from `start`, at which `lin` was evaluated. Returns
+    /// `None` if the matrix is singular or an iteration does not converge; a shorter step is then tried.
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
-        start: (&Point<N>, f64),
+        start: TimedPoint<N>,
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        to: (&mut Statistics, &mut Extension<N>),
+        to: StepOutput<N>,
     ) -> Option<Trial<N, S::Rates>>;
 
     /// x^(1/(p+1)), accurate to 0.1 %, which suffices for a step size.

@@ -20,7 +20,7 @@ use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
 use super::linear::Shape;
 use super::method::combine;
-use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
+use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, StepOutput, TimedPoint, Trial};
 
 /// The method.
 pub struct Radau;
@@ -66,16 +66,16 @@ impl Method for Radau {
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
-        (start, time): (&Point<N>, f64),
+        TimedPoint { point: start, time }: TimedPoint<N>,
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        (counts, extension): (&mut Statistics, &mut Extension<N>),
+        StepOutput { counts, extension }: StepOutput<N>,
     ) -> Option<Trial<N, S::Rates>> {
         let per_h = 1.0 / h;
         let shape = Shape::of(system);
         let mut real = Block::EMPTY;
-        real.fill((system, shape), lin, h / GAMMA)?;
+        real.fill(system, shape, lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
         let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
 
@@ -100,7 +100,7 @@ impl Method for Radau {
             combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
             combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
             let [first, re, im] = &mut change;
-            real.solve((system, shape), first);
+            real.solve(system, shape, first);
             complex.solve(system, &lin.by_position, re, im);
             for i in 0..3 {
                 combine(&mut w[i], &[1.0], 1.0, &change[i..]);
@@ -138,11 +138,11 @@ impl Method for Radau {
         let mut defect = Point::ZERO;
         combine(&mut defect, &ESTIMATE, per_h, &z);
         let mut error = shifted(&slope, &defect);
-        real.solve((system, shape), &mut error);
+        real.solve(system, shape, &mut error);
         if norm.size(&error) > 1.0 {
             let at = shifted(start, &error);
             error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
-            real.solve((system, shape), &mut error);
+            real.solve(system, shape, &mut error);
             counts.evaluations += 1;
         }
         let mut coefficients = [Point::ZERO; 3];
@@ -153,7 +153,7 @@ impl Method for Radau {
         let size = norm.judge(&error, &end);
         *extension = Extension { start: *start, end, coefficients };
         let trial = Trial { error, size, halfway: None };
-        let solve = |defect: &mut Point<N>| real.solve((system, shape), defect);
+        let solve = |defect: &mut Point<N>| real.solve(system, shape, defect);
         Some(trial.with_midpoint_check(system, (extension, time, h), norm, counts, solve))
     }
 }

@@ -16,7 +16,7 @@
 use super::block::Block;
 use super::linear::Shape;
 use super::method::combine;
-use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, Statistics, Trial};
+use super::{ErrorNorm, Linearisation, Method, Point, SecondOrder, StepOutput, TimedPoint, Trial};
 
 /// The method.
 pub struct Rodas5P;
@@ -31,15 +31,15 @@ impl Method for Rodas5P {
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,
-        (start, time): (&Point<N>, f64),
+        TimedPoint { point: start, time }: TimedPoint<N>,
         lin: &Linearisation<N, S::Rates>,
         h: f64,
         norm: &ErrorNorm<N>,
-        (counts, extension): (&mut Statistics, &mut Extension<N>),
+        StepOutput { counts, extension }: StepOutput<N>,
     ) -> Option<Trial<N, S::Rates>> {
         let shape = Shape::of(system);
         let mut block = Block::EMPTY;
-        block.fill((system, shape), lin, h * GAMMA)?;
+        block.fill(system, shape, lin, h * GAMMA)?;
         let per_h = 1.0 / h;
         let drift = system.is_driven().then(|| system.drift(start, time));
         let mut u = [Point::ZERO; STAGES];
@@ -64,7 +64,7 @@ impl Method for Rodas5P {
                     r.v[i] += h * G[stage] * drift[i];
                 }
             }
-            block.solve((system, shape), &mut r);
+            block.solve(system, shape, &mut r);
             u[stage] = r;
         }
         let error = u[STAGES - 1];
@@ -80,7 +80,7 @@ impl Method for Rodas5P {
         }
         let trial = Trial { error, size, halfway: None };
         counts.evaluations += C.len() as u64;
-        let solve = |defect: &mut Point<N>| block.solve((system, shape), defect);
+        let solve = |defect: &mut Point<N>| block.solve(system, shape, defect);
         Some(trial.with_midpoint_check(system, (extension, time, h), norm, counts, solve))
     }
 }

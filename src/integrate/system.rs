@@ -82,6 +82,15 @@ impl Imbalance {
     }
 }
 
+/// A point at a time.
+#[derive(Clone, Copy)]
+pub struct TimedPoint<'a, const N: usize> {
+    /// Positions and velocities.
+    pub point: &'a Point<N>,
+    /// Time [s].
+    pub time: f64,
+}
+
 /// Accelerations with their exact derivatives at a point. It is large, so steps compute it in place.
 #[derive(Clone, Copy, Debug)]
 pub struct Linearisation<const N: usize, P> {
@@ -238,7 +247,7 @@ pub trait SecondOrder<const N: usize> {
     /// within it. Returns `None` without such a switch, or if the switch is already close enough to the end. Both ends
     /// include their times [s].
     #[inline]
-    fn crossing(&self, _start: (&Point<N>, f64), _end: (&Point<N>, f64)) -> Option<f64> {
+    fn crossing(&self, _start: TimedPoint<N>, _end: TimedPoint<N>) -> Option<f64> {
         None
     }
 }

@@ -2,7 +2,7 @@
 
 use bevel_differential::integrate::{
     AfterStep, Control, ErrorNorm, Extension, Failure, Method, Point, Radau, Rodas5P, SecondOrder, SolverContext,
-    Statistics, advance,
+    Statistics, StepOutput, TimedPoint, advance,
 };
 
 /// Theoretical properties of a method.
@@ -69,8 +69,8 @@ pub fn step_from<M: Known, const N: usize, S: SecondOrder<N>>(s: &S, (at, time):
     let lin = s.linearise_at(at, time);
     let norm = ErrorNorm { weights: s.weights(at), tolerance: M::TOLERANCE };
     let mut extension = Extension::NONE;
-    let to = (&mut Statistics::default(), &mut extension);
-    let error = M::METHOD.step(s, (at, time), &lin, h, &norm, to).unwrap().error;
+    let to = StepOutput { counts: &mut Statistics::default(), extension: &mut extension };
+    let error = M::METHOD.step(s, TimedPoint { point: at, time }, &lin, h, &norm, to).unwrap().error;
     Tried { extension, error }
 }
 

@@ -1,6 +1,6 @@
 //! Tests that steps end where the equations switch.
 
-use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, SecondOrder, Statistics};
+use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
 
 use super::continuation::State;
 use super::methods::{Known, with_every_method};
@@ -33,8 +33,8 @@ impl SecondOrder<1> for Kinked {
     fn weights(&self, _: &Point<1>) -> Point<1> {
         Point { q: [1.0], v: [1.0] }
     }
-    fn crossing(&self, (start, _): (&Point<1>, f64), (end, _): (&Point<1>, f64)) -> Option<f64> {
-        let (from, to) = (start.q[0] * self.side, end.q[0] * self.side);
+    fn crossing(&self, start: TimedPoint<1>, end: TimedPoint<1>) -> Option<f64> {
+        let (from, to) = (start.point.q[0] * self.side, end.point.q[0] * self.side);
         // aims at the middle of the allowed distance
         (to < -LANDING).then(|| (from + 0.5 * LANDING) / (from - to))
     }

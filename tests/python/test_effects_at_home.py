@@ -18,7 +18,7 @@ EXCEPTIONS = {
     "model/readings/reports.rs": ({"coupling_advice", "strength", "tooth_friction", "warm_up"}, "warnings need the present forces"),
     "model/run/coupling.rs": ({"coupling_advice", "half_shaft"}, "records the exchange at the ports, which may be behind half-shafts"),
     "model/run/effort.rs": ({"bearing_drag", "thrust_friction"}, "remedies for rattle"),
-    "model/run/timeline.rs": ({"tooth_fault"}, "a broken tooth changes the equations at a time"),
+    "model/run/events.rs": ({"tooth_fault"}, "a broken tooth changes the equations at a time"),
     "model/run/watching.rs": ({"coupling_advice", "mesh_history", "strength"}, "memories at the start, and steps that they record"),
     "model/setup/advice.rs": ({"body_compliance", "wheel_brake"}, "advice on settings of the whole scene"),
     "model/start/preload.rs": ({"half_shaft"}, "half-shafts are wound up at the start"),

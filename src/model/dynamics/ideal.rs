@@ -6,7 +6,7 @@
 
 use super::energy_floor::energy_floor;
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, BodyMotion, FrictionSource, Slopes, SurfaceLoad};
@@ -500,7 +500,7 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         weights
     }
 
-    fn crossing(&self, start: (&Point<IDEAL_SIZE>, f64), end: (&Point<IDEAL_SIZE>, f64)) -> Option<f64> {
+    fn crossing(&self, start: TimedPoint<IDEAL_SIZE>, end: TimedPoint<IDEAL_SIZE>) -> Option<f64> {
         self.friction_crossing(start, end)
     }
 }

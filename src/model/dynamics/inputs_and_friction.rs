@@ -5,8 +5,9 @@ use std::ops::Range;
 
 use super::State;
 use super::ledger_rates::LedgerRates;
-use crate::integrate::{Matrix, Point};
+use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
+use crate::model::effect_kinds::dry_friction::LoadedSlip;
 use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
@@ -332,19 +333,18 @@ pub trait FrictionEquations<const N: usize> {
         self.has_dry_friction() && bodies_with_friction(self).any(awaits)
     }
 
-    /// Fraction of a step after which friction switches, or `None` if it does not. `start` and `end` are the ends of
-    /// the step with their times [s].
-    fn friction_crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
-        if !self.awaits_load(end.0) {
+    /// Fraction of a step after which friction switches, or `None` if it does not.
+    fn friction_crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
+        if !self.awaits_load(end.point) {
             return None;
         }
-        let surface_loads = [start, end].map(|(at, time)| self.surface_loads(at, time));
+        let surface_loads = [start, end].map(|at| self.surface_loads(at.point, at.time));
         bodies_with_friction(self)
             .filter_map(|i| {
-                let slips = [self.slip(start.0, i), self.slip(end.0, i)];
-                let ends = [(&slips[0], &surface_loads[0][i]), (&slips[1], &surface_loads[1][i])];
+                let slips = [self.slip(start.point, i), self.slip(end.point, i)];
+                let [start, end] = [0, 1].map(|k| LoadedSlip { slip: &slips[k], load: &surface_loads[k][i] });
                 let (friction, state, _) = self.friction_on(i);
-                friction.crossing(state, ends[0], ends[1])
+                friction.crossing(state, start, end)
             })
             .reduce(f64::min)
     }
@@ -407,7 +407,13 @@ pub trait FrictionEquations<const N: usize> {
             let (friction, &(mut state), count) = self.friction_on(i);
             if friction.is_on() {
                 let stops = self.stops(at, time, i);
-                friction.settle(&mut state, (&self.slip(at, i), &surface_loads[i]), stops, count, heat);
+                friction.settle(
+                    &mut state,
+                    LoadedSlip { slip: &self.slip(at, i), load: &surface_loads[i] },
+                    stops,
+                    count,
+                    heat,
+                );
                 self.applied_mut().friction_state[i] = state;
             }
         }

@@ -7,7 +7,7 @@ use super::ledger_rates::LedgerRates;
 use super::shape::{MAX_SIZE, Shape};
 use super::{Equations, FrictionEquations};
 use crate::contact::planet::Q;
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
 /// Approach below which errors of positions are absolute instead of relative [rad on the unit sphere].
@@ -217,7 +217,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn crossing(&self, start: (&Point<N>, f64), end: (&Point<N>, f64)) -> Option<f64> {
+    fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
         if S::MAY_ACT { self.friction_crossing(start, end) } else { None }
     }
 }

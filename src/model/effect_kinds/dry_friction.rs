@@ -35,6 +35,15 @@ const STANDSTILL_TOLERANCE: f64 = 0.25;
 /// Range of step fractions within which a switch is located.
 const FRACTIONS: (f64, f64) = (1e-3, 0.999);
 
+/// Motion of a rubbing body at an instant, and the load of its surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct LoadedSlip<'a> {
+    /// Motion.
+    pub slip: &'a Slip,
+    /// Load of the surfaces.
+    pub load: &'a SurfaceLoad,
+}
+
 /// Friction on a body: its parts, and the sources with their laws of sliding.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction<'a> {
@@ -203,39 +212,29 @@ impl<'a> DryFriction<'a> {
 
     /// Returns the fraction of a step at which it must end to meet a switch. Returns `None` without a switch, or if the
     /// step ends within its tolerance.
-    pub fn crossing(
-        &self,
-        state: &FrictionState,
-        start: (&Slip, &SurfaceLoad),
-        end: (&Slip, &SurfaceLoad),
-    ) -> Option<f64> {
+    pub fn crossing(&self, state: &FrictionState, start: LoadedSlip, end: LoadedSlip) -> Option<f64> {
         if self.of.commanded && state.mode == Mode::Stuck {
             return self.crossing_of_command(state, start, end);
         }
-        if !self.awaits_load(state, end.0) || self.of.limit(end.1) <= self.torque_resolution(end.0) {
+        if !self.awaits_load(state, end.slip) || self.of.limit(end.load) <= self.torque_resolution(end.slip) {
             return None;
         }
-        let after = self.overshoot(state, end.0, end.1);
+        let after = self.overshoot(state, end.slip, end.load);
         if after <= 1.0 {
             return None;
         }
         // aim at the middle of the tolerance; the tolerance of a sliding body depends on the loads at the end
-        let by = if state.mode == Mode::Stuck { start.1 } else { end.1 };
-        let before = self.overshoot(state, start.0, by).min(0.0);
+        let by = if state.mode == Mode::Stuck { start.load } else { end.load };
+        let before = self.overshoot(state, start.slip, by).min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
     /// Evaluates [`Self::crossing`] for a held body whose limit is commanded. The limit may fall within the step, even
     /// to zero.
-    fn crossing_of_command(
-        &self,
-        state: &FrictionState,
-        start: (&Slip, &SurfaceLoad),
-        end: (&Slip, &SurfaceLoad),
-    ) -> Option<f64> {
-        let limit = self.breakaway(start.1).max(self.breakaway(end.1));
-        let tolerance = LIMIT_TOLERANCE * limit + self.torque_resolution(end.0);
-        let [before, after] = [start, end].map(|(slip, by)| self.excess(state, slip, by) / tolerance);
+    fn crossing_of_command(&self, state: &FrictionState, start: LoadedSlip, end: LoadedSlip) -> Option<f64> {
+        let limit = self.breakaway(start.load).max(self.breakaway(end.load));
+        let tolerance = LIMIT_TOLERANCE * limit + self.torque_resolution(end.slip);
+        let [before, after] = [start, end].map(|at| self.excess(state, at.slip, at.load) / tolerance);
         let before = before.min(0.0);
         (after > 1.0).then(|| ((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
@@ -282,7 +281,7 @@ impl<'a> DryFriction<'a> {
     pub fn settle(
         &self,
         state: &mut FrictionState,
-        (slip, by): (&Slip, &SurfaceLoad),
+        LoadedSlip { slip, load: by }: LoadedSlip,
         stops: bool,
         count: f64,
         heat: &mut [f64],

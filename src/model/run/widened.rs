@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use super::failure::ExcessiveDeflection;
 use super::ledger::{LedgerEquations, LedgerSums, record_without_teeth};
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, Step};
+use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, Step, TimedPoint};
 use crate::model::assembly::Model;
 use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -165,9 +165,11 @@ impl SecondOrder<MEDIUM_SIZE> for Widened<'_> {
         self.0.energy_floor([&ends[0], &ends[1]], tolerance, residual)
     }
 
-    fn crossing(&self, start: (&Point<MEDIUM_SIZE>, f64), end: (&Point<MEDIUM_SIZE>, f64)) -> Option<f64> {
-        let [start_at, end_at] = [start.0, end.0].map(narrow);
-        self.0.crossing((&start_at, start.1), (&end_at, end.1))
+    fn crossing(&self, start: TimedPoint<MEDIUM_SIZE>, end: TimedPoint<MEDIUM_SIZE>) -> Option<f64> {
+        let [first, last] = [start.point, end.point].map(narrow);
+        let [start, end] =
+            [TimedPoint { point: &first, time: start.time }, TimedPoint { point: &last, time: end.time }];
+        self.0.crossing(start, end)
     }
 }
 
