@@ -45,6 +45,12 @@ pub trait Scalar:
         let f = libm::exp(self.value());
         self.through([f; 3])
     }
+    /// Hyperbolic tangent.
+    fn tanh(self) -> Self {
+        let t = libm::tanh(self.value());
+        let slope = 1.0 - t * t;
+        self.through([t, slope, -2.0 * t * slope])
+    }
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self {
         let per = 1.0 / self.value();

@@ -100,7 +100,8 @@ impl IdealWithEffects {
             }
         }
         if let [effect] = &this.body_effects.forces[..]
-            && let Some(heat_index) = effect.heat_of_half_shafts()
+            // ideal gears have no pins, so the springs are half-shafts
+            && let Some(heat_index) = effect.heat_of_springs()
         {
             this.linear = Some(Box::new(this.with_half_shafts(heat_index)));
         }

@@ -88,8 +88,8 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn scales_carrier_inputs(&self) -> bool {
         false
     }
-    /// Index of its heat in the ledger if the effect consists only of half-shaft torques, `None` otherwise.
-    fn heat_of_half_shafts(&self) -> Option<usize> {
+    /// Index of its heat in the ledger if it consists only of springs with dampers, `None` otherwise.
+    fn heat_of_springs(&self) -> Option<usize> {
         None
     }
     /// Stored energy [J].

@@ -1,4 +1,4 @@
-//! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`), dry friction with
+//! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`, `element`), dry friction with
 //! sticking (`friction_source`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
 
 pub mod body_effect;
@@ -8,6 +8,7 @@ pub mod dry_friction;
 #[path = "tests/dry_friction.rs"]
 mod dry_friction_tests;
 pub mod effect;
+pub mod element;
 pub mod friction;
 pub mod friction_part;
 pub mod friction_source;
@@ -23,6 +24,7 @@ pub mod torque_curve;
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
 pub(super) use effect::readings;
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
+pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
 pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
 pub use friction_source::{

@@ -22,8 +22,9 @@
 //! with the dip factor f_g = immersed depth / D: 0 if the disc runs dry, 1 if it is submerged.
 
 use crate::declaration::prelude::*;
-use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Setting, Slopes};
-use crate::model::scene::{OilSpec, Plan, Viscosity};
+use crate::model::effect_kinds::{BodyEffect, Declare, Effect, Element, Heat, Law, Part, Setting};
+use crate::model::scene::{CARRIER, OilSpec, Plan, Viscosity};
+use crate::numeric::Scalar;
 use crate::problem::Problem;
 
 /// Arrangement constant A_g.
@@ -141,26 +142,37 @@ impl Effect for BearingDragSpec {
     }
 
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        Some(Box::new(Drag::new(self, setting.oil, setting.heat_index)))
+        let [carrier, side] = self.resistances(setting.oil);
+        let part = |law: Resistance, body: usize| Part { law, displacement: None, body, base: None };
+        let parts = vec![part(side, 0), part(side, 1), part(carrier, CARRIER)];
+        Some(Box::new(Element::new(parts, setting.heat_index)))
     }
 }
 
-/// Drag on carrier and side gears.
-#[derive(Clone, Copy, Debug)]
-struct Drag {
+impl BearingDragSpec {
     /// Resistances of the carrier and of each side gear.
-    on: [Resistance; 2],
-    /// Speed ω₀ at which the constant torque has reached tanh 1 = 76 % [rad/s].
-    breakaway_speed: f64,
-    /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
-    churning_per_viscosity: f64,
-    /// True if viscous drag depends on the oil.
-    viscous_in_oil: bool,
-    /// Viscosity of the oil at which viscous drag has its given value [Pa·s]. It is never 0, because compilers may divide
-    /// before they test `viscous_in_oil`.
-    reference: f64,
-    /// Index of the heat in the ledger.
-    heat_index: usize,
+    fn resistances(&self, oil: &OilSpec) -> [Resistance; 2] {
+        let by_size = self.churning_from_geometry;
+        let bearings = BEARINGS * self.bearing_coefficient * self.bearing_load * self.bearing_diameter;
+        let reference = self.viscosity_from_oil.then(|| oil.viscosity(self.reference_temperature).dynamic);
+        let breakaway_speed = self.breakaway_speed;
+        let carrier = Resistance {
+            coulomb: self.carrier_torque + bearings,
+            viscous: self.carrier_viscous,
+            churning: if by_size { 0.0 } else { self.carrier_churning },
+            churning_per_viscosity: if by_size { self.churning_per_viscosity() } else { 0.0 },
+            reference,
+            breakaway_speed,
+        };
+        let side = Resistance {
+            coulomb: self.side_torque + self.seal_torque_per_diameter * self.seal_diameter,
+            viscous: self.side_viscous,
+            churning: 0.0,
+            churning_per_viscosity: 0.0,
+            ..carrier
+        };
+        [carrier, side]
+    }
 }
 
 /// Resistance to the rotation of the carrier or of a side gear.
@@ -172,87 +184,47 @@ struct Resistance {
     viscous: f64,
     /// Churning that does not depend on the oil [N·m·s²/rad²].
     churning: f64,
+    /// Churning that depends on the oil, over its kinematic viscosity [N·m·s³/(rad²·m²)].
+    churning_per_viscosity: f64,
+    /// Viscosity of the oil at which viscous drag has its given value [Pa·s]; `None` if it does not depend on the oil.
+    reference: Option<f64>,
+    /// Speed ω₀ at which the constant torque has reached tanh 1 = 76 % [rad/s].
+    breakaway_speed: f64,
 }
 
-impl Drag {
-    fn new(spec: &BearingDragSpec, oil: &OilSpec, heat_index: usize) -> Self {
-        let by_size = spec.churning_from_geometry;
-        let bearings = BEARINGS * spec.bearing_coefficient * spec.bearing_load * spec.bearing_diameter;
-        Self {
-            on: [
-                Resistance {
-                    coulomb: spec.carrier_torque + bearings,
-                    viscous: spec.carrier_viscous,
-                    churning: if by_size { 0.0 } else { spec.carrier_churning },
-                },
-                Resistance {
-                    coulomb: spec.side_torque + spec.seal_torque_per_diameter * spec.seal_diameter,
-                    viscous: spec.side_viscous,
-                    churning: 0.0,
-                },
-            ],
-            breakaway_speed: spec.breakaway_speed,
-            churning_per_viscosity: if by_size { spec.churning_per_viscosity() } else { 0.0 },
-            viscous_in_oil: spec.viscosity_from_oil,
-            reference: if spec.viscosity_from_oil { oil.viscosity(spec.reference_temperature).dynamic } else { 1.0 },
-            heat_index,
-        }
-    }
-
+impl Resistance {
     /// Resistance at the viscosity of `oil`. It is `#[cold]`, because in most scenes nothing depends on the oil. It is
     /// not inlined, because compilers would divide a viscosity before they test if there is one.
     #[cold]
     #[inline(never)]
-    fn in_oil(&self, oil: Viscosity, is_carrier: bool) -> Resistance {
-        let mut on = self.on[usize::from(!is_carrier)];
-        if is_carrier {
-            on.churning += self.churning_per_viscosity * oil.kinematic;
-        }
-        if self.viscous_in_oil {
-            on.viscous *= oil.dynamic / self.reference;
-        }
-        on
-    }
-
-    /// Torque against the rotation of carrier or side gear at the speed `v` [rad/s], and the derivative with respect to
-    /// the speed.
-    #[inline]
-    fn drag(&self, oil: Option<Viscosity>, is_carrier: bool, v: f64) -> (f64, f64) {
-        let warmed;
-        let on = match oil {
-            Some(oil) => {
-                warmed = self.in_oil(oil, is_carrier);
-                &warmed
-            }
-            None => &self.on[usize::from(!is_carrier)],
-        };
-        let t = libm::tanh(v / self.breakaway_speed);
-        (
-            on.coulomb * t + on.viscous * v + on.churning * v * v.abs(),
-            on.coulomb * (1.0 - t * t) / self.breakaway_speed + on.viscous + 2.0 * on.churning * v.abs(),
-        )
+    fn in_oil(&self, oil: Viscosity) -> Self {
+        let churning = self.churning + self.churning_per_viscosity * oil.kinematic;
+        let viscous = self.reference.map_or(self.viscous, |reference| self.viscous * (oil.dynamic / reference));
+        Self { churning, viscous, ..*self }
     }
 }
 
-impl BodyEffect for Drag {
-    fn act(&self, at: &BodyMotion, out: &mut Action) {
-        for i in 0..3 {
-            let (torque, _) = self.drag(at.oil_viscosity, i == at.layout.carrier(), at.v[i]);
-            out.force[i] -= torque;
-            out.heat[self.heat_index] += torque * at.v[i];
-        }
-    }
-
-    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
-        for i in 0..3 {
-            out.velocity(i, i, -self.drag(at.oil_viscosity, i == at.layout.carrier(), at.v[i]).1);
-        }
+impl Law for Resistance {
+    #[inline]
+    fn force<T: Scalar>(&self, _: T, speed: T, oil: Option<Viscosity>) -> T {
+        let warmed;
+        let on = match oil {
+            Some(oil) => {
+                warmed = self.in_oil(oil);
+                &warmed
+            }
+            None => self,
+        };
+        (speed / T::constant(on.breakaway_speed)).tanh() * on.coulomb
+            + speed * on.viscous
+            + speed * on.churning * speed.abs()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::effect_kinds::element::verify;
 
     /// Oil of 100 mm²/s.
     const OIL: Option<Viscosity> = Some(Viscosity { kinematic: 1e-4, dynamic: 0.085 });
@@ -264,29 +236,29 @@ mod tests {
     #[test]
     fn a_carrier_churns_as_a_smooth_disc_by_its_rim_and_its_sides() {
         let spec = BearingDragSpec { churning_from_geometry: true, ..none() };
-        let drag = Drag::new(&spec, &OilSpec::default(), 0);
+        let on = spec.resistances(&OilSpec::default());
         // by hand: D = 200 mm, L = 50 mm, f_g = 0.3, 100 mm²/s, 1000 1/min; 200^4.7 = 6.528 914 474 78 × 10¹⁰
         let rim = 7.37 * 0.3 * 100.0 * 1e9 * 6.528_914_474_778_8e10 * 50.0 / 0.2e26;
         let sides = 1.474 * 0.3 * 100.0 * 1e9 * 6.528_914_474_778_8e10 * 200.0 / 0.2e26;
         let speed = 1000.0 * std::f64::consts::PI / 30.0;
         for sign in [1.0, -1.0] {
-            let (torque, _) = drag.drag(OIL, true, sign * speed);
+            let torque = on[0].force(0.0, sign * speed, OIL);
             assert!((torque * sign * speed / 1e3 / (rim + sides) - 1.0).abs() < 1e-9, "{torque}");
         }
-        assert_eq!(drag.drag(OIL, false, speed).0, 0.0);
+        assert_eq!(on[1].force(0.0, speed, OIL), 0.0);
         let dry = BearingDragSpec { oil_level: 0.0, ..spec };
         assert!(spec.is_oiled() && !dry.is_oiled());
-        assert_eq!(Drag::new(&dry, &OilSpec::default(), 0).drag(None, true, speed).0, 0.0);
+        assert_eq!(dry.resistances(&OilSpec::default())[0].force(0.0, speed, None), 0.0);
     }
 
     #[test]
     fn seals_and_loaded_bearings_add_to_the_torque_that_builds_up() {
         let spec = BearingDragSpec { seal_diameter: 0.04, bearing_load: 5000.0, carrier_churning: 0.0, ..none() };
-        let drag = Drag::new(&spec, &OilSpec::default(), 0);
+        let on = spec.resistances(&OilSpec::default());
         // by hand: 2 · 0.0004 · 5000 N · 70 mm = 280 N·mm, and 3.737e-3 · 40 N·m
-        for (is_carrier, full) in [(true, 0.28), (false, 0.149_48)] {
+        for (on, full) in on.into_iter().zip([0.28, 0.149_48]) {
             for speed in [-20.0, 0.05, 20.0] {
-                let (torque, _) = drag.drag(None, is_carrier, speed);
+                let torque = on.force(0.0, speed, None);
                 assert!((torque - full * f64::tanh(speed / 0.1)).abs() < 1e-9 * full, "{torque}");
             }
         }
@@ -298,20 +270,19 @@ mod tests {
         let at_reference = OilSpec::default().viscosity(given.reference_temperature);
         for (follows, times, expected) in [(true, 1.0, 1.0), (true, 3.0, 3.0), (true, 0.25, 0.25), (false, 3.0, 1.0)] {
             let spec = BearingDragSpec { viscosity_from_oil: follows, ..given };
-            let drag = Drag::new(&spec, &OilSpec::default(), 0);
+            let on = spec.resistances(&OilSpec::default());
             let oil = Viscosity { dynamic: times * at_reference.dynamic, ..at_reference };
-            for (is_carrier, viscous) in [(true, 0.02), (false, 0.01)] {
+            for (on, viscous) in on.into_iter().zip([0.02, 0.01]) {
                 for speed in [40.0, -40.0] {
-                    let (torque, slope) = drag.drag(Some(oil), is_carrier, speed);
+                    let torque = on.force(0.0, speed, Some(oil));
                     assert!((torque - expected * viscous * speed).abs() < 1e-12, "{follows} {times}: {torque}");
-                    assert!((slope - expected * viscous).abs() < 1e-14, "{follows} {times}: {slope}");
                 }
             }
         }
     }
 
     #[test]
-    fn slopes_match_the_torques() {
+    fn the_laws_are_consistent() {
         let spec = BearingDragSpec {
             churning_from_geometry: true,
             viscosity_from_oil: true,
@@ -323,15 +294,11 @@ mod tests {
             side_viscous: 1e-3,
             ..BearingDragSpec::default()
         };
-        let drag = Drag::new(&spec, &OilSpec::default(), 0);
-        for (is_carrier, speed) in [(true, 50.0), (true, -0.03), (true, -90.0), (false, 0.02), (false, -60.0)] {
-            let torque = |v: f64| drag.drag(OIL, is_carrier, v).0;
-            let step = 1e-4;
-            let slope = (8.0 * (torque(speed + step) - torque(speed - step))
-                - (torque(speed + 2.0 * step) - torque(speed - 2.0 * step)))
-                / (12.0 * step);
-            let exact = drag.drag(OIL, is_carrier, speed).1;
-            assert!((slope / exact - 1.0).abs() < 1e-7, "{is_carrier} {speed}: {exact} {slope}");
+        let on = spec.resistances(&OilSpec::default());
+        for law in on {
+            for oil in [OIL, None] {
+                verify(&law, oil, &[0.0], &[50.0, 0.02, 90.0]);
+            }
         }
     }
 }

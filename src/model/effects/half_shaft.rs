@@ -4,7 +4,7 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Instant, Reading, Setting, Slopes, readings,
+    BodyEffect, Declare, Effect, Element, Heat, Instant, Law, Part, Reading, Setting, Spring, readings,
 };
 use crate::model::scene::{InertiaSpec, Plan, Requests, Scene, SideDrive};
 use crate::problem::Problem;
@@ -79,10 +79,13 @@ impl Effect for HalfShaftSpec {
     }
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
-        let shafts = HalfShafts::new(self, plan);
-        plan.layout()
-            .has_ends()
-            .then(|| Box::new(ShaftTorques { shafts, heat_index: setting.heat_index }) as Box<dyn BodyEffect>)
+        let (shafts, layout) = (HalfShafts::new(self, plan), plan.layout());
+        let part = |s: usize| {
+            let end = layout.end(s);
+            // the twist grows if the side gear turns faster than the end
+            Part { law: shafts.0[s], displacement: Some(end), body: s, base: Some(end) }
+        };
+        layout.has_ends().then(|| Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)) as _)
     }
 }
 
@@ -100,82 +103,31 @@ impl HalfShaftSpec {
     }
 }
 
-/// Stiffness and damping of the half-shafts whose ends are degrees of freedom.
+/// Half-shafts whose ends are degrees of freedom, left and right.
 #[derive(Clone, Copy, Debug)]
-pub struct HalfShafts {
-    /// Stiffness k, left and right [N·m/rad].
-    stiffness: [f64; 2],
-    /// Damping c, left and right [N·m·s/rad].
-    damping: [f64; 2],
-}
+pub struct HalfShafts([Spring; 2]);
 
 impl HalfShafts {
     /// Half-shafts of `plan`. Stiffness and damping are 0 on a side whose end has no degree of freedom.
     pub fn new(spec: &HalfShaftSpec, plan: &Plan) -> Self {
-        let of = |values: [f64; 2]| [0, 1].map(|s| if plan.shafts[s] { values[s] } else { 0.0 });
-        Self { stiffness: of(spec.stiffness), damping: of(spec.damping) }
+        let of = |s: usize, value: f64| if plan.shafts[s] { value } else { 0.0 };
+        Self([0, 1].map(|s| Spring { stiffness: of(s, spec.stiffness[s]), damping: of(s, spec.damping[s]) }))
     }
 
     /// Torque that the shaft of side `s` delivers to the wheel [N·m], at `twist` [rad] and its `rate` [rad/s].
     #[inline]
     pub fn torque(&self, s: usize, twist: f64, rate: f64) -> f64 {
-        self.stiffness[s] * twist + self.damping[s] * rate
+        self.0[s].force(twist, rate, None)
     }
 
     /// Power that damping of the shaft of side `s` turns into heat [W], at the `rate` of its twist [rad/s].
     #[inline]
     pub fn heat(&self, s: usize, rate: f64) -> f64 {
-        self.damping[s] * rate * rate
+        self.0[s].heat(rate, 0.0)
     }
 
     /// Static twist of the shaft of side `s` [rad] under `torque` [N·m].
     pub fn static_twist(&self, s: usize, torque: f64) -> f64 {
-        torque / self.stiffness[s]
-    }
-}
-
-/// Torques of the half-shafts on side gears and ends.
-#[derive(Clone, Copy, Debug)]
-struct ShaftTorques {
-    shafts: HalfShafts,
-    heat_index: usize,
-}
-
-impl BodyEffect for ShaftTorques {
-    fn act(&self, at: &BodyMotion, out: &mut Action) {
-        for s in 0..2 {
-            let end = at.layout.end(s);
-            let rate = at.v[s] - at.v[end];
-            let torque = self.shafts.torque(s, at.q[end], rate);
-            out.force[s] -= torque;
-            out.force[end] += torque;
-            out.heat[self.heat_index] += self.shafts.heat(s, rate);
-        }
-    }
-
-    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
-        for s in 0..2 {
-            let end = at.layout.end(s);
-            let (k, c) = (self.shafts.stiffness[s], self.shafts.damping[s]);
-            out.position(s, end, -k);
-            out.position(end, end, k);
-            out.velocity(s, s, -c);
-            out.velocity(s, end, c);
-            out.velocity(end, s, c);
-            out.velocity(end, end, -c);
-        }
-    }
-
-    fn heat_of_half_shafts(&self) -> Option<usize> {
-        Some(self.heat_index)
-    }
-
-    fn energy(&self, at: &BodyMotion) -> f64 {
-        (0..2)
-            .map(|s| {
-                let twist = at.q[at.layout.end(s)];
-                0.5 * self.shafts.stiffness[s] * twist * twist
-            })
-            .sum()
+        torque / self.0[s].stiffness
     }
 }

@@ -6,9 +6,8 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, BodyEffect, BodyMotion, Declare, Effect, Heat, Needs, Setting, Slopes, ToothEffects,
+    BodyEffect, Declare, Effect, Element, Heat, Needs, Part, Setting, Spring, ToothEffects,
 };
-use crate::model::scene::layout::over_groups;
 use crate::model::scene::{GearContact, Plan, Requests};
 use crate::numeric::cos;
 use crate::problem::Problem;
@@ -53,75 +52,16 @@ impl Effect for PinComplianceSpec {
         Ok(())
     }
 
-    fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        let arm = setting.pair.mean_cone * cos(setting.pair.gears[0].pitch);
-        let (pin, case) = (self.pin_stiffness * arm * arm, self.case_stiffness);
-        Some(Box::new(Springs { pin, case, time: self.damping_time, heat_index: setting.heat_index }))
-    }
-}
-
-/// Springs of pins and case.
-#[derive(Clone, Copy, Debug)]
-struct Springs {
-    /// Stiffness k_p r² of a pin [N·m/rad].
-    pin: f64,
-    /// Stiffness k_c of the case [N/m].
-    case: f64,
-    /// Damping over stiffness τ [s].
-    time: f64,
-    heat_index: usize,
-}
-
-impl BodyEffect for Springs {
-    fn act(&self, at: &BodyMotion, out: &mut Action) {
-        let layout = at.layout;
-        let carrier = layout.carrier();
-        let mut pins = [0.0; 4];
-        let mut heat = [0.0; 4];
-        for g in 0..layout.groups {
-            let i = layout.pin(g);
-            let rate = at.v[i] - at.v[carrier];
-            let torque = self.pin * (at.q[i] + self.time * rate);
-            out.force[i] -= torque;
-            pins[g] = layout.members[g] * torque;
-            heat[g] = layout.members[g] * self.pin * self.time * rate * rate;
-        }
-        out.force[carrier] += over_groups(layout.groups, |g| pins[g]);
-        out.heat[self.heat_index] += over_groups(layout.groups, |g| heat[g]);
-        for s in 0..2 {
-            let i = layout.seat(s);
-            out.force[i] -= self.case * (at.q[i] + self.time * at.v[i]);
-            out.heat[self.heat_index] += self.case * self.time * at.v[i] * at.v[i];
-        }
-    }
-
-    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
-        let layout = at.layout;
-        let (carrier, c) = (layout.carrier(), self.pin * self.time);
-        for g in 0..layout.groups {
-            let (i, m) = (layout.pin(g), layout.members[g]);
-            out.position(i, i, -self.pin);
-            out.velocity(i, i, -c);
-            out.velocity(i, carrier, c);
-            out.position(carrier, i, m * self.pin);
-            out.velocity(carrier, i, m * c);
-        }
-        out.velocity(carrier, carrier, -over_groups(layout.groups, |g| layout.members[g] * c));
-        for s in 0..2 {
-            let i = layout.seat(s);
-            out.position(i, i, -self.case);
-            out.velocity(i, i, -self.case * self.time);
-        }
-    }
-
-    fn is_structure(&self) -> bool {
-        true
-    }
-
-    fn energy(&self, at: &BodyMotion) -> f64 {
-        let layout = at.layout;
-        let square = |i: usize| at.q[i] * at.q[i];
-        let pins = over_groups(layout.groups, |g| layout.members[g] * self.pin * square(layout.pin(g)));
-        0.5 * (pins + self.case * (square(layout.seat(0)) + square(layout.seat(1))))
+    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+        let (layout, arm) = (plan.layout(), setting.pair.mean_cone * cos(setting.pair.gears[0].pitch));
+        let spring = |stiffness: f64, i: usize, base: Option<usize>| {
+            let law = Spring { stiffness, damping: stiffness * self.damping_time };
+            Part { law, displacement: Some(i), body: i, base }
+        };
+        let (pin, carrier) = (self.pin_stiffness * arm * arm, Some(layout.carrier()));
+        let pins = (0..layout.groups).map(|g| spring(pin, layout.pin(g), carrier));
+        let seats = (0..2).map(|s| spring(self.case_stiffness, layout.seat(s), None));
+        let (parts, groups, members) = (pins.chain(seats).collect(), layout.groups, layout.members);
+        Some(Box::new(Element { parts, groups, members, is_structure: true, heat_index: setting.heat_index }))
     }
 }

@@ -19,10 +19,10 @@ mod slip_torque;
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
-    BodyEffect, Declare, Effect, FrictionSource, Heat, Pressed, Ramps, Reading, Setting, SideFriction, Slides,
-    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
+    BodyEffect, Declare, Effect, Element, FrictionSource, Heat, Part, Pressed, Ramps, Reading, Setting, SideFriction,
+    Slides, SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
 };
-use crate::model::scene::{GearContact, Plan};
+use crate::model::scene::{CARRIER, GearContact, Plan};
 use crate::model::thermal::CLUTCH;
 use crate::problem::Problem;
 use curve::CurvePoint;
@@ -124,12 +124,12 @@ impl LimitedSlipSpec {
         curve::curve(&self.curve).filter(|curve| curve.breakaway() > 0.0)
     }
 
-    /// Torques that only resist slip, if there are any. Their heat has the index `heat_index`.
-    fn slip_torque(&self, heat_index: usize) -> Option<SlipTorque> {
+    /// Torque of a pack that only resists slip, if there is any.
+    fn slip_torque(&self) -> Option<SlipTorque> {
         let Self { viscous_torque: torque, viscous_speed: speed, viscous_exponent: exponent, .. } = *self;
         let viscous = (torque > 0.0).then_some(Viscous { torque, speed, exponent });
         let curve = curve::curve(&self.curve).filter(|curve| curve.breakaway() == 0.0);
-        (viscous.is_some() || curve.is_some()).then_some(SlipTorque { viscous, curve, heat_index })
+        (viscous.is_some() || curve.is_some()).then_some(SlipTorque { viscous, curve })
     }
 
     /// Warning about clutches that lock themselves.
@@ -171,7 +171,7 @@ impl Effect for LimitedSlipSpec {
     }
 
     fn warnings(&self, _: &Setting) -> Vec<Problem> {
-        let acts = self.is_pressed() || self.slip_torque(0).is_some() || self.curve_that_holds().is_some();
+        let acts = self.is_pressed() || self.slip_torque().is_some() || self.curve_that_holds().is_some();
         if !acts {
             let said = "the clutches have no torque: set limited_slip.preload, torque_coefficient, viscous_torque or the \
                         points of curve, or switch the effect off";
@@ -181,13 +181,14 @@ impl Effect for LimitedSlipSpec {
     }
 
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
-        let torque = self.slip_torque(setting.heat_index)?;
-        Some(Box::new(torque))
+        let law = self.slip_torque()?;
+        let part = |s: usize| Part { law, displacement: None, body: s, base: Some(CARRIER) };
+        Some(Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)))
     }
 
     fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
         let curve = self.curve_that_holds();
-        if !self.is_pressed() && curve.is_none() && self.slip_torque(0).is_some() {
+        if !self.is_pressed() && curve.is_none() && self.slip_torque().is_some() {
             return None;
         }
         // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)

@@ -12,8 +12,9 @@
 //! Source of the power law: the shear of silicone oil between the plates of a viscous coupling; H. Naunheimer et al.,
 //! Automotive Transmissions, 2nd ed., Springer 2011, section 10.2.
 
-use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Slopes, TorqueCurve};
-use crate::numeric::pow;
+use crate::model::effect_kinds::{Law, TorqueCurve};
+use crate::model::scene::Viscosity;
+use crate::numeric::Scalar;
 
 /// Slip below which the torque becomes linear, over the reference slip.
 const EPSILON: f64 = 1e-3;
@@ -30,93 +31,64 @@ pub struct Viscous {
 }
 
 impl Viscous {
-    /// Torque against the `slip` [rad/s] in its direction [N·m], and the derivative with respect to slip.
-    fn at(&self, slip: f64) -> [f64; 2] {
-        let y = slip / self.speed;
+    /// Torque against the `slip` [rad/s] in its direction [N·m].
+    fn torque<T: Scalar>(&self, slip: T) -> T {
+        let y = slip / T::constant(self.speed);
         let square = y * y + EPSILON * EPSILON;
-        let per_slip = self.torque / self.speed * pow(square, 0.5 * (self.exponent - 1.0));
-        let elasticity = 1.0 + (self.exponent - 1.0) * y * y / square;
-        [per_slip * slip, per_slip * elasticity]
+        square.powf(0.5 * (self.exponent - 1.0)) * (self.torque / self.speed) * slip
     }
 }
 
-/// Torque of both packs by slip.
+/// Torque of a pack by slip.
 #[derive(Clone, Copy, Debug)]
 pub struct SlipTorque {
     /// Torque of sheared oil.
     pub viscous: Option<Viscous>,
     /// Measured torque that is zero without slip.
     pub curve: Option<TorqueCurve>,
-    /// Index of the heat in the ledger.
-    pub heat_index: usize,
 }
 
-impl SlipTorque {
-    /// Torque against the `slip` [rad/s] in its direction [N·m], and the derivative with respect to slip.
-    fn at(&self, slip: f64) -> [f64; 2] {
-        let viscous = self.viscous.map_or([0.0; 2], |viscous| viscous.at(slip));
-        let curve = self.curve.map_or([0.0; 2], |curve| {
-            let [torque, slope] = curve.at(slip.abs());
-            [torque.copysign(slip), slope]
+impl Law for SlipTorque {
+    fn force<T: Scalar>(&self, _: T, slip: T, _: Option<Viscosity>) -> T {
+        let viscous = self.viscous.map_or(T::constant(0.0), |viscous| viscous.torque(slip));
+        let curve = self.curve.map_or(T::constant(0.0), |curve| {
+            let [torque, slope] = curve.at(slip.value().abs());
+            slip.through([torque.copysign(slip.value()), slope, 0.0])
         });
-        [viscous[0] + curve[0], viscous[1] + curve[1]]
-    }
-}
-
-impl BodyEffect for SlipTorque {
-    fn act(&self, at: &BodyMotion, out: &mut Action) {
-        let carrier = at.layout.carrier();
-        for s in 0..2 {
-            let slip = at.v[s] - at.v[carrier];
-            let [torque, _] = self.at(slip);
-            out.force[s] -= torque;
-            out.force[carrier] += torque;
-            out.heat[self.heat_index] += torque * slip;
-        }
-    }
-
-    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
-        let carrier = at.layout.carrier();
-        for s in 0..2 {
-            let [_, slope] = self.at(at.v[s] - at.v[carrier]);
-            for (i, j, sign) in [(s, s, -1.0), (s, carrier, 1.0), (carrier, s, 1.0), (carrier, carrier, -1.0)] {
-                out.velocity(i, j, sign * slope);
-            }
-        }
+        viscous + curve
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::effect_kinds::element::verify;
+    use crate::numeric::Dual;
 
     #[test]
-    fn viscous_torque_follows_its_power_law_and_its_derivative_matches_differences() {
+    fn viscous_torque_follows_its_power_law() {
         for exponent in [0.3, 0.5, 1.0, 2.0] {
             let viscous = Viscous { torque: 80.0, speed: 10.0, exponent };
             for slip in [0.5, 3.0, 10.0, 400.0] {
-                let [torque, slope] = viscous.at(slip);
-                let law = 80.0 * (slip / 10.0_f64).powf(exponent);
+                let (torque, law) = (viscous.torque(slip), 80.0 * (slip / 10.0_f64).powf(exponent));
                 assert!((torque / law - 1.0).abs() < 2e-4, "{exponent} {slip}: {torque} for {law}");
-                let h = 1e-6 * slip;
-                let difference = (viscous.at(slip + h)[0] - viscous.at(slip - h)[0]) / (2.0 * h);
-                assert!((slope / difference - 1.0).abs() < 1e-7, "{exponent} {slip}");
             }
         }
     }
 
     #[test]
-    fn torque_is_odd_zero_at_rest_and_has_a_bounded_derivative() {
+    fn torque_is_zero_at_rest_and_its_law_is_consistent_with_a_bounded_derivative() {
         let curve = TorqueCurve::new(&[[5.0, 40.0], [20.0, 60.0]]);
-        let viscous = Some(Viscous { torque: 80.0, speed: 10.0, exponent: 0.3 });
-        for both in [SlipTorque { viscous, curve, heat_index: 0 }, SlipTorque { viscous: None, curve, heat_index: 0 }] {
-            for slip in [1e-9, 0.1, 7.0, 300.0] {
-                let [[forward, slope], [backward, other]] = [both.at(slip), both.at(-slip)];
-                assert!(forward == -backward && slope == other && forward > 0.0);
+        for exponent in [0.3, 0.5, 1.0, 2.0] {
+            let viscous = Some(Viscous { torque: 80.0, speed: 10.0, exponent });
+            for law in [SlipTorque { viscous, curve }, SlipTorque { viscous, curve: None }] {
+                verify(&law, None, &[0.0], &[0.1, 3.0, 7.0, 300.0]);
+                assert_eq!(law.force(0.0, 0.0, None), 0.0);
             }
-            assert_eq!(both.at(0.0)[0], 0.0);
-            // 80/10 · 1000^0.7 N·m·s/rad of the oil, and less than 20 of the curve
-            assert!(both.at(0.0)[1] < 8.0 * 126.0 + 20.0);
         }
+        // 80/10 · 1000^0.7 N·m·s/rad of the oil, and less than 20 of the curve
+        let viscous = Some(Viscous { torque: 80.0, speed: 10.0, exponent: 0.3 });
+        let at_rest = Dual::<2>::variable(0.0, 1);
+        assert!(SlipTorque { viscous, curve }.force(at_rest, at_rest, None).d[1] < 8.0 * 126.0 + 20.0);
     }
 }
