@@ -9,6 +9,9 @@ pub mod dry_friction;
 mod dry_friction_tests;
 pub mod effect;
 pub mod element;
+#[cfg(test)]
+#[path = "tests/element.rs"]
+pub mod element_tests;
 pub mod friction;
 pub mod friction_part;
 pub mod friction_source;

@@ -224,7 +224,7 @@ impl Law for Resistance {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effect_kinds::element::verify;
+    use crate::model::effect_kinds::element_tests::verify;
 
     /// Oil of 100 mm²/s.
     const OIL: Option<Viscosity> = Some(Viscosity { kinematic: 1e-4, dynamic: 0.085 });

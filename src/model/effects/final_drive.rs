@@ -3,8 +3,8 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{Action, BodyEffect, BodyMotion, Declare, Effect, Setting, Slopes};
-use crate::model::scene::{CARRIER, Plan};
-use crate::numeric::{cos, sin};
+use crate::model::scene::{CARRIER, Inputs, Plan};
+use crate::numeric::{Jet, Scalar};
 
 parameters! {
     /// Excitation by the final drive's ring gear.
@@ -38,28 +38,39 @@ struct Excitation {
     imposed: bool,
 }
 
+impl Excitation {
+    /// Change of the commanded torque at the `angle` of the carrier, relative to the command.
+    fn of_torque<T: Scalar>(&self, angle: T) -> T {
+        (angle * self.teeth).sin() * self.amplitude
+    }
+
+    /// Change of the commanded speed at the `angle` of the carrier, relative to the command.
+    fn of_speed<T: Scalar>(&self, angle: T) -> T {
+        (angle * self.teeth).cos() * self.amplitude
+    }
+}
+
 impl BodyEffect for Excitation {
     fn act(&self, at: &BodyMotion, out: &mut Action) {
         let c = at.layout.carrier();
-        let wave = sin(self.teeth * at.q[c]);
+        let angle = Jet::variable(at.q[c]);
         if self.imposed {
-            *out.imposed += at.input_rates.carrier_speed * self.amplitude * cos(self.teeth * at.q[c]);
-            *out.imposed -= at.inputs.carrier_speed * self.amplitude * self.teeth * wave * at.v[c];
+            let wave = self.of_speed(angle);
+            *out.imposed += at.input_rates.carrier_speed * wave.v + at.inputs.carrier_speed * wave.d * at.v[c];
         } else {
-            *out.drive += at.inputs.carrier_torque * self.amplitude * wave;
+            *out.drive += at.inputs.carrier_torque * self.of_torque(angle).v;
         }
     }
 
     fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         let c = at.layout.carrier();
-        let (wave, slope) = (sin(self.teeth * at.q[c]), self.teeth * cos(self.teeth * at.q[c]));
+        let (angle, Inputs { carrier_speed: speed, carrier_torque: torque, .. }) = (Jet::variable(at.q[c]), at.inputs);
         if self.imposed {
-            let amplitude = at.inputs.carrier_speed * self.amplitude * self.teeth;
-            out.imposed[0][c] -= amplitude * slope * at.v[c];
-            out.imposed[0][c] -= at.input_rates.carrier_speed * self.amplitude * self.teeth * wave;
-            out.imposed[1][c] -= amplitude * wave;
+            let wave = self.of_speed(angle);
+            out.imposed[0][c] += at.input_rates.carrier_speed * wave.d + speed * wave.dd * at.v[c];
+            out.imposed[1][c] += speed * wave.d;
         } else {
-            out.position(c, c, at.inputs.carrier_torque * self.amplitude * slope);
+            out.position(c, c, torque * self.of_torque(angle).d);
         }
     }
 
@@ -68,6 +79,6 @@ impl BodyEffect for Excitation {
     }
 
     fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
-        if self.imposed { command * (1.0 + self.amplitude * cos(self.teeth * q[CARRIER])) } else { command }
+        if self.imposed { command * (1.0 + self.of_speed(q[CARRIER])) } else { command }
     }
 }

@@ -14,7 +14,6 @@
 use crate::FULL;
 
 use super::failure::ExcessiveDeflection;
-use super::widened::Widened;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Failure, Radau, Rodas5P, SolverContext, Statistics, Step, Trajectory};
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
@@ -117,9 +116,8 @@ fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWi
 fn integrate_ideal_through_object(
     (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn LedgerEquations<MEDIUM_SIZE> =
-        &mut Widened(IdealEquations::new(ideal, integration.inputs, state));
-    integrate_equations::<MEDIUM_SIZE, Any, _>(equations, model, state, integration, budget)
+    let equations: &mut dyn LedgerEquations<IDEAL_SIZE> = &mut IdealEquations::new(ideal, integration.inputs, state);
+    integrate_equations::<IDEAL_SIZE, Any, _>(equations, model, state, integration, budget)
 }
 
 /// Integrates plain teeth, or teeth with effects and planets in one or two groups. Monomorphised for each shape.

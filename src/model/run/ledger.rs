@@ -93,19 +93,9 @@ impl LedgerEquations<IDEAL_SIZE> for IdealEquations<'_> {
     }
 
     fn record(&self, model: &Model, step: &Step<IDEAL_SIZE, LedgerRates>, sums: &mut LedgerSums) {
-        record_without_teeth(model, self.applied(), step, sums);
+        add_to_ledger(step, sums.work, sums.heat, true);
+        warm_up(model, self.applied(), step, sums);
     }
-}
-
-/// Records a completed step of ideal gears.
-pub fn record_without_teeth<const N: usize>(
-    model: &Model,
-    applied: &InputsAndFriction,
-    step: &Step<N, LedgerRates>,
-    sums: &mut LedgerSums,
-) {
-    add_to_ledger(step, sums.work, sums.heat, true);
-    warm_up(model, applied, step, sums);
 }
 
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {

@@ -14,8 +14,7 @@
 //!
 //! `coupling` records the exchange with the host, in scenes with advice about the communication step.
 //!
-//! Before a call, `input_ramp` turns jumps of inputs into ramps. `widened` lets ideal gears use methods other than the
-//! default. In model exchange, `accepted` stores the end of the last step of the host's solver.
+//! Before a call, `input_ramp` turns jumps of inputs into ramps. In model exchange, `accepted` stores the end of the last step of the host's solver.
 
 pub mod accepted;
 mod change;
@@ -32,12 +31,9 @@ pub mod ledger;
 pub mod progress;
 mod simulation;
 pub mod watching;
-mod widened;
 
 pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};
 pub use input_ramp::HostInputs;
 pub use ledger::{LedgerEquations, LedgerSums};
 pub use simulation::Simulation;
-#[cfg(test)]
-pub use widened::Widened;

@@ -1,12 +1,10 @@
-//! Tests of the equations of ideal gears with effects. Scenes in which only half-shafts act use separate equations, and
-//! some integration methods use larger matrices. Both must give the same bits.
+//! Tests of the equations of ideal gears with effects. Scenes in which only half-shafts act use separate equations,
+//! which must give the same bits.
 
-use super::{FrictionEquations, IdealEquations, State};
+use super::{IdealEquations, State};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
 use crate::model::assembly::{Gears, Given, Model};
-use crate::model::dynamics::shape::MEDIUM_SIZE;
-use crate::model::run::Widened;
 use crate::model::scene::{CarrierDrive, GearContact, InputDerivatives, Inputs, PlanetSpin, SideDrive};
 use crate::model::{Parameters, Simulation};
 
@@ -82,34 +80,5 @@ fn derivatives_of_the_accelerations_equal_differences() {
                 assert!((by_velocity[i] - a[i] - lin.by_velocity[i][j]).abs() < size, "{i} by velocity {j}");
             }
         }
-    });
-}
-
-#[test]
-fn a_larger_size_changes_no_bit() {
-    at_random_points(|ideal, state, inputs, at| {
-        let equations = IdealEquations::new(ideal, inputs, state);
-        let widened = Widened(IdealEquations::new(ideal, inputs, state));
-        let large: Point<MEDIUM_SIZE> = Point::of([&at.q, &at.v]);
-        let narrow = |values: [f64; MEDIUM_SIZE]| {
-            assert_eq!(values[IDEAL_SIZE..], [0.0; MEDIUM_SIZE - IDEAL_SIZE]);
-            std::array::from_fn::<f64, IDEAL_SIZE, _>(|i| values[i])
-        };
-        let (acceleration, ledger_rates) = widened.evaluate_at(&large, 0.02);
-        assert_eq!((narrow(acceleration), ledger_rates), equations.evaluate_at(at, 0.02));
-        let (wide, small) = (widened.linearise_at(&large, 0.02), equations.linearise_at(at, 0.02));
-        let (mut wide_rates, mut rates) = (wide.by_velocity, small.by_velocity);
-        widened.times_rates(&mut wide_rates);
-        equations.times_rates(&mut rates);
-        for i in 0..IDEAL_SIZE {
-            assert_eq!(narrow(wide.by_position[i]), small.by_position[i]);
-            assert_eq!(narrow(wide_rates[i]), rates[i]);
-        }
-        assert_eq!(narrow(widened.rates(&large.v)), equations.rates(&at.v));
-        assert_eq!(narrow(widened.drift(&large, 0.02)), equations.drift(at, 0.02));
-        assert_eq!(
-            (widened.energy(&large), widened.has_dry_friction()),
-            (equations.energy(at), equations.has_dry_friction())
-        );
     });
 }

@@ -62,7 +62,7 @@ impl Law for SlipTorque {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effect_kinds::element::verify;
+    use crate::model::effect_kinds::element_tests::verify;
     use crate::numeric::Dual;
 
     #[test]
