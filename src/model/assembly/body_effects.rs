@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use crate::model::effect_kinds::body_friction::PARTS;
 use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource, SurfaceTemperature};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan, Viscosity};
 use crate::model::setup::{Parameters, SceneEffects};
 use crate::model::thermal::{NODES, OIL};
+use crate::problem::Problem;
 
 /// Effects on bodies, and dry friction.
 #[derive(Clone, Debug)]
@@ -40,6 +42,15 @@ impl BodyEffects {
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
             oil: effects.oil_acts().then_some(p.oil),
         }
+    }
+
+    /// Fails if there are too many sources of dry friction on one body.
+    pub fn check(&self) -> Result<(), Problem> {
+        let parts = Friction::part_count(&self.friction);
+        if parts <= PARTS {
+            return Ok(());
+        }
+        Err(problem!("effects", "they put {parts} dry frictions on one body, but it takes at most {PARTS}"))
     }
 
     /// Applies changed tunable parameters.

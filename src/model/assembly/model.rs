@@ -10,8 +10,7 @@ use crate::contact::planet::Contact;
 use crate::contact::{FlankGaps, Mesh};
 use crate::geometry::Pair;
 use crate::geometry::solid::mass::GearMass;
-use crate::model::effect_kinds::body_friction::PARTS;
-use crate::model::effect_kinds::{BUILT, Friction, ToothEffects};
+use crate::model::effect_kinds::{BUILT, ToothEffects};
 use crate::model::effects::strength::GearStrength;
 use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan, Requests};
 use crate::model::setup::{CONTACT_HEAT, HEATS, Parameters, SceneEffects, advice, validation};
@@ -94,11 +93,7 @@ impl Model {
         warnings.extend(effects.warnings());
         warnings.extend(advice::warnings(parameters));
         let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
-        let parts = Friction::part_count(&body_effects.friction);
-        if parts > PARTS {
-            let said = problem!("effects", "they put {parts} dry frictions on one body, but it takes at most {PARTS}");
-            return Err(vec![said]);
-        }
+        body_effects.check().map_err(|p| vec![p])?;
         let gears = match plan.contact {
             GearContact::Ideal => {
                 // the closed form has no steps that an effect could record
@@ -114,11 +109,9 @@ impl Model {
             Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.merged(),
             _ => None,
         };
-        let strength = if BUILT && parameters.effects.strength {
-            Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
-        } else {
-            None
-        };
+        let is_rated = BUILT && parameters.effects.strength;
+        let strength = is_rated.then(|| GearStrength::new(&parameters.specs.strength, &setting)).transpose();
+        let strength = strength.map_err(|p| vec![p])?.map(Box::new);
         let thermal = network(parameters, &masses);
         Ok(Self {
             parameters: *parameters,

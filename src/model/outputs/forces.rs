@@ -10,7 +10,7 @@ use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, Largest, MAX_SIZE, State};
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
-use crate::model::effects::strength::{CONTACT_TEMPERATURE, MeshLoad};
+use crate::model::effects::strength::{CONTACT_TEMPERATURE, GearStrength, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
 use crate::model::setup::{HEATS, scene_effects};
@@ -232,17 +232,8 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         return out;
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
-    let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
-    let mut flash = 0.0f64;
-    for g in 0..plan.groups().len() {
-        if let Some(strength) = &model.strength {
-            equations.pair_loads(pair, point, g, |s, load| {
-                strength.add_load(&mut stress[g][s], load);
-                strength.add_pressure(&mut stress[g][s], load);
-            });
-        }
-        for s in 0..2 {
-            let mesh = &mut groups[g][s];
+    for (g, meshes) in groups[..plan.groups().len()].iter_mut().enumerate() {
+        for (s, mesh) in meshes.iter_mut().enumerate() {
             mesh.transmission_error =
                 teeth.contact.mesh.drive_approach(equations.mesh_state(point, g, s).position[0]) * pair.mean_cone;
             let add = &mut |load: &ToothLoad| mesh.add(load);
@@ -251,30 +242,10 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
             } else {
                 equations.loads_over_the_face(point, g, s, |load, _| add(load));
             }
-            if let Some(strength) = &model.strength {
-                // damping is distributed over the face differently from the elastic load
-                equations.loads_over_the_face(point, g, s, |load, line_load| {
-                    if let Some(line_load) = line_load {
-                        strength.add_pressure_at_ends(&mut stress[g][s], load, line_load);
-                    }
-                });
-                if let Some(law) = equations.flank_friction() {
-                    // one slice represents its pair, because the whole face is searched
-                    let mut last = None;
-                    equations.slices(point, g, s, |slice| {
-                        if last.replace(slice.name) != Some(slice.name) {
-                            flash = flash.max(strength.flash(&teeth.contact.detailed, &law, slice));
-                        }
-                    });
-                }
-            }
         }
     }
     if let Some(strength) = &model.strength {
-        let meshes = stress[..plan.groups().len()].iter().flatten().copied();
-        let readings = &mut out.readings[const { indices_of("strength", Changes::Always) }];
-        strength.read_stresses(meshes, readings);
-        strength.read_flash(flash, &state.thermal.temperatures(), readings);
+        read_stresses(&mut out, (model, strength), equations, state);
     }
     for i in 0..plan.planets {
         out.mesh[i] = groups[plan.group_of[i]];
@@ -282,6 +253,38 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     add_up(&mut out, plan.planets);
     add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
     out
+}
+
+/// Reads stresses and flash temperatures of all teeth.
+fn read_stresses(out: &mut Forces, (model, strength): (&Model, &GearStrength), equations: &Largest, state: &State) {
+    let (point, groups) = (&state.point(), equations.teeth.plan.groups().len());
+    let mut stress = [[MeshLoad::default(); 2]; MAX_GROUPS];
+    let mut flash = 0.0f64;
+    for (g, stress) in stress[..groups].iter_mut().enumerate() {
+        equations.pair_loads(&model.pair, point, g, |s, load| {
+            strength.add_load(&mut stress[s], load);
+            strength.add_pressure(&mut stress[s], load);
+        });
+        for (s, stress) in stress.iter_mut().enumerate() {
+            // damping is distributed over the face differently from the elastic load
+            equations.loads_over_the_face(point, g, s, |load, line_load| {
+                if let Some(line_load) = line_load {
+                    strength.add_pressure_at_ends(stress, load, line_load);
+                }
+            });
+            let Some(law) = equations.flank_friction() else { continue };
+            // one slice represents its pair, because the whole face is searched
+            let mut last = None;
+            equations.slices(point, g, s, |slice| {
+                if last.replace(slice.name) != Some(slice.name) {
+                    flash = flash.max(strength.flash(&equations.teeth.contact.detailed, &law, slice));
+                }
+            });
+        }
+    }
+    let readings = &mut out.readings[const { indices_of("strength", Changes::Always) }];
+    strength.read_stresses(stress[..groups].iter().flatten().copied(), readings);
+    strength.read_flash(flash, &state.thermal.temperatures(), readings);
 }
 
 /// Accelerations and torques at an instant, from one evaluation.

@@ -146,42 +146,34 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     integration: Integration,
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
-    let solver = &model.parameters.solver;
-    let Integration { clock, begin, is_returned, pauses, inputs, change, mut memories } = integration;
     let before = state.statistics;
+    let Integration { clock, begin, is_returned, pauses, inputs, change, mut memories } = integration;
     let mut trajectory = Trajectory {
         longest: LONGEST,
         resolution: RESOLUTION,
         expected: clock.expected,
         ..Trajectory::new(state.point(), clock.time, clock.end)
     };
-    // resume the pending step
     if let Some(pending_step) = &state.pending_step {
         pending_step.resume(&mut trajectory);
         trajectory.end_at(clock.end);
-        if let Some((time, acceleration_change)) = change {
-            equations.applied_mut().change = inputs.torques_since(&state.inputs.values);
-            if !trajectory.change_at(time, acceleration_change) {
-                // no part of the pending step precedes the change
-                state.control.discontinuity(Some(acceleration_change));
-            }
-        }
+    }
+    if let Some((time, acceleration_change)) = change {
+        change_torques(equations, state, &mut trajectory, inputs, (time, acceleration_change));
     }
     // a clock that runs to the end of the equations is not reset, because that end is near
     let set_back_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
-    let mut outcome = Ok(());
-    let mut switched = true;
-    let mut anchors = equations.applied().anchors();
     let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
     if depends_on_temperature {
         trajectory.longest = LONGEST.min(state.thermal.longest);
     }
-    while switched && outcome.is_ok() {
-        switched = false;
+    let (mut outcome, mut continues) = (Ok(()), true);
+    while continues && outcome.is_ok() {
+        let (mut switched, mut anchors) = (false, equations.applied().anchors());
         let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = state;
         let mut sums = LedgerSums { begin, work, heat, thermal, torque_means, memories: memories.as_deref_mut() };
         // records an accepted step and decides whether the method stops
-        let mut observe = |step: Step<N, LedgerRates>| {
+        let observe = |step: Step<N, LedgerRates>| {
             if !is_returned {
                 rattle.add_step(equations.check_deflection(step.end)?);
             }
@@ -192,53 +184,99 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
         // the method attempts steps until one passes `now`, or until `observe` stops it
-        let context = SolverContext { tolerance: solver.relative_tolerance, control, statistics, budget };
-        let system = &*equations;
-        outcome = match solver.method {
-            Method::FixedStep if S::HAS_FIXED_STEPS => {
-                let (counts, Trajectory { point, time, end, .. }) =
-                    ((context.statistics, context.budget), &mut trajectory);
-                integrate::advance_fixed(system, point, time, *end, solver.fixed_step, counts, &mut observe)
-            }
-            Method::Radau if S::HAS_RADAU => {
-                integrate::proceed(&Radau, system, &mut trajectory, clock.now, context, &mut observe)
-            }
-            _ => integrate::proceed(&Rodas5P, system, &mut trajectory, clock.now, context, &mut observe),
-        };
+        let tolerance = model.parameters.solver.relative_tolerance;
+        let context = SolverContext { tolerance, control, statistics, budget };
+        outcome = follow::<N, S, E>(equations, model, &mut trajectory, clock.now, context, observe);
         equations.applied_mut().set_anchors(&anchors);
-        let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         // the equations change: effects use new temperatures, and friction switches
+        let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         if is_warmer {
-            state.thermal.use_temperatures();
+            use_temperatures(equations, model, state);
             trajectory.longest = LONGEST.min(state.thermal.longest);
-            equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
         }
-        if switched {
-            let before = equations.applied().friction_state;
-            equations.settle_friction(&trajectory.point, trajectory.time, 0..FRICTION_BODIES, &mut state.heat);
-            anchors = equations.applied().anchors();
-            let friction = [&before, &equations.applied().friction_state];
-            let is_event = state.events.record_friction(friction, begin + trajectory.time);
-            if is_event && pauses && trajectory.time < clock.now {
-                clock.now = trajectory.time;
-            }
+        if switched && switch_friction(equations, state, &trajectory, begin) && pauses && trajectory.time < clock.now {
+            clock.now = trajectory.time;
         }
-        switched =
-            (switched || is_warmer) && trajectory.time < set_back_at && trajectory.end - trajectory.time > RESOLUTION;
+        let is_over = trajectory.time >= set_back_at || trajectory.end - trajectory.time <= RESOLUTION;
+        continues = (switched || is_warmer) && !is_over;
     }
-    // store the result and the pending step
     state.inputs.values = *inputs;
     state.friction = equations.applied().friction_state;
+    store(state, clock, &trajectory, outcome.is_ok());
+    outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
+}
+
+/// Changes torques to those of `inputs` at a time on the clock [s] within the pending step, where the accelerations change
+/// by the second value [rad/s²].
+fn change_torques<const N: usize, E: LedgerEquations<N> + ?Sized>(
+    equations: &mut E,
+    state: &mut State,
+    trajectory: &mut Trajectory<N, LedgerRates>,
+    inputs: &Inputs,
+    (time, acceleration_change): (f64, f64),
+) {
+    equations.applied_mut().change = inputs.torques_since(&state.inputs.values);
+    if !trajectory.change_at(time, acceleration_change) {
+        // no part of the pending step precedes the change
+        state.control.discontinuity(Some(acceleration_change));
+    }
+}
+
+/// Follows the `trajectory` with the method of the scene until its pending step contains `until` [s], its equations end,
+/// or `observe` stops it.
+#[inline(always)]
+fn follow<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(
+    equations: &E,
+    model: &Model,
+    trajectory: &mut Trajectory<N, LedgerRates>,
+    until: f64,
+    context: SolverContext,
+    observe: impl FnMut(Step<N, LedgerRates>) -> Result<AfterStep, ExcessiveDeflection>,
+) -> Result<(), Failure<ExcessiveDeflection>> {
+    match model.parameters.solver.method {
+        Method::FixedStep if S::HAS_FIXED_STEPS => {
+            let (step, counts) = (model.parameters.solver.fixed_step, (context.statistics, context.budget));
+            let Trajectory { point, time, end, .. } = trajectory;
+            integrate::advance_fixed(equations, point, time, *end, step, counts, observe)
+        }
+        Method::Radau if S::HAS_RADAU => integrate::proceed(&Radau, equations, trajectory, until, context, observe),
+        _ => integrate::proceed(&Rodas5P, equations, trajectory, until, context, observe),
+    }
+}
+
+/// Stores the end of the last completed step and, if `is_ok`, the pending step.
+fn store<const N: usize>(state: &mut State, clock: &mut Clock, trajectory: &Trajectory<N, LedgerRates>, is_ok: bool) {
     state.set_point(&trajectory.point);
     clock.time = trajectory.time;
     match &trajectory.pending {
-        Some(pending) if outcome.is_ok() => {
-            let pending = (pending, &trajectory.extension);
-            state.pending_step.get_or_insert_default().set(pending, *clock);
+        Some(pending) if is_ok => {
+            state.pending_step.get_or_insert_default().set((pending, &trajectory.extension), *clock);
         }
         _ => state.pending_step = None,
     }
-    outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
+}
+
+/// Lets effects use the present temperatures.
+fn use_temperatures<const N: usize, E: LedgerEquations<N> + ?Sized>(
+    equations: &mut E,
+    model: &Model,
+    state: &mut State,
+) {
+    state.thermal.use_temperatures();
+    equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
+}
+
+/// Switches the friction that is due at the end of the last completed step. Returns true if this is an event.
+fn switch_friction<const N: usize, E: LedgerEquations<N> + ?Sized>(
+    equations: &mut E,
+    state: &mut State,
+    trajectory: &Trajectory<N, LedgerRates>,
+    begin: f64,
+) -> bool {
+    let before = equations.applied().friction_state;
+    equations.settle_friction(&trajectory.point, trajectory.time, 0..FRICTION_BODIES, &mut state.heat);
+    let friction = [&before, &equations.applied().friction_state];
+    state.events.record_friction(friction, begin + trajectory.time)
 }
 
 /// Maximum number of attempted steps for plain teeth in a communication step. It limits the waiting time of a host to

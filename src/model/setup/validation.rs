@@ -5,35 +5,15 @@ use crate::FULL;
 use crate::contact::{ContactLaw, DampingModel};
 use crate::geometry::Pair;
 use crate::model::effect_kinds::BUILT;
-use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, SideDrive};
+use crate::model::scene::{CarrierDrive, GearContact, Method, PlanetSpin, Scene, SideDrive};
 use crate::model::thermal::of_scene::constant_temperatures;
 use crate::problem::Problem;
 
 /// All contradictions in `p`.
 pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
-    let mut found = Vec::new();
-    let mut refuse = |name: &'static str, message: String| found.push(Problem::new(name, message));
     let scene = &p.scene;
-    let imposed: Vec<&str> = [
-        (scene.carrier_drive == CarrierDrive::Speed, "scene.carrier_drive"),
-        (scene.left_drive == SideDrive::Speed, "scene.left_drive"),
-        (scene.right_drive == SideDrive::Speed, "scene.right_drive"),
-        (scene.planet_spin == PlanetSpin::Imposed, "scene.planet_spin"),
-    ]
-    .into_iter()
-    .filter_map(|(on, name)| on.then_some(name))
-    .collect();
-    if imposed.len() > 2 {
-        let name = if scene.planet_spin == PlanetSpin::Imposed { "scene.planet_spin" } else { "scene.carrier_drive" };
-        refuse(
-            name,
-            format!(
-                "speeds are imposed by {}: a differential has two independent speeds, so at most two can be imposed; \
-                 drive the others by torque or leave the spin free",
-                imposed.join(", ")
-            ),
-        );
-    }
+    let mut found: Vec<Problem> = too_many_imposed(scene).into_iter().collect();
+    let mut refuse = |name: &'static str, message: String| found.push(Problem::new(name, message));
     let speed_driven = [scene.left_drive, scene.right_drive].map(|drive| drive == SideDrive::Speed);
     if !BUILT && (speed_driven[0] || speed_driven[1]) {
         let name = if speed_driven[0] { "scene.left_drive" } else { "scene.right_drive" };
@@ -81,4 +61,27 @@ pub fn problems(p: &Parameters, pair: &Pair) -> Vec<Problem> {
     found.extend(p.oil.problem().filter(|_| effects.oil_acts()));
     found.extend(effects.problems());
     found
+}
+
+/// Problem of a scene that imposes more than two speeds.
+fn too_many_imposed(scene: &Scene) -> Option<Problem> {
+    let imposed: Vec<&str> = [
+        (scene.carrier_drive == CarrierDrive::Speed, "scene.carrier_drive"),
+        (scene.left_drive == SideDrive::Speed, "scene.left_drive"),
+        (scene.right_drive == SideDrive::Speed, "scene.right_drive"),
+        (scene.planet_spin == PlanetSpin::Imposed, "scene.planet_spin"),
+    ]
+    .into_iter()
+    .filter_map(|(on, name)| on.then_some(name))
+    .collect();
+    if imposed.len() <= 2 {
+        return None;
+    }
+    let name = if scene.planet_spin == PlanetSpin::Imposed { "scene.planet_spin" } else { "scene.carrier_drive" };
+    Some(problem!(
+        name,
+        "speeds are imposed by {}: a differential has two independent speeds, so at most two can be imposed; drive the \
+         others by torque or leave the spin free",
+        imposed.join(", ")
+    ))
 }
