@@ -113,6 +113,10 @@ pub fn check_value(row: &Variable, value: f64) -> Result<(), Problem> {
 
 /// Rounding error by which a value may exceed a range, relative to the larger of 1 SI unit and the last value.
 const ROUNDING: f64 = 1e-9;
+/// Magnitude from which the limit of an input is far beyond any differential, and fraction of such a limit beyond which
+/// the last value shows that the values grow.
+const FAR: f64 = 1e5;
+const GROWN: f64 = 1e-2;
 
 /// Returns the value that a variable takes if it is set to `value` after it was `last`. An input or a tunable parameter
 /// that exceeds its range only by rounding is set to the limit. Fails for all other values that are out of range or not
@@ -125,7 +129,15 @@ pub fn accepted(row: &Variable, value: f64, last: f64) -> Result<f64, Problem> {
         Some(range) if value > range.max && value - range.max <= rounding => range.max,
         _ => value,
     };
-    check_value(row, value).map(|()| value)
+    check_value(row, value).map(|()| value).map_err(|problem| {
+        let has_grown = row.range.is_some_and(|range| range.max >= FAR && last.abs() > GROWN * range.max);
+        if row.causality != Causality::Input || !has_grown {
+            return problem;
+        }
+        let said = problem.message.split("; did you mean").next().unwrap_or_default();
+        let why = "a coupling whose values grow from step to step is unstable (docs/coupling.md)";
+        problem!(row.name, "{said}; it was {last} before: {why}")
+    })
 }
 
 /// Returns a problem for every parameter that is not finite or out of range.
