@@ -28,7 +28,7 @@ def advice(fmus, contact, right):
         ratio, advised = np.max(seen[:, 0]), np.min(seen[:, 1])
         row = {"ratio": ratio, "advice": advised, "half": np.max(run(fmus, contact, master, 0.5 * STEP)[0][:, 0]),
                "error": max(difference(right.signals, found, right.rows[:len(found)]).values())}
-        # the differential knows its step from times, with their rounding
+        # the differential computes its step from rounded times
         if 0.0 < advised < (1.0 - ROUNDING) * STEP:
             row["followed"] = np.max(run(fmus, contact, master, END / np.ceil(END / advised))[0][:, 0])
         rows[name] = row

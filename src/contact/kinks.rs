@@ -74,7 +74,7 @@ impl Engagement {
 
     /// Calls `visit` with the fractions of the motion at which a pair of either flank, loaded or not, passes an end of
     /// the path. In meshes without corner contact, the force jumps there.
-    pub fn discontinuities(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
+    pub fn passages_of_ends(&self, position: [f64; 2], change: [f64; 2], mut visit: impl FnMut(f64)) {
         for flank in [Flank::Drive, Flank::Coast] {
             let numbers = [position[1], position[1] + change[1]].map(|x| self.numbers(flank, x, 0.0));
             let pairs = numbers[0].0.min(numbers[1].0)..numbers[0].1.max(numbers[1].1);

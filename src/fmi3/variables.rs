@@ -71,7 +71,7 @@ pub fn planet_count() -> u32 {
     *INDEX.get_or_init(|| known_index("geometry.planet_count") as u32)
 }
 
-/// If row `index` is one of the three `held.*` outputs, its position among them (sides, planets, wheels). These outputs
+/// If row `index` is one of the three `held.*` outputs, its index among them (sides, planets, wheels). These outputs
 /// change only at events.
 pub fn held(index: usize) -> Option<usize> {
     static HELD: OnceLock<[usize; 3]> = OnceLock::new();

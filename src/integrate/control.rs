@@ -142,8 +142,8 @@ impl Control {
         self.is_finite() && self.next > 0.0 && self.last >= 0.0 && self.after_kink > 0.0
     }
 
-    /// Reacts to a discontinuity of the inputs. `change` is that of the accelerations [rad/s²], or `None` if it is
-    /// unknown. A change of 0 has no effect.
+    /// Reacts to a discontinuity of the inputs. `change` is the change of the accelerations [rad/s²], or `None` if it
+    /// is unknown. A change of 0 has no effect.
     pub fn discontinuity(&mut self, change: Option<f64>) {
         match change {
             Some(0.0) => return,
@@ -192,11 +192,8 @@ impl Control {
         }
         if self.after_discontinuity.step < STEPS_AFTER as u32 {
             let by_error = method.root(error / AFTER_DISCONTINUITY_ERROR);
-            self.after_discontinuity.learn(
-                h,
-                h / by_error.clamp(1.0 / AFTER_DISCONTINUITY_GROWTH, LARGEST_SHRINK),
-                cut,
-            );
+            let right = h / by_error.clamp(1.0 / AFTER_DISCONTINUITY_GROWTH, LARGEST_SHRINK);
+            self.after_discontinuity.learn(h, right, cut);
         }
         self.next = if cut { next.max(self.next) } else { next };
         self.last = h;

@@ -138,14 +138,14 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
     }
 }
 
-/// The loop over steps from one call to the next: method, equations, control, and circumstances of the next attempt.
+/// State of the loop over steps within one call: method, equations, control, and circumstances of the next attempt.
 struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
     method: &'a M,
     system: &'a S,
     context: SolverContext<'a>,
     /// Linearisation at the start of the next step.
     lin: Linearisation<N, S::Rates>,
-    /// Kinetic and stored energy there; `None` if `lin` is not known.
+    /// Kinetic and stored energy at the start of the next step; `None` if `lin` is not known.
     energy: Option<[f64; 2]>,
     /// True if the evaluation at the start of the next step is counted. It is counted once, even if it is repeated.
     is_counted: bool,
@@ -157,7 +157,7 @@ struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
     rejected: u32,
     /// Number of consecutive attempts whose ledger did not close.
     unbalanced: u32,
-    /// Size of the first of them [s].
+    /// Size of the first attempt in a row whose ledger did not close [s].
     first_unbalanced: f64,
     /// Size of the next attempt, which ends at a switch [s]; infinite if none is known.
     switch_at: f64,
@@ -188,7 +188,7 @@ struct Size {
 }
 
 impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M, S> {
-    /// Loop that continues `trajectory`.
+    /// Returns a solver that continues `trajectory`.
     #[inline(always)]
     fn new(method: &'a M, system: &'a S, context: SolverContext<'a>, trajectory: &Trajectory<N, S::Rates>) -> Self {
         Self {
@@ -305,8 +305,8 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         if control.next <= resolution { Err(Failure::StepTooSmall { size: control.next }) } else { Ok(()) }
     }
 
-    /// Evaluates the `pending` step of size `h` [s] at its end, which is at `reached` [s], and its ledger. Unless the
-    /// step `is_last`, the next step can start from this evaluation.
+    /// Evaluates the end of the `pending` step of size `h` [s], at the time `reached` [s], and the ledger of the step.
+    /// Unless the step `is_last`, the next step can start from this evaluation.
     #[inline(always)]
     fn judge(
         &mut self,

@@ -93,7 +93,7 @@ impl<const N: usize> ErrorNorm<N> {
     }
 }
 
-/// What a step writes in place.
+/// Results that a step writes in place.
 pub struct StepOutput<'a, const N: usize> {
     /// Counters of evaluations.
     pub counts: &'a mut Statistics,
@@ -106,8 +106,8 @@ pub trait Method {
     /// Order p of the error estimate, 3 or 4: the estimate is proportional to h^(p+1).
     fn estimate_order(&self) -> u32;
 
-    /// Computes one step of size `h` [s] from `start`, at which `lin` was evaluated. Returns
-    /// `None` if the matrix is singular or an iteration does not converge; a shorter step is then tried.
+    /// Computes one step of size `h` [s] from `start`, at which `lin` was evaluated. Returns `None` if the matrix is
+    /// singular or an iteration does not converge; a shorter step is then tried.
     fn step<const N: usize, S: SecondOrder<N> + ?Sized>(
         &self,
         system: &S,

@@ -110,7 +110,8 @@ impl Method for Radau {
                 combine(&mut z[i], &T[i], 1.0, &w);
             }
 
-            // each change is smaller than the last by about the same factor: the remaining changes are a geometric series
+            // each change is smaller than the last by about the same factor: the remaining changes are a geometric
+            // series
             let size = norm.size(&change[0]).max(norm.size(&change[1])).max(norm.size(&change[2]));
             let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
             if !sum.is_finite() {

@@ -244,8 +244,7 @@ pub trait SecondOrder<const N: usize> {
     }
 
     /// Fraction of the step from `start` to `end` to which it must be shortened because a switch of the equations is
-    /// within it. Returns `None` without such a switch, or if the switch is already close enough to the end. Both ends
-    /// include their times [s].
+    /// within it. Returns `None` without such a switch, or if the switch is already close enough to the end.
     #[inline]
     fn crossing(&self, _start: TimedPoint<N>, _end: TimedPoint<N>) -> Option<f64> {
         None

@@ -77,7 +77,7 @@ pub struct Pending<P> {
     pub after_rejection: bool,
     /// Number of consecutive attempts rejected immediately before this one because their ledger did not close.
     pub unbalanced: u32,
-    /// Size of the first of these rejected attempts [s].
+    /// Size of the first attempt in a row whose ledger did not close [s].
     pub first_unbalanced: f64,
     /// Number of consecutive steps up to this one that were cut at a switch but ended before it.
     pub short: u32,

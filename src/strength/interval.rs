@@ -82,12 +82,12 @@ mod tests {
     #[test]
     fn turning_points_of_a_parabola_are_found_only_within_the_interval() {
         for sign in [1.0, -1.0] {
-            for middle in [0.01, 0.3, 0.5, 0.9] {
-                let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - middle) * (t - middle)))).unwrap();
-                assert!((value - sign * 2.0).abs() < 1e-14 && (at - middle).abs() < 1e-14, "{value} {at}");
+            for turning in [0.01, 0.3, 0.5, 0.9] {
+                let (value, at) = extremum(of(|t| sign * (2.0 - 3.0 * (t - turning) * (t - turning)))).unwrap();
+                assert!((value - sign * 2.0).abs() < 1e-14 && (at - turning).abs() < 1e-14, "{value} {at}");
             }
-            for middle in [-0.01, 1.01, 7.0] {
-                assert_eq!(extremum(of(|t| sign * (t - middle) * (t - middle))), None);
+            for turning in [-0.01, 1.01, 7.0] {
+                assert_eq!(extremum(of(|t| sign * (t - turning) * (t - turning))), None);
             }
         }
         assert_eq!((extremum([4.0; 3]), extremum([1.0, 2.0, 3.0])), (None, None));
@@ -98,13 +98,13 @@ mod tests {
 
     #[test]
     fn a_value_is_reached_on_either_branch_of_a_parabola() {
-        for middle in [0.2, 0.5, 0.7] {
+        for turning in [0.2, 0.5, 0.7] {
             for sign in [1.0, -1.0] {
-                let parabola = of(|t| sign * (t - middle) * (t - middle));
+                let parabola = of(|t| sign * (t - turning) * (t - turning));
                 for part in [0.05, 0.3, 0.6, 0.9] {
-                    let span = if part < middle { [0.0, middle] } else { [middle, 1.0] };
-                    let found = reaching(parabola, sign * (part - middle) * (part - middle), span);
-                    assert!((found - part).abs() < 1e-12, "{middle} {part}: {found}");
+                    let span = if part < turning { [0.0, turning] } else { [turning, 1.0] };
+                    let found = reaching(parabola, sign * (part - turning) * (part - turning), span);
+                    assert!((found - part).abs() < 1e-12, "{turning} {part}: {found}");
                 }
             }
         }

@@ -111,8 +111,7 @@ impl RootStressFactors {
 }
 
 /// Y_F Y_S of gear `i` (0 planet, 1 side gear) with `profile` at equally spaced positions along the path of contact
-/// with
-/// `mate`, from the tip of the side gear to the tip of the planet.
+/// with `mate`, from the tip of the side gear to the tip of the planet.
 fn along_path(profile: &Profile, mate: &Profile, i: usize) -> [f64; POSITIONS] {
     let [lowest, highest] = profile.contact_lengths(mate);
     let mut products = [0.0; POSITIONS];

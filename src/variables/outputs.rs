@@ -13,9 +13,8 @@ const NUMBER: &str = "{i}";
 
 /// Adds outputs to `$rows`. The doc comment is the description; the unit, the display unit and the source follow. An
 /// output whose name contains `{side}` or `{gear}` exists for both of them, and one whose name contains `planet[{i}]`
-/// or
-/// `pair[{i}]` for each planet or pair. Its source reads the value by an index: the side or gear, the planet, the pair, or
-/// twice the planet plus the side.
+/// or `pair[{i}]` for each planet or pair. Its source reads the value by an index: the side or gear, the planet, the
+/// pair, or twice the planet plus the side.
 macro_rules! outputs {
     ($rows:ident: $($(#[doc = $line:literal])+ $name:literal: $unit:expr, $source:ident($of:expr);)+) => {
         $(add(&mut $rows, $name, concat!($($line),+).trim_start(), $unit.into(), |i| OutputSource::$source(i, $of));)+

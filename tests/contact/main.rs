@@ -28,5 +28,5 @@ mod tooth_errors;
 mod tooth_finite_elements;
 mod tooth_integrals;
 mod tooth_laws;
-mod tooth_load_places;
+mod tooth_load_points;
 mod tooth_stiffness;

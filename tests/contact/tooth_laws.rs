@@ -32,7 +32,7 @@ fn assert_derivatives(law: &impl Spring, p: f64, s: f64, span: f64) {
     close("torque", e.torque, difference(|e| e.energy, hp, 0.0), e.torque);
     close("stiffness", e.stiffness, difference(|e| e.torque, hp, 0.0), e.stiffness);
     close("mixed", e.torque_by_s, difference(|e| e.by_s, hp, 0.0), e.torque / span);
-    close("by place", e.by_s, difference(|e| e.energy, 0.0, hs), e.energy / span);
+    close("by s", e.by_s, difference(|e| e.energy, 0.0, hs), e.energy / span);
     close("mixed", e.torque_by_s, difference(|e| e.torque, 0.0, hs), e.torque / span);
     let curvature = e.energy / (span * span) + e.by_s_twice.abs();
     close("twice", e.by_s_twice, difference(|e| e.by_s, 0.0, hs), 100.0 * curvature);

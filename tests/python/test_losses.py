@@ -18,7 +18,7 @@ from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
 from bevel_differential.losses import VARIABLES, command, inputs, losses
-from bevel_differential.losses.grid import (Bound, estimates, figures_of, interpolated, grid_points, refined, share_beyond, starting,
+from bevel_differential.losses.grid import (Bound, estimates, figures_of, grid_points, interpolated, refined, share_beyond, starting,
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias

@@ -23,7 +23,7 @@ from bevel_differential.optimise.design_task import Confirmed, DesignRow, Design
 from bevel_differential.pair import Pair, tool_room, violations
 from bevel_differential.optimise.problem import Objective, Problem
 from bevel_differential.quantities import QUANTITIES
-from bevel_differential.optimise.report import compared_with_front, failing, scene_text, write_gears
+from bevel_differential.optimise.report import compared_with_front, below_one, scene_text, write_gears
 from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
 
@@ -516,4 +516,4 @@ def test_wrong_use_of_the_command_ends_with_a_status(folder, fmu_file, capsys, m
 
 def test_chosen_designs_with_a_safety_factor_below_1_are_named():
     chosen = [DesignRow(k, {}, {"safety.root_min:final": safety, "gears.mass": 0.5}) for k, safety in enumerate((0.76, 1.02))]
-    assert list(failing(chosen)) == ["A: safety.root_min = 0.76 is below 1."]
+    assert list(below_one(chosen)) == ["A: safety.root_min = 0.76 is below 1."]

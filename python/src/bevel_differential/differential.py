@@ -198,14 +198,14 @@ def _advance(instance, batches, record, steps, signals):
     # writers store only addresses, so the blocks must stay alive here
     blocks, slope_blocks = driven.blocks(steps["values"].T), straight.blocks(steps["slopes"].T[signals.straight])
     writers = driven.writers(instance, blocks) + straight.slope_writers(instance, slope_blocks)
-    applied = index = 0
+    applied = read_rows = 0
 
     def read(time):
-        nonlocal index
+        nonlocal read_rows
         for get, component, references, count, address, width in readers:
-            if get(component, references, count, address + index * width) >= DISCARD:
+            if get(component, references, count, address + read_rows * width) >= DISCARD:
                 instance.check(DISCARD, f"reading outputs at {time:g} s", "failed")
-        index += 1
+        read_rows += 1
 
     columns = (steps[name].tolist() for name in ("begin", "size", "end", "due", "jumps", "recorded"))
     for row, (begin, size, end, due, jumps, recorded) in enumerate(zip(*columns)):

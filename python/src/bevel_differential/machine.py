@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 # folder of libraries and form of their names, as FMI 2.0 names systems of 64 bits
-_saysTEMS = {"linux": ("linux64", "lib{}.so"), "win32": ("win64", "{}.dll"), "darwin": ("darwin64", "lib{}.dylib")}
+_SYSTEMS = {"linux": ("linux64", "lib{}.so"), "win32": ("win64", "{}.dll"), "darwin": ("darwin64", "lib{}.dylib")}
 # FMI 2.0.4 leaves Linux on ARM to the names of FMI 3.0
 ARM = "aarch64-linux"
 
@@ -17,7 +17,7 @@ def is_arm_linux() -> bool:
 
 def answers(folder: Path) -> tuple[str, Path]:
     """Name of the platform, and path of the library of answers in `folder`; the file may be missing."""
-    system, name = _saysTEMS.get(sys.platform, _saysTEMS["linux"])
+    system, name = _SYSTEMS.get(sys.platform, _SYSTEMS["linux"])
     # a build on such a machine for itself uses the folder where fmpy looks for an FMU's library
     if is_arm_linux() and (folder / ARM).is_dir():
         system = ARM

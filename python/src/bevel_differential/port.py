@@ -33,9 +33,9 @@ class Port:
             if variable.kind != "Real":
                 raise DifferentialError(f"{variable.name}: it is of the kind {variable.kind}, and a port sets Real variables; use `set`")
         self._instance, self._inputs = instance, driven
-        # outputs of other kinds have other functions: their places, and how they are read
-        self._places = [index for index, variable in enumerate(shown) if variable.kind != "Real"]
-        self._others = Batches.of(tuple(shown[index] for index in self._places))
+        # outputs of other kinds have other functions: their indices, and how they are read
+        self._indices = [index for index, variable in enumerate(shown) if variable.kind != "Real"]
+        self._others = Batches.of(tuple(shown[index] for index in self._indices))
         shown = [variable for variable in shown if variable.kind == "Real"]
         self._get, self._set, self._set_rates = instance._get["Real"], instance._set["Real"], instance._set_rates
         self._values, self._rates, self._outputs = (array("d", [0.0] * len(each)) for each in (driven, driven, shown))
@@ -69,8 +69,8 @@ class Port:
         if status >= DISCARD:
             instance.check(status, "getting Real variables")
         values: list[Number] = self._outputs.tolist()
-        if self._places:
-            for index, value in zip(self._places, self._others.get(instance)):
+        if self._indices:
+            for index, value in zip(self._indices, self._others.get(instance)):
                 values.insert(index, value)
         return values
 

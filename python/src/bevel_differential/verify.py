@@ -139,7 +139,7 @@ class Evidence:
 
 
 def _at(where, read, text):
-    """Returns `read(text)`; errors name the where."""
+    """Returns `read(text)`; errors begin with `where`."""
     try:
         return read(text)
     except DifferentialError as error:

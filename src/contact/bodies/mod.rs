@@ -17,5 +17,5 @@ mod support;
 pub use body::GearBody;
 pub use mesh::MeshOnBodies;
 pub use root::{RootLoad, RootPatch};
-pub use sharing::{Coupling, PairCouplings, PairPosition, Pull};
+pub use sharing::{Coupling, LoadedPair, PairCouplings, Pull};
 pub use support::Support;

@@ -67,7 +67,7 @@ impl Pull {
 
 /// A loaded pair: the data that its couplings depend on.
 #[derive(Clone, Copy, Debug)]
-pub struct PairPosition {
+pub struct LoadedPair {
     /// Left (0) or right (1) side gear.
     pub side: usize,
     /// Flank.
@@ -177,7 +177,7 @@ impl PairCouplings {
 
     /// The coupling of `a` and `b`, with second derivatives if `CURVATURE`.
     #[inline(always)]
-    pub fn coupling<const CURVATURE: bool>(&self, a: &PairPosition, b: &PairPosition) -> Coupling {
+    pub fn coupling<const CURVATURE: bool>(&self, a: &LoadedPair, b: &LoadedPair) -> Coupling {
         let alike = a.flank == b.flank;
         let (polynomial, with) = if a.side != b.side {
             let [left, right] = if a.side == 0 { [a, b] } else { [b, a] };

@@ -39,8 +39,8 @@ impl Detailed {
         self.line_load_at(&self.spring.local(slice.s), &slice.approach, arc, cone)
     }
 
-    /// Load per width [N/m] of a `local` spring and the cone distance `cone` [m], if the flanks penetrate by
-    /// `arc` [rad].
+    /// Load per width [N/m] at the cone distance `cone` [m], if the flanks penetrate by `arc` [rad]. `local` are the
+    /// values of the law at the position on the path.
     pub fn line_load_at(&self, local: &<AnySpring as Spring>::Local, approach: &Approach, arc: f64, cone: f64) -> f64 {
         if arc <= 0.0 {
             return 0.0;

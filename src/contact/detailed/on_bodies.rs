@@ -3,7 +3,7 @@
 //! Bodies move a tooth as a whole, so the own arc of a pair replaces the pair's arc in every slice. The load that acts
 //! on other pairs is computed from the elastic torque over the face, ω = M/J.
 
-use super::super::bodies::{PairCouplings, PairPosition};
+use super::super::bodies::{LoadedPair, PairCouplings};
 use super::super::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
 use super::directions::Arcs;
 use super::face::{Part, PointStorage};
@@ -38,7 +38,7 @@ struct Near<P> {
     opening: Opening,
     axial: [f64; 2],
     arcs: Arcs,
-    pair_position: PairPosition,
+    loaded: LoadedPair,
     local: P,
 }
 
@@ -123,9 +123,9 @@ impl Detailed {
                 }
                 pairs.add(pair.depth, || {
                     let tooth = if side == 0 { name.tooth } else { shared.opposite.wrapping_sub(name.tooth) };
-                    let pair_position = PairPosition { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
+                    let loaded = LoadedPair { side, flank: pair.flank, number: pair.number, tooth, s: pair.s };
                     let local = spring.local(pair.s);
-                    Near { name: *name, pair: *pair, opening, axial, arcs, pair_position, local }
+                    Near { name: *name, pair: *pair, opening, axial, arcs, loaded, local }
                 });
             });
         }
@@ -149,7 +149,7 @@ impl Detailed {
         let changes = |k: usize, own: f64| {
             let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
             if let Some(near) = near_of(k) {
-                let (at, pair) = (3 * near.pair_position.side, &near.pair);
+                let (at, pair) = (3 * near.loaded.side, &near.pair);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
                 let elastic_load = self.elastic_load::<S, OPEN>(spring, near, own);
                 let by_s = elastic_load.by_s + elastic_load.by_opening * near.opening.even.d;
@@ -158,12 +158,12 @@ impl Detailed {
             }
             (by, change)
         };
-        let position_of = |k: usize| near_of(k).map(|near| &near.pair_position);
+        let loaded_pair = |k: usize| near_of(k).map(|near| &near.loaded);
         let arcs = pairs.arcs();
         let sharing = Sharing {
             bodies: shared.bodies,
             arcs,
-            position_of: &position_of,
+            loaded_pair: &loaded_pair,
             law: &law,
             is_linear: S::LINEAR && !OPEN,
         };
@@ -262,7 +262,7 @@ impl Detailed {
         let mut opening_by_others = OpeningByOthers::default();
         let lookout = OpeningByOthers::LOOKOUT;
         with_teeth!(&self.spring, spring => self.share_at(spring, shared, states, lookout, &mut |near, arc, share| {
-            opening_by_others.add(near.pair_position.side, near.pair.flank, near.pair.number, arc - share.own);
+            opening_by_others.add(near.loaded.side, near.pair.flank, near.pair.number, arc - share.own);
         }), ());
         opening_by_others
     }
@@ -284,7 +284,7 @@ impl Detailed {
             }
         };
         self.share::<S, OPEN, SLOPES>(spring, shared, states, 0.0, &mut |near, arc, share| {
-            let (side, opening) = (near.pair_position.side, &near.opening);
+            let (side, opening) = (near.loaded.side, &near.opening);
             let pair = ToothPair { depth: share.own, ..near.pair };
             let mut storage = PointStorage::default();
             let parts = self.loaded_parts::<OPEN>(pair.depth, opening, &mut storage);

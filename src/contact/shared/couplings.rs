@@ -1,6 +1,6 @@
 //! Couplings of all pairs that can be loaded.
 
-use crate::contact::bodies::{Coupling, PairCouplings, PairPosition};
+use crate::contact::bodies::{Coupling, LoadedPair, PairCouplings};
 
 /// Maximum number of pairs of a planet's two meshes that can be loaded at the same time. Flanks approach by at most
 /// half a base pitch. At this limit, a mesh with a dozen teeth has four such pairs, and a mesh with two hundred teeth
@@ -77,7 +77,7 @@ impl<const K: usize> Couplings<K> {
 
     /// Returns the couplings of the first `count` pairs at their `positions`.
     #[inline(always)]
-    pub fn new(bodies: &PairCouplings, count: usize, positions: &[Option<&PairPosition>; K]) -> Self {
+    pub fn new(bodies: &PairCouplings, count: usize, positions: &[Option<&LoadedPair>; K]) -> Self {
         let mut all = Self { count, ..Self::NONE };
         for_each_two::<false>(bodies, &positions[..count], |k, l, t: &Coupling| all.set(k, l, t));
         all
@@ -88,7 +88,7 @@ impl<const K: usize> Couplings<K> {
     pub fn with_curvatures(
         bodies: &PairCouplings,
         count: usize,
-        positions: &[Option<&PairPosition>; K],
+        positions: &[Option<&LoadedPair>; K],
     ) -> (Self, CouplingCurvatures<K>) {
         let mut all = Self { count, ..Self::NONE };
         let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
@@ -137,7 +137,7 @@ impl<const K: usize> Couplings<K> {
 #[inline(always)]
 fn for_each_two<const CURVATURE: bool>(
     bodies: &PairCouplings,
-    positions: &[Option<&PairPosition>],
+    positions: &[Option<&LoadedPair>],
     mut visit: impl FnMut(usize, usize, &Coupling),
 ) {
     for (k, a) in positions.iter().enumerate() {

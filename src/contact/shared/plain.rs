@@ -3,7 +3,7 @@
 //! One point represents the load of a face whose flanks fit, and the side gears stay on their axes.
 
 use super::{COORDINATES, Change, OpeningByOthers, Pairs, Share, Sharing};
-use crate::contact::bodies::{PairCouplings, PairPosition};
+use crate::contact::bodies::{LoadedPair, PairCouplings};
 use crate::contact::detailed::PairName;
 use crate::contact::impact::Force;
 use crate::contact::mesh::{MeshForce, MeshState};
@@ -40,7 +40,7 @@ pub struct SharedForce {
 #[derive(Clone, Copy)]
 struct Near<P> {
     pair: ToothPair,
-    pair_position: PairPosition,
+    loaded: LoadedPair,
     local: P,
 }
 
@@ -76,8 +76,8 @@ impl SharedMeshes<'_> {
                     }
                     pairs.add(pair.depth, || {
                         let tooth = self.tooth(side, flank, pair.number);
-                        let pair_position = PairPosition { side, flank, number: pair.number, tooth, s: pair.s };
-                        Near { pair: *pair, pair_position, local: spring.local(pair.s) }
+                        let loaded = LoadedPair { side, flank, number: pair.number, tooth, s: pair.s };
+                        Near { pair: *pair, loaded, local: spring.local(pair.s) }
                     });
                 });
             }
@@ -111,18 +111,18 @@ impl SharedMeshes<'_> {
         let changes = |k: usize, own: f64| {
             let (mut by, mut change) = ([0.0; COORDINATES], Change::default());
             if let Some(near) = near_of(k) {
-                let (pair, at) = (&near.pair, 3 * near.pair_position.side);
+                let (pair, at) = (&near.pair, 3 * near.loaded.side);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
                 let by_s = if own > 0.0 { spring.respond(&near.local, own).torque_by_s } else { 0.0 };
                 change.position = (at + 1, pair.s_slope, by_s * pair.s_slope);
             }
             (by, change)
         };
-        let position_of = |k: usize| near_of(k).map(|near| &near.pair_position);
+        let loaded_pair = |k: usize| near_of(k).map(|near| &near.loaded);
         let sharing = Sharing {
             bodies: self.bodies,
             arcs: pairs.arcs(),
-            position_of: &position_of,
+            loaded_pair: &loaded_pair,
             law: &load,
             is_linear: S::LINEAR,
         };
@@ -151,7 +151,7 @@ impl SharedMeshes<'_> {
     pub fn force<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> [MeshForce; 2] {
         let mut sum = [MeshForce::default(); 2];
         self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
-            let side = near.pair_position.side;
+            let side = near.loaded.side;
             self.add(spring, &mut sum[side], near, &states[side], share);
         });
         sum
@@ -198,7 +198,7 @@ impl SharedMeshes<'_> {
     ) {
         let Some([own_by, along_by]) = share.slopes else { return };
         let (moment, r) = (self.mesh.whole.moment, self.mesh.whole.cone);
-        let (pair, side) = (&near.pair, near.pair_position.side);
+        let (pair, side) = (&near.pair, near.loaded.side);
         let state = &states[side];
         let response = self.add(spring, &mut sum.force[side], near, state, share);
         let f = &response.force;
@@ -251,8 +251,8 @@ impl SharedMeshes<'_> {
     pub fn opening_by_others<S: Spring>(&self, spring: &S, states: &[MeshState; 2]) -> OpeningByOthers {
         let mut opening_by_others = OpeningByOthers::default();
         self.share::<S, false>(spring, states, OpeningByOthers::LOOKOUT, &mut |near, arc, share| {
-            let Near { pair, pair_position, .. } = near;
-            opening_by_others.add(pair_position.side, pair.flank, pair.number, arc - share.own);
+            let Near { pair, loaded, .. } = near;
+            opening_by_others.add(loaded.side, pair.flank, pair.number, arc - share.own);
         });
         opening_by_others
     }
@@ -267,7 +267,7 @@ impl SharedMeshes<'_> {
         visit: &mut dyn FnMut(&ToothPair, &Force),
     ) {
         self.for_each_loaded::<S, false>(spring, states, |near, _, share| {
-            if near.pair_position.side == side {
+            if near.loaded.side == side {
                 let pair = ToothPair { depth: share.own, ..near.pair };
                 let rate = self.mesh.rate(&pair, &states[side]);
                 visit(&pair, &self.respond(spring, near, share.own, rate).force);

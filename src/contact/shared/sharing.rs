@@ -6,7 +6,7 @@
 
 use super::couplings::MAX_PAIRS;
 use super::{Change, Couplings, Gradients, OwnArcs};
-use crate::contact::bodies::{PairCouplings, PairPosition};
+use crate::contact::bodies::{LoadedPair, PairCouplings};
 
 /// Coordinates of both meshes: q, x and w, left and right.
 pub const COORDINATES: usize = 6;
@@ -20,8 +20,8 @@ pub struct Sharing<'a> {
     pub bodies: &'a PairCouplings,
     /// Approaches A_k of the flanks [rad], one per pair.
     pub arcs: &'a [f64],
-    /// Position of a pair.
-    pub position_of: &'a dyn Fn(usize) -> Option<&'a PairPosition>,
+    /// Loaded pair by its index.
+    pub loaded_pair: &'a dyn Fn(usize) -> Option<&'a LoadedPair>,
     /// Load ω of a pair at its own arc a [N/m²], and ∂ω/∂a.
     pub law: &'a dyn Fn(usize, f64) -> [f64; 2],
     /// True if ω is proportional to a for positive a.
@@ -68,8 +68,8 @@ impl Sharing<'_> {
         let n = if K <= EXACT { K } else { self.arcs.len().min(K) };
         let mut arcs = [0.0; K];
         arcs[..n].copy_from_slice(&self.arcs[..n]);
-        let positions: [Option<&PairPosition>; K] =
-            std::array::from_fn(|k| if k < n { (self.position_of)(k) } else { None });
+        let positions: [Option<&LoadedPair>; K] =
+            std::array::from_fn(|k| if k < n { (self.loaded_pair)(k) } else { None });
         let Some(changes) = changes else {
             let couplings = Couplings::new(self.bodies, n, &positions);
             let own = self.own_arcs(&couplings, &arcs);

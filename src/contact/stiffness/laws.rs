@@ -62,10 +62,10 @@ impl Spring for Line {
 pub struct LineWeber {
     table: Arc<ComplianceTable>,
     /// B = 2(1−ν²)/(πE) [1/Pa].
-    local: f64,
+    hertz: f64,
     /// ω₀, line load per cone distance up to which the logarithm is valid [N/m²].
     limit: f64,
-    per_local: f64,
+    per_hertz: f64,
     per_limit: f64,
 }
 
@@ -105,21 +105,21 @@ fn compliance_ratio(ratio: f64, x: f64) -> f64 {
 }
 
 impl LineWeber {
-    pub(super) fn new(table: Arc<ComplianceTable>, local: f64, limit: f64) -> Self {
-        Self { table, local, limit, per_local: 1.0 / local, per_limit: 1.0 / limit }
+    pub(super) fn new(table: Arc<ComplianceTable>, hertz: f64, limit: f64) -> Self {
+        Self { table, hertz, limit, per_hertz: 1.0 / hertz, per_limit: 1.0 / limit }
     }
 
     /// Load ω = w/R [N/m²] at penetration arc `p` > 0 [rad] and compliance Q = `q` [1/Pa], and the tangent dω/dp. The
     /// last value is true if the logarithm is valid.
     fn load(&self, p: f64, q: f64) -> (f64, f64, bool) {
-        let ratio = q * self.per_local;
-        let x = p * self.per_local * self.per_limit;
+        let ratio = q * self.per_hertz;
+        let x = p * self.per_hertz * self.per_limit;
         if x < ratio {
             let v = compliance_ratio(ratio, x);
-            (p * self.per_local / v, self.per_local / (v - 1.0), true)
+            (p * self.per_hertz / v, self.per_hertz / (v - 1.0), true)
         } else {
-            let tangent = self.per_local / (ratio - 1.0);
-            ((p - self.limit * self.local) * tangent, tangent, false)
+            let tangent = self.per_hertz / (ratio - 1.0);
+            ((p - self.limit * self.hertz) * tangent, tangent, false)
         }
     }
 }
@@ -141,9 +141,9 @@ impl Spring for LineWeber {
         let (load, tangent, logarithmic) = self.load(p, q.v);
         // Φ = ωp − ∫p dω
         let energy = if logarithmic {
-            0.5 * p * load - 0.25 * self.local * load * load
+            0.5 * p * load - 0.25 * self.hertz * load * load
         } else {
-            let limit = self.local * self.limit;
+            let limit = self.hertz * self.limit;
             0.5 * load * (p - limit) + 0.25 * limit * self.limit
         };
         let arc_by_s = load * q.d;

@@ -109,9 +109,11 @@ impl Model {
             Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.merged(),
             _ => None,
         };
-        let is_rated = BUILT && parameters.effects.strength;
-        let strength = is_rated.then(|| GearStrength::new(&parameters.specs.strength, &setting)).transpose();
-        let strength = strength.map_err(|p| vec![p])?.map(Box::new);
+        let strength = if BUILT && parameters.effects.strength {
+            Some(Box::new(GearStrength::new(&parameters.specs.strength, &setting).map_err(|p| vec![p])?))
+        } else {
+            None
+        };
         let thermal = network(parameters, &masses);
         Ok(Self {
             parameters: *parameters,

@@ -5,12 +5,13 @@ use serde::{Deserialize, Serialize};
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::numeric::finite;
 
-/// Inputs that act in the pending step, or have acted up to the present.
+/// Values of the inputs that act in the pending step, or have acted up to the present, and the derivatives for the next
+/// step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ActingInputs {
-    /// Values, at the present if they have derivatives.
+    /// Values. If they have derivatives, these are the values at the present.
     pub values: Inputs,
-    /// Derivatives, if the host has set them.
+    /// Derivatives from the present on, if the host has set them.
     pub derivatives: Option<InputDerivatives>,
 }
 

@@ -7,8 +7,7 @@ use super::State;
 use super::ledger_rates::LedgerRates;
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
-use crate::model::effect_kinds::dry_friction::LoadedSlip;
-use crate::model::effect_kinds::dry_friction::{DryFriction, SPEED_TOLERANCE};
+use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
 use crate::model::scene::{
     CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,

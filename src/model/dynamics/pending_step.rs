@@ -26,7 +26,7 @@ pub struct PendingStep {
 }
 
 impl PendingStep {
-    /// Stores the step `pending` with its dense output.
+    /// Stores the pending `step` with its dense output.
     pub fn set<const N: usize>(&mut self, (step, extension): (&Pending<LedgerRates>, &Extension<N>), clock: Clock) {
         let Extension { start, end, coefficients } = extension;
         (self.clock, self.step) = (clock, *step);

@@ -125,7 +125,7 @@ impl TorqueMeans {
 mod tests {
     use super::*;
 
-    /// Rolls through the positions `positions`, in cycles, with steps of 0.1 s. Torques are `torque` at the middle of
+    /// Rolls through `positions`, in cycles, with steps of 0.1 s. Torques are `torque` at the middle of
     /// each step.
     fn rolled(positions: &[f64], torque: impl Fn(f64) -> [f64; 2]) -> TorqueMeans {
         let (cycle, mut means) = (CycleCounter { pitch: 2.0 }, TorqueMeans::default());

@@ -206,7 +206,7 @@ impl State {
             && self.inputs.is_finite()
     }
 
-    /// True if all numbers are valid, except those of pending step, events and pause, which are not checked. This
+    /// True if all numbers are valid. Pending step, events, pause and values of the inputs are not checked. This
     /// suffices after an integration, because its pending step has passed the error test.
     pub fn is_valid_without_pending_step(&self) -> bool {
         let Self {
@@ -296,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn a_state_whose_events_or_pause_are_not_finite_is_invalid() {
+    fn a_state_whose_events_pause_or_inputs_are_not_finite_is_invalid() {
         let mut good = State::at_rest(0.0, 1e-3);
         good.timeline.pause = Some(CommunicationPoint { clock: 0.0, time: 0.0 });
         assert!(good.is_valid());

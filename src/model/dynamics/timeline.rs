@@ -1,4 +1,4 @@
-//! Timeline of a simulation: the present, and the times at which something happens:
+//! Timeline of a simulation. It contains the present and finds the next stop. Something happens at these times:
 //!
 //! - the time requested by the host, such as a communication point or a point of a table,
 //! - a change of the equations that the host does not cause: the onset of the tooth fault,
@@ -29,7 +29,7 @@ pub struct Timeline {
     pub constant_since: Option<f64>,
     /// Length of the previous interval of constant inputs [s]; infinite if there was none.
     pub constant_before: f64,
-    /// Last communication point, if the motion has paused since, or if a step begins whose inputs already act.
+    /// Last communication point, if the motion has paused since, or if a step has begun under the present inputs.
     pub pause: Option<CommunicationPoint>,
 }
 
@@ -78,7 +78,7 @@ impl Timeline {
         self.now + resolution(time) >= time
     }
 
-    /// Next stop up to `until` [s]. The equations change at `change` [s], if they do.
+    /// Next stop up to `until` [s]. `change` is the time of the next change of the equations [s], if there is one.
     pub fn next_stop(&self, change: Option<f64>, until: f64) -> Stop {
         let is_far = until - self.now > 1.5 * LONGEST_INTERVAL;
         let time = if is_far { self.now + LONGEST_INTERVAL } else { until };
@@ -111,15 +111,15 @@ impl Timeline {
         self.pause.unwrap_or(CommunicationPoint { clock: clock.now, time: self.now })
     }
 
-    /// Moves the present to `until` [s] if `reached` [s] differs from it only by rounding, otherwise to `reached`. Returns
-    /// true if the present is `until`.
+    /// Moves the present to `until` [s] if `reached` [s] differs from it only by rounding, otherwise to `reached`.
+    /// Returns true if the present is `until`.
     pub fn arrive(&mut self, until: f64, reached: f64) -> bool {
         let has_arrived = (until - reached).abs() <= resolution(until);
         self.now = if has_arrived { until } else { reached };
         has_arrived
     }
 
-    /// True if all times are valid, except those of the pause.
+    /// True if all times are valid. The pause is not checked.
     pub fn is_valid(&self) -> bool {
         Finite::is_finite(&self.now) && self.constant_before >= 0.0 && Finite::is_finite(&self.constant_since)
     }

@@ -1,9 +1,8 @@
 //! Elements between bodies: the law of a part is written once, for numbers with and without derivatives, and an element
 //! puts it between two degrees of freedom.
 //!
-//! The law resists along the coordinate z with the force f(z, ż), so f acts on the base and −f on the body. With
-//! z = q_i and ż = v_body − v_base, its derivatives are those of f with respect to z and ż in these columns. An element
-//! of planets has a part for each group; the base takes the force of every planet.
+//! The law resists the coordinate z with the force f(z, ż): f acts on the base and −f on the body, with z = q_i and
+//! ż = v_body − v_base. An element of planets has one part for each group; the forces of all planets act on the base.
 
 use std::fmt::Debug;
 
@@ -127,7 +126,7 @@ impl<L: Law> BodyEffect for Element<L> {
             }
             out.heat[self.heat_index] += heat;
         }
-        if let (1.., Some(base)) = (self.groups, self.parts[0].base) {
+        if let (1.., Some(base)) = (self.groups, self.parts.first().and_then(|part| part.base)) {
             out.force[base] += over_groups(self.groups, |g| of_groups[g][0]);
             out.heat[self.heat_index] += over_groups(self.groups, |g| of_groups[g][1]);
         }
@@ -154,7 +153,7 @@ impl<L: Law> BodyEffect for Element<L> {
                 out.velocity(base, base, -by_rate);
             }
         }
-        if let (1.., Some(base)) = (self.groups, self.parts[0].base) {
+        if let (1.., Some(base)) = (self.groups, self.parts.first().and_then(|part| part.base)) {
             out.velocity(base, base, -over_groups(self.groups, |g| of_groups[g]));
         }
     }

@@ -1,5 +1,5 @@
-//! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`, `element`), dry friction with
-//! sticking (`friction_source`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
+//! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`, `element`), dry friction
+//! with sticking (`friction_source`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
 
 pub mod body_effect;
 pub mod body_friction;

@@ -53,7 +53,7 @@ fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
     } else {
         return None;
     };
-    // it questions what the effect assumes, not the gear
+    // the warning concerns an assumption of the effect, so it does not name the bore as its variable
     Some(Problem::new("effects.body_compliance", text))
 }
 

@@ -19,7 +19,7 @@ impl Simulation {
         }
         let mut state = self.state;
         if !is_met {
-            imposed::apply(&self.model, &self.inputs, &mut state);
+            imposed::follow_commands(&self.model, &self.inputs, &mut state);
         }
         let braked = if may_brake { with_brakes(&self.model, &self.inputs, &state) } else { None };
         if is_met && braked.is_none() {

@@ -20,8 +20,8 @@ const OUTSIDE: [(&str, &str); 2] = [(AMBIENT_CHANGE, "ambient"), (SUMP_CHANGE, "
 
 /// Speed that no differential exceeds [rad/s].
 const HIGHEST_SPEED: f64 = 3e3;
-/// Largest energy residual of fixed steps that is not reported, as a fraction of the energy that passed. In 32 scenes with
-/// dry friction, torques were wrong from 2.9e-4 on, and right up to 4e-5.
+/// Largest energy residual of fixed steps that is not reported, as a fraction of the energy that passed. In 32 scenes
+/// with dry friction, torques were wrong from 2.9e-4 on, and right up to 4e-5.
 const MOST_RESIDUAL: f64 = 1e-4;
 /// Names of the planets' spin speeds.
 const SPINS: [&str; MAX_PLANETS] =
@@ -237,7 +237,8 @@ impl Simulation {
         ))
     }
 
-    /// Warning if planets have rolled, but no tooth of them from the mesh with one side gear to the mesh with the other.
+    /// Warning if planets have rolled, but no tooth of them from the mesh with one side gear to the mesh with the
+    /// other.
     fn short_rolling(&self) -> Option<Problem> {
         self.model.strength.as_ref()?;
         let rolled = self.motion().spin_angle.into_iter().fold(0.0, |most: f64, angle| most.max(angle.abs()));

@@ -1,4 +1,5 @@
-//! Changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends.
+//! Changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends. Also
+//! the time of the next change that the host does not cause.
 
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;

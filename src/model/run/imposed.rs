@@ -91,7 +91,7 @@ pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_D
 
 /// Sets imposed speeds to their commands and changes free speeds in response. The energy of the jump is impulsive work
 /// of the input.
-pub fn apply(model: &Model, inputs: &Inputs, state: &mut State) {
+pub fn follow_commands(model: &Model, inputs: &Inputs, state: &mut State) {
     state.carrier_command = inputs.carrier_speed;
     if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {
         return;

@@ -191,7 +191,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
         // the equations change: effects use new temperatures, and friction switches
         let is_warmer = depends_on_temperature && state.thermal.is_update_due();
         if is_warmer {
-            use_temperatures(equations, model, state);
+            state.thermal.use_temperatures();
+            equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
             trajectory.longest = LONGEST.min(state.thermal.longest);
         }
         if switched && switch_friction(equations, state, &trajectory, begin) && pauses && trajectory.time < clock.now {
@@ -206,8 +207,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Changes torques to those of `inputs` at a time on the clock [s] within the pending step, where the accelerations change
-/// by the second value [rad/s²].
+/// Applies the torques of `inputs` from a `time` on the clock [s] within the pending step. The accelerations change
+/// there by `acceleration_change` [rad/s²].
 fn change_torques<const N: usize, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     state: &mut State,
@@ -222,8 +223,8 @@ fn change_torques<const N: usize, E: LedgerEquations<N> + ?Sized>(
     }
 }
 
-/// Follows the `trajectory` with the method of the scene until its pending step contains `until` [s], its equations end,
-/// or `observe` stops it.
+/// Follows the `trajectory` with the method of the scene until its pending step contains `until` [s], its equations
+/// end, or `observe` stops it.
 #[inline(always)]
 fn follow<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(
     equations: &E,
@@ -254,16 +255,6 @@ fn store<const N: usize>(state: &mut State, clock: &mut Clock, trajectory: &Traj
         }
         _ => state.pending_step = None,
     }
-}
-
-/// Lets effects use the present temperatures.
-fn use_temperatures<const N: usize, E: LedgerEquations<N> + ?Sized>(
-    equations: &mut E,
-    model: &Model,
-    state: &mut State,
-) {
-    state.thermal.use_temperatures();
-    equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
 }
 
 /// Switches the friction that is due at the end of the last completed step. Returns true if this is an event.

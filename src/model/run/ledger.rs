@@ -123,7 +123,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     fn record_more(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
         if !self.teeth.contact.mesh.engagement.corner_contact() {
             let ends = [step.start, step.end].map(|at| Point::of([&at.q, &at.v]));
-            sums.heat[CONTACT_HEAT] -= self.largest().energy_of_discontinuities(ends.each_ref());
+            sums.heat[CONTACT_HEAT] -= self.largest().energy_of_abrupt_contact(ends.each_ref());
         }
         if BUILT {
             warm_up(model, &self.applied, step, sums);
@@ -141,7 +141,7 @@ impl Largest<'_> {
     /// Elastic energy that deflected pairs gain or lose in a step when they enter or leave contact abruptly, without
     /// corner contact [J].
     #[inline(never)]
-    fn energy_of_discontinuities(&self, [start, end]: [&Point<MAX_SIZE>; 2]) -> f64 {
+    fn energy_of_abrupt_contact(&self, [start, end]: [&Point<MAX_SIZE>; 2]) -> f64 {
         let between = |t: f64| Point {
             q: std::array::from_fn(|i| start.q[i] + t * (end.q[i] - start.q[i])),
             v: std::array::from_fn(|i| start.v[i] + t * (end.v[i] - start.v[i])),
@@ -152,8 +152,8 @@ impl Largest<'_> {
                 let [from, to] = [start, end].map(|at| self.mesh_state(at, g, s).position);
                 let change = [to[0] - from[0], to[1] - from[1]];
                 // in a very short step, this fraction of the step would be lost in rounding
-                let half_width = HALF_WIDTH.max(quotient(LEAST_ARC, change[1].abs()).unwrap_or(1.0));
-                self.teeth.contact.mesh.engagement.discontinuities(from, change, |t| {
+                let half_width = CONTACT_CHANGE_HALF_WIDTH.max(quotient(LEAST_ARC, change[1].abs()).unwrap_or(1.0));
+                self.teeth.contact.mesh.engagement.passages_of_ends(from, change, |t| {
                     let [before, after] = [t - half_width, t + half_width].map(between);
                     energy += self.members(g) * self.energy_brought([&before, &after], g, s);
                 });
@@ -165,6 +165,6 @@ impl Largest<'_> {
 
 /// Fraction of a step before and after the instant at which a pair enters or leaves contact. The jump is the difference
 /// of the energies at both times.
-const HALF_WIDTH: f64 = 1e-9;
+const CONTACT_CHANGE_HALF_WIDTH: f64 = 1e-9;
 /// Smallest arc along the line of action that rounding resolves [rad].
 const LEAST_ARC: f64 = 1e-13;

@@ -14,7 +14,8 @@
 //!
 //! `coupling` records the exchange with the host, in scenes with advice about the communication step.
 //!
-//! Before a call, `input_ramp` turns jumps of inputs into ramps. In model exchange, `accepted` stores the end of the last step of the host's solver.
+//! Before a call, `input_ramp` turns jumps of inputs into ramps. In model exchange, `accepted` stores the end of the
+//! last step of the host's solver.
 
 pub mod accepted;
 mod change;

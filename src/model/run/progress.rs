@@ -38,7 +38,7 @@ pub fn restart(model: &Model, inputs: &Inputs, (state, memories): (&mut State, &
         state.control.discontinuity(None);
     }
     state.timeline.pause = None;
-    imposed::apply(model, inputs, state);
+    imposed::follow_commands(model, inputs, state);
     apply_changes(model, inputs, state);
     state.timeline.begin_constant_inputs();
     state.inputs.values = *inputs;
@@ -146,8 +146,7 @@ fn step_past_stop(
     budget: &mut u64,
 ) -> Result<(), StepFailure> {
     let mut clock = clock(model, state);
-    let mut change =
-        acceleration_change.map(|acceleration_change| (change::begin_interval(state, &mut clock), acceleration_change));
+    let mut change = acceleration_change.map(|by| (change::begin_interval(state, &mut clock), by));
     let mut last = state.timeline.last_communication_point(&clock);
     let mut begin = last.time - last.clock;
     let mut target = if stop.is_change { clock.end } else { last.clock + (stop.time - last.time) };

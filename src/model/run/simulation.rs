@@ -27,7 +27,7 @@ pub struct Simulation {
     pub(in crate::model) state: State,
     /// Memories of the effects that are on.
     pub(in crate::model) memories: Memories,
-    /// Inputs that act from now on.
+    /// Inputs that the host has set. They act from the next step on.
     pub(in crate::model) inputs: Inputs,
     /// Cache of the forces under the present inputs; `None` after a change.
     pub(in crate::model) forces: Option<Forces>,
@@ -73,7 +73,7 @@ impl Simulation {
         Ok(Self { model, state, memories, inputs: *inputs, forces: None, accepted: None })
     }
 
-    /// Sets the inputs that act from now on.
+    /// Sets the inputs of the next step.
     pub fn set_inputs(&mut self, inputs: &Inputs) {
         if *inputs != self.inputs {
             self.inputs = *inputs;
@@ -81,7 +81,7 @@ impl Simulation {
         }
     }
 
-    /// Inputs that act now.
+    /// Inputs that the host has set for the next step.
     pub fn inputs(&self) -> &Inputs {
         &self.inputs
     }
@@ -184,8 +184,10 @@ impl Simulation {
         let beginning = self.begin_step();
         let Self { model, state, memories, inputs, .. } = self;
         let model = &**model;
-        let acceleration_change =
-            if let Beginning::Torques(acceleration_change) = beginning { Some(acceleration_change) } else { None };
+        let acceleration_change = match beginning {
+            Beginning::Torques(change) => Some(change),
+            _ => None,
+        };
         // the pending step may already contain the requested time
         let continues = state.pending_step.is_some() && acceleration_change.is_none();
         let change = if continues { next_change(model, state) } else { None };

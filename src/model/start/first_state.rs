@@ -47,7 +47,7 @@ impl Simulation {
                 }
             }
         }
-        imposed::apply(&simulation.model, inputs, &mut simulation.state);
+        imposed::follow_commands(&simulation.model, inputs, &mut simulation.state);
         let events = simulation.state.events;
         apply_changes(&simulation.model, inputs, &mut simulation.state);
         // friction that holds from the start causes no event

@@ -1,7 +1,7 @@
 //! Loads of pairs on elastic gear bodies, checked against the compliance between pairs: within a mesh, between a
 //! planet's two meshes, and with many small teeth.
 
-use bevel_differential::contact::bodies::{GearBody, PairPosition};
+use bevel_differential::contact::bodies::{GearBody, LoadedPair};
 use bevel_differential::contact::shared::MAX_PAIRS;
 use bevel_differential::contact::{Flank, Spot};
 use nalgebra::{DMatrix, DVector};
@@ -19,14 +19,14 @@ fn pressed(planet: &Planet, approach: f64, sides: usize, x: f64) -> At {
 }
 
 /// Touching pairs of both meshes, and true if the teeth of all of them are beams.
-fn pairs(planet: &Planet, at: &At) -> (Vec<PairPosition>, bool) {
+fn pairs(planet: &Planet, at: &At) -> (Vec<LoadedPair>, bool) {
     let [low, high] = planet.gears.stiffness[1].range;
     let (mut places, mut are_beams) = (Vec::new(), true);
     for side in 0..2 {
         for pair in planet.pairs(at, side) {
             are_beams &= pair.spot == Spot::Path && pair.s > low && pair.s < high;
             let tooth = if side == 0 { pair.number } else { planet.gears.opposite() - pair.number };
-            places.push(PairPosition { side, flank: Flank::Drive, number: pair.number, tooth, s: pair.s });
+            places.push(LoadedPair { side, flank: Flank::Drive, number: pair.number, tooth, s: pair.s });
         }
     }
     (places, are_beams)
@@ -35,11 +35,11 @@ fn pairs(planet: &Planet, at: &At) -> (Vec<PairPosition>, bool) {
 /// Displacement t of one pair of drive flanks under a unit load on another, computed from the bodies for loads up to
 /// `past` [rad] beyond the ends of the path [1/Pa]. If the pairs belong to different meshes, the planet has an even
 /// number of teeth.
-fn between(gears: &Gears, past: f64, a: &PairPosition, b: &PairPosition) -> f64 {
+fn between(gears: &Gears, past: f64, a: &LoadedPair, b: &LoadedPair) -> f64 {
     let [low, high] = [gears.stiffness[1].path[0] - past, gears.stiffness[1].path[1] + past];
     let teeth = &gears.on_bodies.teeth;
     let displacement = |i: usize| {
-        let load = |pair: &PairPosition| {
+        let load = |pair: &LoadedPair| {
             let roll = teeth.rolls(gears.pair.outer_cone * pair.s.clamp(low, high))[i];
             let [across, along, moment] = gears.on_bodies.bodies[i].root.load(teeth.sections[i].load(roll).angle);
             // the drive flank presses the planet toward lower numbers on the left
@@ -111,7 +111,7 @@ fn many_coupled_pairs_match_the_bodies_lose_no_energy_and_have_equal_loads_in_bo
         // the Hertz part is smallest under the highest load, because of its slope
         let ratio = stiffness.limit / stiffness.reference;
         let stiffer = STEEL.hertz_factor() * (1.0 + if ratio >= 1.0 { ratio.ln() } else { ratio - 1.0 });
-        let alone = |pair: &PairPosition| stiffness.line().compliance(pair.s) - stiffer;
+        let alone = |pair: &LoadedPair| stiffness.line().compliance(pair.s) - stiffer;
         let whole = Planet::new(Contact { face: Face::Whole, ..planet.contact }, gears);
         // up to half a base pitch of approach
         for (share, j) in [0.01, 0.1, 0.5, 1.0].into_iter().flat_map(|share| (0..6).map(move |j| (share, j))) {

@@ -1,4 +1,4 @@
-//! Outputs that no effect computes in a scene, because all effects with these outputs are off.
+//! Outputs that no effect changes in a scene, because all effects with these outputs are off.
 
 use bevel_differential::model::EFFECTS;
 use bevel_differential::model::effects::EffectEntry;
@@ -7,8 +7,7 @@ use bevel_differential::variables::{Access, Causality, Variable, table};
 
 use super::Scene;
 
-/// Returns the reason why no effect computes `output` in `scene`, with the remedy. Returns `None` for outputs that are
-/// computed.
+/// Returns the reason why no effect changes `output` in `scene`, with the remedy. Returns `None` if an effect does.
 pub fn reason(output: &str, scene: &Scene) -> Option<String> {
     let owners = owners(output);
     if owners.is_empty() || owners.iter().any(|effect| is_active(effect, scene)) {
@@ -21,13 +20,13 @@ pub fn reason(output: &str, scene: &Scene) -> Option<String> {
     Some(format!("{states}, so nothing changes it; set {remedies}"))
 }
 
-/// True if no effect can compute `output` in `scene`, whatever its inputs command.
+/// True if no effect can change `output` in `scene`, whatever its inputs command.
 pub fn is_switched_off(output: &str, scene: &Scene) -> bool {
     let owners = owners(output);
     !owners.is_empty() && owners.iter().all(|effect| effect.switch.is_some() && !is_active(effect, scene))
 }
 
-/// Warnings about outputs of `scene` that no effect computes, one for each reason.
+/// Warnings about outputs of `scene` that no effect changes, one for each reason.
 pub fn warnings(scene: &Scene) -> Vec<String> {
     let mut found: Vec<(String, Vec<&str>)> = Vec::new();
     for output in &scene.outputs {

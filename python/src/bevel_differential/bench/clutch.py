@@ -131,19 +131,19 @@ def _slips(scene, given):
 
 
 def _conclusion(rows, given, of_torque, of_slip):
-    conclusion = []
+    sentences = []
     for curve in given:
         torques = {slip: torque for name, slip, torque in rows if name == curve.name}
         (first, least), *_, (last, most) = torques.items()
         ends = f"from {of_torque.text(least, 3)} at {of_slip.text(first, 3)} to {of_torque.text(most, 3)} at {of_slip.text(last, 3)}"
         if curve.holds:
-            conclusion.append(f"with a point at slip 0, the pack breaks loose at {of_torque.text(least, 3)}")
+            sentences.append(f"with a point at slip 0, the pack breaks loose at {of_torque.text(least, 3)}")
         elif curve.points:
             error = max(RESOLVED, *(abs(torques[slip] - torque) for slip, torque in curve.points))
-            conclusion.append(f"the measured curve passes its points within {of_torque.text(error, 1)}, {ends}")
+            sentences.append(f"the measured curve passes its points within {of_torque.text(error, 1)}, {ends}")
         else:
-            conclusion.append(f"viscous torque grows {ends}")
-    return f"{'; '.join(conclusion)}. Only a pack with a breakaway torque has torque without slip"
+            sentences.append(f"viscous torque grows {ends}")
+    return f"{'; '.join(sentences)}. Only a pack with a breakaway torque has torque without slip"
 
 
 def _draw_ramps(scene, out, rows, of_torque, conclusion):

@@ -105,7 +105,7 @@ def _loss_map(picture, result, sheets):
                                  interpolation="bilinear", cmap=colours, vmin=low, vmax=top)
             curves = panel.contour(speed, torque, loss.T / factor, levels=_round_levels(low, top), colors=svg_style.TEXT_COLOUR,
                                    linewidths=0.8)
-            panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_places(curves, speed, torque))
+            panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_positions(curves, speed, torque))
             panel.set_title(label(result, index))
             panel.grid(False)
         row[0].set_ylabel(f"{title}\n{of_torque.label}")
@@ -122,7 +122,7 @@ def _round_levels(low, top):
     return [level for level in MaxNLocator(LEVELS).tick_values(low, top) if low + edge < level < top - edge]
 
 
-def _label_places(curves, speed, torque):
+def _label_positions(curves, speed, torque):
     """Position of each level's label: where its line crosses the diagonal, away from the borders."""
     start, size = np.array([speed[0], torque[0]]), np.array([np.ptp(speed), np.ptp(torque)])
     for pieces in curves.allsegs:

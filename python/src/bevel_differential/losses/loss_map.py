@@ -10,7 +10,7 @@ from ..csv_table import lines_of
 from ..extras import require
 from ..output_file import is_parquet
 from ..values import DifferentialError, FileName
-from .grid import efficiency, figures_of, interpolated, grid_points, torques_of
+from .grid import efficiency, figures_of, grid_points, interpolated, torques_of
 
 # number of figures of a slipping point in the map: torques left and right, loss
 MAPPED = 3

@@ -58,7 +58,7 @@ def _optimise(arguments, problem, out, store, workers):
     """Runs the search; prints and writes its results. Returns true if the gears of all chosen designs turn freely."""
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
-    from .report import LETTERS, choice_table, compared_with_front, failing, picture, scene_text, to_csv, write_gears
+    from .report import LETTERS, choice_table, compared_with_front, below_one, picture, scene_text, to_csv, write_gears
     from .search import search
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
@@ -80,7 +80,7 @@ def _optimise(arguments, problem, out, store, workers):
     table = choice_table([(reason, confirmed[row.run]) for reason, row in reasons], compared, problem)
     notes = [compared_with_front(name, row, best, problem) for name, row in compared.items()]
     notes += _confirmation(confirmed.values(), problem)
-    notes += failing(chosen)
+    notes += below_one(chosen)
     if arguments.quick:
         notes.append(f"quick: {len(rows) - len(chosen)} designs of the front are not confirmed; {problem.population} designs x {total} "
                      "generations are a small search, and other seeds may find much better designs")

@@ -62,12 +62,12 @@ def compared_with_front(name: str, row: DesignRow, best: Sequence[DesignRow], pr
     return f"{name}: no design of the front is better in all objectives{checks}."
 
 
-def failing(chosen: Sequence[DesignRow]) -> Iterator[str]:
+def below_one(chosen: Sequence[DesignRow]) -> Iterator[str]:
     """Sentences about safety factors of the chosen designs that are below 1; the conditions of the problem may allow this."""
     for letter, row in zip(LETTERS, chosen):
         below = [f"{want.split(':')[0]} = {value:.3g}" for want, value in row.figures.items() if want.startswith("safety.") and value < 1.0]
         if below:
-            yield f"{letter}: {', '.join(below)} is below 1."
+            yield f"{letter}: {' and '.join(below)} {'is' if len(below) == 1 else 'are'} below 1."
 
 
 def _unless(cells, nothing, label, compared):

@@ -56,7 +56,7 @@ def teeth_in_written_order(events: Sequence[Any], stress: Sequence[np.ndarray], 
 
 
 def _teeth(events, counts, ends, teeth, gear):
-    """Teeth with these positions in the meshes: arrays `mesh` and `at` (positions) of the shape (teeth, positions)."""
+    """Teeth at these positions in the meshes: arrays `mesh` and `at` of the shape (teeth, positions)."""
     (mesh, at), (period, stress, standing, loads) = teeth, gear
     begin, end = ends[:-1, None, None], ends[1:, None, None]
     rated = RATED * np.sign(loads.T)[:, mesh] * np.where(mesh == 0, -1.0, 1.0)
@@ -64,7 +64,7 @@ def _teeth(events, counts, ends, teeth, gear):
     for number in (0, 1):
         passes[:, number] = np.sum(passed * (mesh == number), axis=2).T
     was_in = is_in_mesh(begin, at, period)
-    loaded_first, loaded_last = (np.any(positions, axis=2) for positions in (was_in, is_in_mesh(end, at, period)))
+    loaded_first, loaded_last = (np.any(in_mesh, axis=2) for in_mesh in (was_in, is_in_mesh(end, at, period)))
     way = np.where(end < begin, -1.0, 1.0)
     visits = np.sum(passes_between(begin, end, at - 0.5 * way, period) + was_in, axis=2).astype(int)
     order = np.argsort(np.where(was_in, 0.0, np.mod(way * (at - begin) - 0.5, period)), axis=2, kind="stable")

@@ -176,11 +176,11 @@ def _bars(style, axes, result, want, with_legend):
         axes.text(0.5, 0.5, textwrap.fill(indices, 60), ha="center", va="center", transform=axes.transAxes, color=style.GREY)
         axes.set_axis_off()
         return
-    index = np.arange(len(result.names))[::-1]
+    heights = np.arange(len(result.names))[::-1]
     error = {"error_kw": {"ecolor": style.GREY, "elinewidth": 1.0}, "height": 0.4}
-    axes.barh(index + 0.2, 100.0 * indices.first, xerr=100.0 * indices.first_half, color=style.BLUE, label="by itself", **error)
-    axes.barh(index - 0.2, 100.0 * indices.total, xerr=100.0 * indices.total_half, color=style.PALE_BLUE, label="with others", **error)
-    axes.set_yticks(index, result.names)
+    axes.barh(heights + 0.2, 100.0 * indices.first, xerr=100.0 * indices.first_half, color=style.BLUE, label="by itself", **error)
+    axes.barh(heights - 0.2, 100.0 * indices.total, xerr=100.0 * indices.total_half, color=style.PALE_BLUE, label="with others", **error)
+    axes.set_yticks(heights, result.names)
     axes.set(xlim=(0.0, 105.0), xlabel="share of the variance of the quantity at the left, %")
     if with_legend:
         axes.legend(loc="lower right")
@@ -190,14 +190,14 @@ def _draw_yields(style, axes, result, found):
     base = proportion(result.base.good)
     names = ["as it is", *(textwrap.shorten(verdict.alternative.name, 60) for verdict in found)]
     yields = [base, *(verdict.yield_ for verdict in found)]
-    index = np.arange(len(names))[::-1]
+    heights = np.arange(len(names))[::-1]
     value = 100.0 * np.array([each.value for each in yields])
     ends = 100.0 * np.array([[each.value - each.low, each.high - each.value] for each in yields]).T
     colours = [style.BLUE if verdict.gain.low > 0.0 else style.RED if verdict.gain.high < 0.0 else style.GREY for verdict in found]
     axes.axvline(100.0 * base.value, color=style.GREY, linestyle="--", linewidth=1.0)
-    for y, x, end, colour in zip(index, value, ends.T, [style.GREY, *colours]):
+    for y, x, end, colour in zip(heights, value, ends.T, [style.GREY, *colours]):
         axes.errorbar(x, y, xerr=end[:, None], fmt="o", color=colour, capsize=3)
-    axes.set_yticks(index, names)
+    axes.set_yticks(heights, names)
     axes.set(xlabel="yield: share of the differentials within all limits, %", ylim=(-0.7, len(names) - 0.3))
 
 

@@ -10,6 +10,11 @@ use super::torque_curve::TorqueCurve;
 
 const STIFFNESS: f64 = 1e3;
 
+/// A slip under a load.
+fn under<'a>(slip: &'a Slip, load: &'a SurfaceLoad) -> LoadedSlip<'a> {
+    LoadedSlip { slip, load }
+}
+
 /// A body whose limit torque is its load.
 fn by_load(mut body: BodyFriction) -> BodyFriction {
     body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], (STIFFNESS, DAMPING_TIME), false);
@@ -37,7 +42,7 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
     let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
     let mut heat = [0.0];
     let stopped = Slip { position: 0.501, speed: -1e-7 };
-    clutch.settle(&mut hold, LoadedSlip { slip: &stopped, load: &pressed(1000.0) }, false, 1.0, &mut heat);
+    clutch.settle(&mut hold, under(&stopped, &pressed(1000.0)), false, 1.0, &mut heat);
     assert_eq!(hold.mode, Mode::Stuck);
     assert!((clutch.torque(&hold, &Slip { speed: 0.0, ..stopped }, &pressed(1000.0)) - 11.0).abs() < 1e-9);
 }
@@ -50,9 +55,7 @@ fn a_crossing_from_one_limit_to_the_other_is_found_in_one_call() {
     // mrad; damping reaches the limit earlier, by the rotation within the damping time
     let hold = FrictionState { mode: Mode::Stuck, anchor: -0.01, stiffness: STIFFNESS };
     let turn = |position| Slip { position, speed: -1.0 };
-    let part = clutch
-        .crossing(&hold, LoadedSlip { slip: &turn(0.0), load: &by }, LoadedSlip { slip: &turn(-0.1), load: &by })
-        .unwrap();
+    let part = clutch.crossing(&hold, under(&turn(0.0), &by), under(&turn(-0.1), &by)).unwrap();
     let shift = DAMPING_TIME * 1.0;
     assert!((part * 0.1 - (0.02 - shift)).abs() < 1e-6, "{part}");
 }
@@ -65,25 +68,13 @@ fn a_held_body_slides_when_its_command_falls_below_its_torque() {
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
     for speed in [0.0, 1e-12, -1e-12] {
         let turn = Slip { position: 4.0 / STIFFNESS, speed };
-        let part = brake
-            .crossing(
-                &hold,
-                LoadedSlip { slip: &turn, load: &pressed(10.0) },
-                LoadedSlip { slip: &turn, load: &pressed(0.0) },
-            )
-            .unwrap();
+        let part = brake.crossing(&hold, under(&turn, &pressed(10.0)), under(&turn, &pressed(0.0))).unwrap();
         assert!((part - 0.6).abs() < 1e-4, "{part}");
         assert!(brake.is_due(&hold, &turn, &pressed(3.9), false) && !brake.is_due(&hold, &turn, &pressed(4.1), false));
     }
     // a command of 0 N·m holds nothing: a body that reverses continues to slide
     let mut slides = FrictionState { mode: Mode::Forward, ..hold };
-    brake.settle(
-        &mut slides,
-        LoadedSlip { slip: &Slip { position: 0.0, speed: -0.1 }, load: &pressed(0.0) },
-        false,
-        1.0,
-        &mut [0.0],
-    );
+    brake.settle(&mut slides, under(&Slip { position: 0.0, speed: -0.1 }, &pressed(0.0)), false, 1.0, &mut [0.0]);
     assert_eq!(slides.mode, Mode::Backward);
 }
 
@@ -118,7 +109,7 @@ fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_further() {
                 assert!(friction.is_due(&slides, &slip, &by, true), "{mode:?} at {speed:e} rad/s stops");
                 assert!(!friction.is_due(&slides, &slip, &by, false), "{mode:?} at {speed:e} rad/s was just released");
                 let mut state = slides;
-                friction.settle(&mut state, LoadedSlip { slip: &slip, load: &by }, true, 1.0, &mut [0.0]);
+                friction.settle(&mut state, under(&slip, &by), true, 1.0, &mut [0.0]);
                 assert_eq!(state.mode, Mode::Stuck);
                 // the spring has exactly the limit torque, which does not release the body again
                 assert!(!friction.is_due(&state, &Slip { position: 0.0, speed: 0.0 }, &by, false));
@@ -143,46 +134,15 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
         let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: stiff };
         let at = |torque: f64| Slip { position: sign * torque / stiff, speed: 0.0 };
         assert!(!brake.is_due(&hold, &at(1e-3 + 5e-7), &by, false));
-        assert_eq!(
-            brake.crossing(
-                &hold,
-                LoadedSlip { slip: &at(0.9e-3), load: &by },
-                LoadedSlip { slip: &at(1e-3 + 2e-6), load: &by }
-            ),
-            None
-        );
+        assert_eq!(brake.crossing(&hold, under(&at(0.9e-3), &by), under(&at(1e-3 + 2e-6), &by)), None);
         assert!(brake.is_due(&hold, &at(1e-3 + 1e-5), &by, false));
-        assert!(
-            brake
-                .crossing(
-                    &hold,
-                    LoadedSlip { slip: &at(0.9e-3), load: &by },
-                    LoadedSlip { slip: &at(1e-3 + 1e-4), load: &by }
-                )
-                .is_some()
-        );
+        assert!(brake.crossing(&hold, under(&at(0.9e-3), &by), under(&at(1e-3 + 1e-4), &by)).is_some());
         // the step ends at a speed whose damping torque is below the limit: 1e5 N·m·s/rad at 1e-6 rad/s would be 100
         // times the limit
         let slides = FrictionState { mode: Mode::Forward, anchor: 0.0, stiffness: stiff };
         let moving = |speed: f64| Slip { position: 0.0, speed };
-        assert!(
-            brake
-                .crossing(
-                    &slides,
-                    LoadedSlip { slip: &moving(1e-3), load: &by },
-                    LoadedSlip { slip: &moving(-4e-9), load: &by }
-                )
-                .is_none()
-        );
-        assert!(
-            brake
-                .crossing(
-                    &slides,
-                    LoadedSlip { slip: &moving(1e-3), load: &by },
-                    LoadedSlip { slip: &moving(-1e-7), load: &by }
-                )
-                .is_some()
-        );
+        assert!(brake.crossing(&slides, under(&moving(1e-3), &by), under(&moving(-4e-9), &by)).is_none());
+        assert!(brake.crossing(&slides, under(&moving(1e-3), &by), under(&moving(-1e-7), &by)).is_some());
     }
 }
 

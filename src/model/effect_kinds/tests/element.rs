@@ -1,4 +1,4 @@
-//! Checks of laws, and of the laws of elements.
+//! Checks of the laws of elements.
 
 use super::element::{Law, Spring};
 use crate::model::scene::Viscosity;
@@ -19,8 +19,8 @@ pub fn verify(law: &impl Law, oil: Option<Viscosity>, displacements: &[f64], rat
     for (&z, &rate) in displacements.iter().flat_map(|z| rates.iter().map(move |rate| (z, rate))) {
         let [by_z, by_rate] = law.force(Dual::<2>::variable(z, 0), Dual::variable(rate, 1), oil).d;
         assert_eq!(law.force(Dual::<2>::variable(z, 0), Dual::variable(rate, 1), oil).v, force(z, rate));
-        close(by_z, slope(&|z| force(z, rate), z), "derivative by displacement");
-        close(by_rate, slope(&|rate| force(z, rate), rate), "derivative by rate");
+        close(by_z, slope(&|z| force(z, rate), z), "derivative with respect to displacement");
+        close(by_rate, slope(&|rate| force(z, rate), rate), "derivative with respect to the rate");
         let elastic = slope(&|z| law.energy(z), z);
         close(force(z, 0.0), elastic, "force at rest and derivative of the energy");
         let heat = law.heat(rate, force(z, rate));

@@ -201,11 +201,10 @@ impl Port {
     /// Longest stable step [s] of a host that sets a torque, which acts `lag` steps late. Its springs give the unit the
     /// `rates` ω² [1/s²], and its dampers the rate λ [1/s]. It is infinite if the cut shows no limit.
     ///
-    /// A spring with a damper acts the time τ = λ/ω² ahead. With a = (ω h)²/2 and b = λ h, held inputs are stable if b
-    /// > (1 + 2 `lag`) a + `lag` b², a lower bound that is exact without lag, and if (1 + `lag`) b < 2. The line
+    /// A spring with a damper acts the time τ = λ/ω² ahead. With a = (ω h)²/2 and b = λ h, held inputs are stable if
+    /// (1 + 2 `lag`) a + `lag` b² < b, a lower bound that is exact without lag, and if (1 + `lag`) b < 2. The line
     /// through two values is a two-step Adams-Bashforth method: see [`line_limit`] for springs; dampers are stable up
-    /// to λ h = 1, or
-    /// 2 (√2 − 1) if the values are one step old.
+    /// to λ h = 1, or 2 (√2 − 1) if the values are one step old.
     pub fn stable_step_of_torque(&self, lag: f64, [spring, damper]: [f64; 2]) -> f64 {
         let quotient = |a, b| quotient(a, b).unwrap_or(f64::INFINITY);
         let late = lag.max(0.0);

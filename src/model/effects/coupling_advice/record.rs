@@ -140,9 +140,10 @@ impl Coupling {
         self.ports.iter().fold(0.0, |largest, port| largest.max(port.ratio(least)))
     }
 
-    /// Smallest advice of a port whose host reacts [s], and its meaning: the step at which the ratio would be `wanted`,
-    /// but at most the longest stable step, as far as it is known, and the present step. One step size cannot show that
-    /// a longer one is stable.
+    /// Smallest advice of a port whose host reacts [s], and its meaning. The advice is the step at which the ratio
+    /// would be
+    /// `wanted`. It is at most the longest stable step, if this is known, and at most the present step, because one step
+    /// size cannot show that a longer one is stable.
     pub fn advice(&self, wanted: f64, cut: &Cut) -> (f64, AdviceState) {
         let none = |state| (0.0, state);
         if !self.has_changed {

@@ -5,8 +5,8 @@
 //! viscous     T = T_v y |y|ⁿ⁻¹   regularised:   T = T_v y (y² + ε²)^((n − 1)/2),   y = s/s_v,   ε = 10⁻³
 //! ```
 //!
-//! with the slip s of a side gear relative to the carrier. For n < 1, regularisation bounds the derivative by
-//! T_v/s_v εⁿ⁻¹. It changes the torque by the fraction (n − 1)/2 (ε/y)², which is at most 0.005 % from y = 0.1. A measured
+//! with the slip s of a side gear relative to the carrier. For n < 1, regularisation bounds the derivative by T_v/s_v
+//! εⁿ⁻¹. It changes the torque by the fraction (n − 1)/2 (ε/y)², which is at most 0.005 % from y = 0.1. A measured
 //! curve is an odd function of slip.
 //!
 //! Source of the power law: the shear of silicone oil between the plates of a viscous coupling; H. Naunheimer et al.,
