@@ -5,9 +5,10 @@
 use std::fmt;
 use std::sync::OnceLock;
 
+use super::Variable;
 use super::named::{named, number, value_of};
 use super::table::table;
-use super::{Access, Variable};
+use super::written::written;
 use crate::declaration::{Condition, Need, Test};
 use crate::model::effects;
 use crate::model::{Inputs, Parameters};
@@ -184,32 +185,6 @@ impl fmt::Display for Missing {
     }
 }
 
-/// Returns a value as users write it, with its unit.
-fn written(row: &Variable, value: f64) -> String {
-    match row.access {
-        Access::Enumeration(kind, ..) => {
-            let choice = kind.choices.iter().find(|choice| f64::from(choice.value) == value);
-            choice.map_or(String::new(), |choice| choice.name.to_owned())
-        }
-        Access::Boolean(_) => (value != 0.0).to_string(),
-        _ => {
-            let unit = row.unit.map_or("", |unit| if unit.name == "1" { "" } else { unit.name });
-            format!("{value} {unit}").trim_end().to_owned()
-        }
-    }
-}
-
-/// Returns a value like [`written`], but in the display unit of `row`.
-pub(super) fn written_as_shown(row: &Variable, value: f64) -> String {
-    match (row.access, row.display) {
-        (Access::Real(_) | Access::Input(_), Some(shown)) => {
-            format!("{} {}", crate::model::six_digits(shown.show(value)), shown.name)
-        }
-        (Access::Real(_) | Access::Input(_), None) => written(row, crate::model::six_digits(value)),
-        _ => written(row, value),
-    }
-}
-
 /// Returns warnings about all initial values that have no effect in the scene.
 pub fn values_without_effect(parameters: &Parameters, inputs: &Inputs, situation: Situation) -> Vec<Problem> {
     let (mut numbers, mut inputs) = (*parameters, *inputs);
@@ -221,6 +196,7 @@ pub fn values_without_effect(parameters: &Parameters, inputs: &Inputs, situation
 mod tests {
     use super::*;
     use crate::declaration::Causality;
+    use crate::variables::Access;
     use crate::variables::{assign, index_of};
 
     #[test]

@@ -10,6 +10,7 @@ mod outputs;
 mod states;
 mod table;
 pub mod unset;
+mod written;
 
 pub use crate::declaration::{Causality, Choice, EnumType, Range, Variability, units};
 pub use access::{Access, OutputSource, Variable};

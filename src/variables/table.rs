@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::sync::OnceLock;
 
-use super::effective::written_as_shown;
+use super::written::written_as_shown;
 use super::{Access, Variable};
 use crate::declaration::{Causality, Range, Row, Rows, Variability};
 use crate::model::{Inputs, Parameters, STATES};

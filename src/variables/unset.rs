@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::effective::{Situation, acts, written_as_shown};
+use super::effective::{Situation, acts};
 use super::named::{index_of, number};
 use super::table::table;
+use super::written::written_as_shown;
 use super::{Access, Causality, Variable};
 use crate::model::{Inputs, Parameters, turned_backward};
 use crate::problem::Problem;

@@ -7,10 +7,10 @@
 
 use super::fatigue::MeshRolling;
 use super::overload::{Overload, Stressed};
-use super::{Fatigue, GearStrength, MeshLoad};
+use super::{Fatigue, GearStrength, MeshLoad, Sample};
 use crate::contact::detailed::PairName;
 use crate::contact::{Flank, FlankGaps};
-use crate::model::scene::{MAX_GROUPS, MAX_PLANETS};
+use crate::model::scene::MAX_PLANETS;
 use crate::strength::interval::{Three, at, crest, extremum, is_loaded_throughout, load_at, second_difference};
 use crate::strength::{Passing, loaded_flank};
 
@@ -32,19 +32,6 @@ const HALVINGS: u32 = 6;
 const SENSE: [f64; 2] = [-1.0, 1.0];
 /// Maximum number of teeth of a gear in a mesh at the three instants of an interval.
 const MOST_TEETH: usize = 18;
-
-/// Loads and motion at an instant.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sample {
-    /// Fraction of the step at which the sample was taken.
-    pub part: f64,
-    /// Angles of the planets relative to the carrier by group, in pitches of their teeth. Side gears roll with the
-    /// planets. Their own angles are not used, because they contain the elastic wind-up under load, which brings no
-    /// tooth into mesh.
-    pub angle: [f64; MAX_GROUPS],
-    /// Loads of the meshes, by group and side.
-    pub mesh: [[MeshLoad; 2]; MAX_GROUPS],
-}
 
 /// A planet whose teeth are rated.
 #[derive(Clone, Copy, Debug)]

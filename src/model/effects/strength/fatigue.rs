@@ -5,7 +5,7 @@
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::along_step::Sample;
+use super::mesh_load::Sample;
 use super::overload::{Overload, Overloads, Stressed};
 use super::utilisation::Utilisation;
 use crate::integrate::Point;

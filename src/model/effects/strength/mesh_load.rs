@@ -1,6 +1,7 @@
 //! Load of a mesh, from which the strength of its teeth is rated.
 
 use crate::contact::Flank;
+use crate::model::scene::MAX_GROUPS;
 
 /// Maximum number of loaded pairs of a mesh. With a contact ratio below 3, a flank has at most three pairs on its path.
 const MOST_PAIRS: usize = 6;
@@ -113,6 +114,19 @@ impl MeshLoad {
     pub fn root_stress(&self, i: usize) -> f64 {
         self.pairs().iter().map(|pair| pair.stress[i]).fold(0.0, f64::max)
     }
+}
+
+/// Loads and motion at an instant.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sample {
+    /// Fraction of the step at which the sample was taken.
+    pub part: f64,
+    /// Angles of the planets relative to the carrier by group, in pitches of their teeth. Side gears roll with the
+    /// planets. Their own angles are not used, because they contain the elastic wind-up under load, which brings no
+    /// tooth into mesh.
+    pub angle: [f64; MAX_GROUPS],
+    /// Loads of the meshes, by group and side.
+    pub mesh: [[MeshLoad; 2]; MAX_GROUPS],
 }
 
 #[cfg(test)]

@@ -11,9 +11,9 @@ mod overload;
 mod spec;
 mod utilisation;
 
-pub use along_step::{RatedPlanet, RatedStep, Sample};
+pub use along_step::{RatedPlanet, RatedStep};
 pub use fatigue::{Fatigue, Tally};
 pub use gear_strength::{CONTACT_TEMPERATURE, GearStrength};
-pub use mesh_load::{FlankLoad, MeshLoad};
+pub use mesh_load::{FlankLoad, MeshLoad, Sample};
 pub use overload::Stressed;
 pub use spec::StrengthSpec;
