@@ -5,7 +5,8 @@ use bevel_differential::contact::errors::{MeshId, PairId, ToothErrorSpec, ToothE
 use bevel_differential::contact::impact::Impact;
 use bevel_differential::contact::mesh::MeshState;
 use bevel_differential::contact::pairs::{Engagement, Flank, Spot};
-use bevel_differential::contact::solid::mesh::{SolidLoad, SolidMesh, SolidSlice, SolidSpec};
+use bevel_differential::contact::solid::loads::SolidLoad;
+use bevel_differential::contact::solid::mesh::{SolidMesh, SolidSlice, SolidSpec};
 use bevel_differential::contact::solid::pose::Displacement;
 use bevel_differential::geometry::{GearSpec, Pair};
 

@@ -15,7 +15,6 @@
 
 use super::candidates::Candidates;
 use super::flank::Flanks;
-pub use super::loads::SolidLoad;
 use super::overlap::Patch;
 use super::turned::Both;
 use super::walk::FlankSection;

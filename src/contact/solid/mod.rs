@@ -9,7 +9,7 @@
 mod candidates;
 mod exponential;
 pub mod flank;
-mod loads;
+pub mod loads;
 pub mod mesh;
 pub mod overlap;
 mod polygon;
