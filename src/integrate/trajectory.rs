@@ -90,7 +90,19 @@ pub struct Pending<P> {
 impl<P: Finite> Pending<P> {
     /// True if all numbers are finite and the step size is positive.
     pub fn is_valid(&self) -> bool {
-        let Self { h, error, first_unbalanced, ledger_rates, energy, .. } = self;
+        // all fields are listed, so that none can be forgotten
+        let Self {
+            h,
+            error,
+            cut: _,
+            to_kink: _,
+            after_rejection: _,
+            unbalanced: _,
+            first_unbalanced,
+            short: _,
+            ledger_rates,
+            energy,
+        } = self;
         [*h, *error, *first_unbalanced].is_finite() && ledger_rates.is_finite() && energy.is_finite() && *h > 0.0
     }
 }

@@ -149,18 +149,3 @@ impl Clock {
         [time, now].is_finite() && now >= time && !(end + expected).is_nan()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_time_is_reached_only_within_rounding() {
-        let mut timeline = Timeline::new(0.25);
-        assert!(!timeline.arrive(1.0, 0.5));
-        assert_eq!(timeline.now, 0.5);
-        // a difference within rounding is accepted
-        assert!(timeline.arrive(1.0, 1.0 - f64::EPSILON));
-        assert_eq!(timeline.now, 1.0);
-    }
-}

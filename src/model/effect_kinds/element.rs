@@ -107,6 +107,12 @@ impl<L: Law> Element<L> {
     pub fn new(parts: Vec<Part<L>>, heat_index: usize) -> Self {
         Self { parts, groups: 0, members: [0.0; MAX_GROUPS], is_structure: false, heat_index }
     }
+
+    /// Base of the parts that belong to planets, if there are any.
+    #[inline]
+    fn base_of_planets(&self) -> Option<usize> {
+        self.parts[..self.groups].first().and_then(|part| part.base)
+    }
 }
 
 impl<L: Law> BodyEffect for Element<L> {
@@ -126,7 +132,7 @@ impl<L: Law> BodyEffect for Element<L> {
             }
             out.heat[self.heat_index] += heat;
         }
-        if let (1.., Some(base)) = (self.groups, self.parts.first().and_then(|part| part.base)) {
+        if let Some(base) = self.base_of_planets() {
             out.force[base] += over_groups(self.groups, |g| of_groups[g][0]);
             out.heat[self.heat_index] += over_groups(self.groups, |g| of_groups[g][1]);
         }
@@ -153,7 +159,7 @@ impl<L: Law> BodyEffect for Element<L> {
                 out.velocity(base, base, -by_rate);
             }
         }
-        if let (1.., Some(base)) = (self.groups, self.parts.first().and_then(|part| part.base)) {
+        if let Some(base) = self.base_of_planets() {
             out.velocity(base, base, -over_groups(self.groups, |g| of_groups[g]));
         }
     }

@@ -104,7 +104,7 @@ impl Simulation {
     }
 
     /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears,
-    /// and the end of a half-shaft that twists moves alone.
+    /// and the end of a half-shaft that twists moves separately.
     pub(in crate::model) fn cut_with_mobility(&self) -> Cut {
         let ideal = &self.model.ideal;
         let under = |inputs: &Inputs| {

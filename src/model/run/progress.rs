@@ -245,3 +245,19 @@ pub fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
         (state.inputs.values, state.carrier_command) = (*inputs, inputs.carrier_speed);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrival_fails_if_the_motion_has_not_reached_the_time() {
+        let mut state = State::at_rest(0.25, 1e-6);
+        let failure = arrive_at(&mut state, 1.0, 0.5).unwrap_err();
+        assert!(failure.message.contains("t = 1 s"), "{failure}");
+        assert_eq!((state.time(), failure.time), (0.5, 0.5));
+        // a difference within rounding is accepted
+        assert!(arrive_at(&mut state, 1.0, 1.0 - f64::EPSILON).is_ok());
+        assert_eq!(state.time(), 1.0);
+    }
+}

@@ -17,8 +17,8 @@ pub fn verify(law: &impl Law, oil: Option<Viscosity>, displacements: &[f64], rat
         assert!((found - expected).abs() <= 1e-7 * found.abs().max(expected.abs()), "{what}: {found} {expected}");
     };
     for (&z, &rate) in displacements.iter().flat_map(|z| rates.iter().map(move |rate| (z, rate))) {
-        let [by_z, by_rate] = law.force(Dual::<2>::variable(z, 0), Dual::variable(rate, 1), oil).d;
-        assert_eq!(law.force(Dual::<2>::variable(z, 0), Dual::variable(rate, 1), oil).v, force(z, rate));
+        let Dual { v, d: [by_z, by_rate] } = law.force(Dual::variable(z, 0), Dual::variable(rate, 1), oil);
+        assert_eq!(v, force(z, rate));
         close(by_z, slope(&|z| force(z, rate), z), "derivative with respect to displacement");
         close(by_rate, slope(&|rate| force(z, rate), rate), "derivative with respect to the rate");
         let elastic = slope(&|z| law.energy(z), z);
