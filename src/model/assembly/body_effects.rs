@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use crate::model::effect_kinds::body_friction::PARTS;
-use crate::model::effect_kinds::{BodyEffect, Friction, FrictionSource, SurfaceTemperature};
+use crate::model::effect_kinds::{BodyEffect, Friction, RubbingSurface, SurfaceTemperature};
 use crate::model::effects::half_shaft::HalfShafts;
-use crate::model::scene::{InputDerivatives, Inputs, OilSpec, Plan, Viscosity};
+use crate::model::scene::{
+    GearContact, InputDerivatives, Inputs, OilSpec, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
+};
 use crate::model::setup::{Parameters, SceneEffects};
 use crate::model::thermal::{NODES, OIL};
 use crate::problem::Problem;
@@ -15,8 +16,10 @@ use crate::problem::Problem;
 pub struct BodyEffects {
     /// Forces and torques.
     pub forces: Arc<Vec<Box<dyn BodyEffect>>>,
-    /// Sources of dry friction.
-    pub friction: Vec<FrictionSource>,
+    /// Surfaces with dry friction.
+    pub surfaces: Vec<RubbingSurface>,
+    /// Pairs that may rub on each other, by their numbers.
+    pub pairs: [Option<RubbingPair>; PAIRS],
     /// The half-shafts.
     pub half_shafts: HalfShafts,
     /// True if anything other than a commanded lock acts in addition to plain gears.
@@ -32,32 +35,30 @@ pub struct BodyEffects {
 impl BodyEffects {
     /// Effects of the scene `p` that act on bodies.
     pub fn new(p: &Parameters, effects: &SceneEffects, plan: &Plan) -> Self {
-        let (forces, friction) = (effects.on_bodies(plan), effects.friction().collect::<Vec<_>>());
+        let (forces, mut surfaces) = (effects.on_bodies(plan), Vec::new());
+        effects.set_surfaces(&mut surfaces);
+        let has_friction = surfaces.iter().any(|surface| !surface.is_lock());
         Self {
-            has_brakes: friction.iter().any(|source| source.wheel.is_some()),
-            has_effects: !forces.is_empty() || friction.iter().any(|source| !source.by_lock),
+            has_brakes: surfaces.iter().any(|surface| surface.kind == RubbingKind::Wheel),
+            has_effects: !forces.is_empty() || has_friction,
             forces: Arc::new(forces),
-            has_friction: friction.iter().any(|source| !source.by_lock),
-            friction,
+            has_friction,
+            surfaces,
+            pairs: plan.rubbing(plan.contact != GearContact::Ideal),
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
             oil: effects.oil_acts().then_some(p.oil),
         }
     }
 
-    /// Fails if there are too many sources of dry friction on one body.
+    /// Fails if there are too many surfaces with dry friction on one body.
     pub fn check(&self) -> Result<(), Problem> {
-        let parts = Friction::part_count(&self.friction);
-        if parts <= PARTS {
-            return Ok(());
-        }
-        Err(problem!("effects", "they put {parts} dry frictions on one body, but it takes at most {PARTS}"))
+        Friction::check(&self.surfaces)
     }
 
     /// Applies changed tunable parameters.
     pub fn tune(&mut self, effects: &SceneEffects) {
-        self.friction.clear();
-        self.friction.extend(effects.friction());
-        self.has_friction = self.friction.iter().any(|source| !source.by_lock);
+        effects.set_surfaces(&mut self.surfaces);
+        self.has_friction = self.surfaces.iter().any(|surface| !surface.is_lock());
     }
 
     /// Speed of an imposed carrier at the positions `q` under its command [rad/s].
@@ -77,7 +78,7 @@ impl BodyEffects {
         inputs: &Inputs,
         input_derivatives: &InputDerivatives,
     ) -> Friction {
-        Friction::new(&self.friction, (lock, temperatures), inputs, input_derivatives)
+        Friction::new(&self.surfaces, (lock, temperatures), inputs, input_derivatives)
     }
 
     /// Viscosity of the oil at the `temperatures` of all nodes [K], if an effect needs it.
@@ -90,19 +91,19 @@ impl BodyEffects {
         let is_influential = |node: &usize| {
             let at_node = SurfaceTemperature::Node(*node);
             let has_friction_there =
-                |source: &FrictionSource| source.temperature == at_node && source.sliding.varies_with_temperature();
-            *node == OIL && self.oil.is_some() || self.friction.iter().any(has_friction_there)
+                |of: &RubbingSurface| of.temperature == at_node && of.sliding.varies_with_temperature();
+            *node == OIL && self.oil.is_some() || self.surfaces.iter().any(has_friction_there)
         };
         (0..NODES).filter(is_influential).collect()
     }
 
     /// True if friction, or an effect through the viscosity of the oil, depends on temperature.
     pub fn depends_on_temperature(&self) -> bool {
-        self.oil.is_some() || self.friction.iter().any(|source| source.sliding.varies_with_temperature())
+        self.oil.is_some() || self.surfaces.iter().any(|surface| surface.sliding.varies_with_temperature())
     }
 
     /// True if friction other than that of a lock depends on the loads of the meshes.
     pub fn needs_loads(&self) -> bool {
-        self.friction.iter().any(|source| !source.by_lock && source.depends_on_load())
+        self.surfaces.iter().any(|surface| surface.kind != RubbingKind::Wheel && surface.limit.varies())
     }
 }

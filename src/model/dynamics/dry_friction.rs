@@ -1,5 +1,6 @@
 //! Dry friction of gears with teeth under the loads of their meshes, with its derivatives with respect to these loads.
 
+use super::inputs_and_friction::slip_speed;
 use super::ledger_rates::LedgerRates;
 use super::shape::{ByGroup, Shape};
 use super::{Equations, FrictionEquations, Jacobian};
@@ -8,7 +9,8 @@ use crate::contact::planet::{COORDINATES, LinearisedLoad, Q};
 use crate::integrate::Point;
 use crate::model::assembly::SIGMA;
 use crate::model::effect_kinds::SurfaceLoad;
-use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::effect_kinds::dry_friction::DryFriction;
+use crate::model::scene::{CARRIER, PAIRS, RubbingKind};
 
 /// Loads on the surfaces of side gears, and of planets by group.
 pub(super) type MeshLoads<S, const N: usize> = ([SurfaceLoad; 2], <S as Shape<N>>::ByGroup<SurfaceLoad>);
@@ -16,12 +18,12 @@ pub(super) type MeshLoads<S, const N: usize> = ([SurfaceLoad; 2], <S as Shape<N>
 impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Loads by body; zero without mesh loads.
     #[inline(always)]
-    pub(super) fn by_body(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
-        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
+    pub(super) fn by_body(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; PAIRS] {
+        let mut all = [SurfaceLoad::default(); PAIRS];
         if let Some((sides, planets)) = loads {
-            all[..FRICTION_PLANETS].copy_from_slice(sides);
+            all[RubbingKind::Side.numbers()].copy_from_slice(sides);
             for g in 0..self.groups() {
-                all[FRICTION_PLANETS + g] = planets[g];
+                all[RubbingKind::Planet.number(g)] = planets[g];
             }
         }
         all
@@ -53,9 +55,9 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     }
 
     /// Loads on all rubbing surfaces. `loads` contains the loads on side gears and planets.
-    fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; FRICTION_BODIES] {
+    fn all_surface_loads(&self, loads: Option<&MeshLoads<S, N>>) -> [SurfaceLoad; PAIRS] {
         let mut all = self.by_body(loads);
-        all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(&self.applied.inputs));
+        self.applied.friction().add_commands(&self.applied.inputs, &mut all);
         all
     }
 
@@ -74,13 +76,10 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
 
     /// Adds the torques of sliding brakes, which depend only on inputs and speeds.
     pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
-        let surface_loads = self.applied.friction().wheel_loads(&self.applied.inputs);
-        for s in 0..2 {
-            let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
-            if friction.is_on() {
-                let direction = state.mode.direction();
-                let speed = direction * self.slip(at, FRICTION_WHEELS + s).speed;
-                sum[self.wheel(s)] -= direction * friction.sliding_limit(speed, &surface_loads[s])[0];
+        let surface_loads = self.all_surface_loads(None);
+        for number in RubbingKind::Wheel.numbers() {
+            if let (Some(pair), Some((friction, direction, speed))) = (self.pair(number), self.sliding(at, number)) {
+                sum[pair.body] -= direction * friction.sliding_limit(speed, &surface_loads[number])[0];
             }
         }
     }
@@ -114,7 +113,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
             }
         }
         for g in 0..self.groups() {
-            let Some((direction, of_planet)) = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]) else {
+            let Some((direction, of_planet)) = self.slopes_of_sliding(at, RubbingKind::Planet.number(g), &planets[g])
+            else {
                 continue;
             };
             let [l, r] = [loads[g][0].pressing(), loads[g][1].pressing()];
@@ -133,13 +133,21 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Direction in which body `i` slides, and the derivatives of its limit torque with respect to thrust and load,
-    /// under the loads `by`. Returns `None` if the body does not slide.
-    fn slopes_of_sliding(&self, at: &Point<N>, i: usize, by: &SurfaceLoad) -> Option<(f64, [f64; 2])> {
-        let (friction, state, _) = self.friction_on(i);
+    /// Friction of the pair with this `number`, the direction in which it slides, and its speed in this direction
+    /// [rad/s]. Returns `None` if the pair does not slide.
+    fn sliding(&self, at: &Point<N>, number: usize) -> Option<(DryFriction<'_>, f64, f64)> {
+        let pair = self.pair(number)?;
+        let (friction, state) = self.friction_on(pair);
         let direction = state.mode.direction();
         let slides = direction != 0.0 && friction.is_on();
-        slides.then(|| (direction, friction.limit_slopes(direction * self.slip(at, i).speed, by)))
+        slides.then(|| (friction, direction, direction * slip_speed(at, pair)))
+    }
+
+    /// Direction in which the pair with this `number` slides, and the derivatives of its limit torque with respect to
+    /// thrust and load, under the loads `by`. Returns `None` if it does not slide.
+    fn slopes_of_sliding(&self, at: &Point<N>, number: usize, by: &SurfaceLoad) -> Option<(f64, [f64; 2])> {
+        let (friction, direction, speed) = self.sliding(at, number)?;
+        Some((direction, friction.limit_slopes(speed, by)))
     }
 
     /// Adds the derivatives of the planets' dry friction that result from their centrifugal force.
@@ -150,7 +158,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         j: &mut Jacobian<'_, N>,
     ) {
         for g in 0..self.groups() {
-            let slopes = self.slopes_of_sliding(at, FRICTION_PLANETS + g, &planets[g]);
+            let slopes = self.slopes_of_sliding(at, RubbingKind::Planet.number(g), &planets[g]);
             let Some((direction, [per_thrust, _])) = slopes else { continue };
             j.by_velocity[self.planet(g)][self.orbit(g)] -= direction * per_thrust * self.centrifugal(at, g)[1];
         }

@@ -25,9 +25,9 @@ use super::shape::{Any, ByGroup, MAX_SIZE, Shape};
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
-use crate::model::effect_kinds::{Action, FrictionSource, Slopes, SurfaceLoad};
+use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
 use crate::model::scene::layout::{LEFT, over_groups};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, Inputs, Layout, MAX_GROUPS, Plan};
+use crate::model::scene::{CARRIER, Inputs, Layout, MAX_GROUPS, PAIRS, Plan};
 
 /// Equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
 #[derive(Clone, Copy)]
@@ -366,12 +366,6 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         let energy = forces.iter().filter(|e| all || e.is_structure()).map(|e| e.energy(&motion)).sum::<f64>();
         if all { energy + self.friction_energy(at) } else { energy }
     }
-
-    /// Effects on bodies, if any may act.
-    #[inline]
-    fn body_effects(&self) -> Option<&BodyEffects> {
-        S::MAY_ACT.then_some(&self.teeth.effect_terms.body_effects)
-    }
 }
 
 impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
@@ -386,8 +380,8 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn friction_sources(&self) -> &[FrictionSource] {
-        self.body_effects().map_or(&[], |effects| &effects.friction)
+    fn body_effects(&self) -> Option<&BodyEffects> {
+        S::MAY_ACT.then_some(&self.teeth.effect_terms.body_effects)
     }
 
     #[inline]
@@ -410,12 +404,7 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
         S::has_ends(&self.teeth.layout)
     }
 
-    #[inline]
-    fn sticking(&self) -> &[f64] {
-        &self.teeth.layout.members[..self.groups()]
-    }
-
-    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES] {
+    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; PAIRS] {
         let is_pressed = self.applied.friction().depends_on_load();
         self.by_body(if is_pressed { self.surfaces_pressed(at) } else { None }.as_ref())
     }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::scene::{PAIRS, RubbingKind};
 use crate::numeric::finite;
 
 /// Kind of an event.
@@ -65,14 +65,10 @@ pub struct AdvanceOptions {
 impl Event {
     /// Number of the side (1 left, 2 right) or of the planet group to which the event belongs; 0 for teeth.
     pub fn number(&self) -> i32 {
-        let body = usize::from(self.body);
-        let first = match self.what {
-            Happening::Nothing | Happening::ToothBreaks => return 0,
-            _ if body >= FRICTION_WHEELS => FRICTION_WHEELS,
-            _ if body >= FRICTION_PLANETS => FRICTION_PLANETS,
-            _ => 0,
-        };
-        (body - first) as i32 + 1
+        match self.what {
+            Happening::Nothing | Happening::ToothBreaks => 0,
+            _ => RubbingKind::of(usize::from(self.body)).1 as i32 + 1,
+        }
     }
 }
 
@@ -103,10 +99,10 @@ impl Events {
 
     /// Records an event at `time` [s] for each body that friction starts or stops holding between its states `before`
     /// and `after`. Returns true if there is an event.
-    pub fn record_friction(&mut self, [before, after]: [&[FrictionState; FRICTION_BODIES]; 2], time: f64) -> bool {
+    pub fn record_friction(&mut self, [before, after]: [&[FrictionState; PAIRS]; 2], time: f64) -> bool {
         let count = self.count();
-        for i in 0..FRICTION_BODIES {
-            let happening = match (i >= FRICTION_WHEELS, before[i].holds(), after[i].holds()) {
+        for i in 0..PAIRS {
+            let happening = match (RubbingKind::of(i).0 == RubbingKind::Wheel, before[i].holds(), after[i].holds()) {
                 (_, false, false) | (_, true, true) => continue,
                 (true, _, true) => Happening::WheelStops,
                 (true, _, false) => Happening::WheelBreaksLoose,
@@ -139,7 +135,7 @@ mod tests {
         let mut events = Events::default();
         assert_eq!(events.after(0), None);
         for k in 1..=11 {
-            events.record(Happening::WheelStops, FRICTION_WHEELS, f64::from(k));
+            events.record(Happening::WheelStops, RubbingKind::Wheel.number(0), f64::from(k));
         }
         assert_eq!((events.count(), events.last().time), (11, 11.0));
         assert_eq!(found(&events, 0), [4, 5, 6, 7, 8, 9, 10, 11]);
@@ -161,7 +157,7 @@ mod tests {
         let free = FrictionState::default();
         let held = FrictionState { stiffness: 1e5, ..free };
         let slides = FrictionState { mode: Mode::Forward, ..held };
-        let (left, right) = (FRICTION_WHEELS, FRICTION_WHEELS + 1);
+        let (left, right) = (RubbingKind::Wheel.number(0), RubbingKind::Wheel.number(1));
         let changes = [
             (left, free, held, Happening::WheelStops),
             (right, held, free, Happening::WheelBreaksLoose),
@@ -174,7 +170,7 @@ mod tests {
             (0, held, FrictionState { stiffness: 2e5, ..held }, Happening::Nothing),
         ];
         for (body, from, to, what) in changes {
-            let (mut before, mut after, mut events) = ([slides; FRICTION_BODIES], [slides; _], Events::default());
+            let (mut before, mut after, mut events) = ([slides; PAIRS], [slides; _], Events::default());
             (before[body], after[body]) = (from, to);
             let is_event = what != Happening::Nothing;
             assert_eq!(events.record_friction([&before, &after], 0.5), is_event, "{body}: {from:?} to {to:?}");

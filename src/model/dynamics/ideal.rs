@@ -7,10 +7,11 @@
 use super::energy_floor::energy_floor;
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
+use crate::model::assembly::BodyEffects;
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
 use crate::model::dynamics::ledger_rates::LedgerRates;
-use crate::model::effect_kinds::{Action, BodyMotion, FrictionSource, Slopes, SurfaceLoad};
-use crate::model::scene::{CARRIER, FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, PLANET, Plan};
+use crate::model::effect_kinds::{Action, BodyMotion, Slopes, SurfaceLoad};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// Torques that follow from the constraint.
@@ -110,9 +111,9 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Loads on all rubbing surfaces. Without teeth, only brakes have loads.
-    fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; FRICTION_BODIES] {
-        let mut all = [SurfaceLoad::default(); FRICTION_BODIES];
-        all[FRICTION_WHEELS..].copy_from_slice(&self.applied.friction().wheel_loads(inputs));
+    fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; PAIRS] {
+        let mut all = [SurfaceLoad::default(); PAIRS];
+        self.applied.friction().add_commands(inputs, &mut all);
         all
     }
 
@@ -330,8 +331,8 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
         &mut self.applied
     }
 
-    fn friction_sources(&self) -> &[FrictionSource] {
-        &self.ideal.body_effects.friction
+    fn body_effects(&self) -> Option<&BodyEffects> {
+        Some(&self.ideal.body_effects)
     }
 
     fn plan(&self) -> &Plan {
@@ -350,13 +351,8 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
         self.ideal.layout.has_ends()
     }
 
-    /// Empty, because planets stick together with the side gears.
-    fn sticking(&self) -> &[f64] {
-        &[]
-    }
-
-    fn mesh_loads(&self, _: &Point<IDEAL_SIZE>) -> [SurfaceLoad; FRICTION_BODIES] {
-        [SurfaceLoad::default(); FRICTION_BODIES]
+    fn mesh_loads(&self, _: &Point<IDEAL_SIZE>) -> [SurfaceLoad; PAIRS] {
+        [SurfaceLoad::default(); PAIRS]
     }
 
     fn acceleration_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {

@@ -1,16 +1,13 @@
 //! Inputs and dry friction, which act on gears with and without teeth.
 
-use std::iter::Chain;
-use std::ops::Range;
-
 use super::State;
 use super::ledger_rates::LedgerRates;
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
-use crate::model::effect_kinds::{BodyMotion, Friction, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
+use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
 use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, InputDerivatives, Inputs, Layout, Plan, Viscosity,
+    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
 };
 use crate::model::thermal::NODES;
 
@@ -36,7 +33,7 @@ pub struct InputsAndFriction {
     /// Changes of the load torques, left and right, and of the carrier torque within the pending step [N·m].
     pub change: [f64; 3],
     /// State of the dry friction.
-    pub friction_state: [FrictionState; FRICTION_BODIES],
+    pub friction_state: [FrictionState; PAIRS],
     friction: Option<Friction>,
     /// True if there is any dry friction.
     pub has_dry_friction: bool,
@@ -84,12 +81,12 @@ impl InputsAndFriction {
     }
 
     /// Anchors of the springs of dry friction.
-    pub fn anchors(&self) -> [f64; FRICTION_BODIES] {
+    pub fn anchors(&self) -> [f64; PAIRS] {
         self.friction_state.map(|state| state.anchor)
     }
 
     /// Sets the anchors of the springs of dry friction.
-    pub fn set_anchors(&mut self, anchors: &[f64; FRICTION_BODIES]) {
+    pub fn set_anchors(&mut self, anchors: &[f64; PAIRS]) {
         self.friction_state.iter_mut().zip(anchors).for_each(|(state, &anchor)| state.anchor = anchor);
     }
 
@@ -100,17 +97,42 @@ impl InputsAndFriction {
     }
 }
 
-/// Bodies on which friction acts.
-fn bodies_with_friction<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = usize> {
+/// Speed of the body of a pair relative to its base [rad/s].
+#[inline]
+pub fn slip_speed<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> f64 {
+    at.v[pair.body] - pair.base.map_or(0.0, |base| at.v[base])
+}
+
+/// Angle of the body of a pair relative to its base [rad].
+#[inline]
+fn slip_position<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> f64 {
+    pair.position().iter().map(|&(i, factor)| factor * at.q[i]).sum()
+}
+
+/// Motion of a pair.
+#[inline]
+fn slip<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> Slip {
+    Slip { position: slip_position(at, pair), speed: slip_speed(at, pair) }
+}
+
+/// Pairs that may rub on each other.
+#[inline]
+fn pairs<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = &RubbingPair> {
+    of.body_effects().map_or(&[][..], |effects| &effects.pairs).iter().flatten()
+}
+
+/// Pairs on which friction acts.
+#[inline]
+fn rubbing_pairs<const N: usize>(of: &(impl FrictionEquations<N> + ?Sized)) -> impl Iterator<Item = &RubbingPair> {
     // a loop over the set bits of a mask needs few branches
-    let mut left = of.applied().friction().mask(of.sticking().len());
+    let mut left = of.applied().friction().mask;
+    let pairs = of.body_effects().map_or(&[][..], |effects| &effects.pairs);
     std::iter::from_fn(move || {
-        let body = left.trailing_zeros();
-        (left != 0).then(|| {
-            left &= left - 1;
-            body as usize
-        })
+        let number = left.trailing_zeros() as usize;
+        left &= left.wrapping_sub(1);
+        pairs.get(number)
     })
+    .flatten()
 }
 
 /// Equations of gears with or without teeth, as far as inputs and dry friction need them.
@@ -119,8 +141,8 @@ pub trait FrictionEquations<const N: usize> {
     fn applied(&self) -> &InputsAndFriction;
     /// Mutable inputs and dry friction.
     fn applied_mut(&mut self) -> &mut InputsAndFriction;
-    /// Sources of the dry friction.
-    fn friction_sources(&self) -> &[FrictionSource];
+    /// Effects on bodies. Shapes on which none act have none.
+    fn body_effects(&self) -> Option<&BodyEffects>;
     /// Scene plan.
     fn plan(&self) -> &Plan;
     /// Index of each degree of freedom.
@@ -129,11 +151,8 @@ pub trait FrictionEquations<const N: usize> {
     fn has_dry_friction(&self) -> bool;
     /// True if half-shafts have ends.
     fn has_ends(&self) -> bool;
-    /// Number of planets in each group that dry friction may hold on their pins. Empty for ideal gears, because their
-    /// planets stick together with the side gears.
-    fn sticking(&self) -> &[f64];
-    /// Loads of the meshes on the surfaces of side gears and planets at `at`, if friction depends on them.
-    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; FRICTION_BODIES];
+    /// Loads of the meshes on the surfaces of all pairs at `at`, if friction depends on them.
+    fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; PAIRS];
     /// Accelerations at `at`, `time` [s] after the inputs were set.
     fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N];
     /// Accelerations from inputs and effects. Forces that do not depend on inputs may be left out.
@@ -211,51 +230,27 @@ pub trait FrictionEquations<const N: usize> {
         if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
-    /// Numbers of the bodies that may stick: side gears, planet groups, wheels.
-    fn bodies_that_stick(&self) -> Chain<Range<usize>, Range<usize>> {
-        (0..FRICTION_PLANETS + self.sticking().len()).chain(FRICTION_WHEELS..FRICTION_BODIES)
+    /// Pair with this number, if it exists.
+    fn pair(&self, number: usize) -> Option<&RubbingPair> {
+        self.body_effects()?.pairs[number].as_ref()
     }
 
-    /// Degree of freedom on which the friction of body `i` acts.
-    fn freedom_of(&self, i: usize) -> usize {
-        match i {
-            0..FRICTION_PLANETS => i,
-            FRICTION_PLANETS..FRICTION_WHEELS => self.layout().planet(i - FRICTION_PLANETS),
-            _ => self.wheel(i - FRICTION_WHEELS),
-        }
-    }
-
-    /// Motion of body `i` relative to the surface on which it rubs: carrier, pin, or ground.
-    fn slip(&self, at: &Point<N>, i: usize) -> Slip {
-        let body = self.freedom_of(i);
-        match i {
-            0..FRICTION_PLANETS => Slip { position: at.q[i], speed: at.v[i] - at.v[CARRIER] },
-            FRICTION_PLANETS..FRICTION_WHEELS => Slip { position: at.q[body], speed: at.v[body] },
-            _ => {
-                let s = i - FRICTION_WHEELS;
-                let twist = if body == s { 0.0 } else { at.q[body] };
-                Slip { position: at.q[CARRIER] + at.q[s] - twist, speed: at.v[body] }
-            }
-        }
-    }
-
-    /// Friction on body `i`, its state, and the number of identical bodies.
-    fn friction_on(&self, i: usize) -> (DryFriction<'_>, &FrictionState, f64) {
-        let planets = FRICTION_PLANETS..FRICTION_WHEELS;
-        let count = if planets.contains(&i) { self.sticking()[i - FRICTION_PLANETS] } else { 1.0 };
-        let applied = self.applied();
-        (DryFriction::new(applied.friction().on(i), self.friction_sources()), &applied.friction_state[i], count)
+    /// Friction of a pair, and its state.
+    fn friction_on(&self, pair: &RubbingPair) -> (DryFriction<'_>, &FrictionState) {
+        let (applied, surfaces) = (self.applied(), self.body_effects().map_or(&[][..], |effects| &effects.surfaces));
+        let friction = DryFriction::new(applied.friction().on(pair.number), surfaces);
+        (friction, &applied.friction_state[pair.number])
     }
 
     /// Loads on all rubbing surfaces at `at`, `time` [s] after the inputs were set.
-    fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; FRICTION_BODIES] {
+    fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; PAIRS] {
         let (mut all, applied) = (self.mesh_loads(at), self.applied());
-        let wheels = if applied.driven && time > 0.0 {
-            applied.friction().wheel_loads(&applied.input_derivatives.after(time, &applied.inputs).0)
+        if applied.driven && time > 0.0 {
+            let (inputs, _) = applied.input_derivatives.after(time, &applied.inputs);
+            applied.friction().add_commands(&inputs, &mut all);
         } else {
-            applied.friction().wheel_loads(&applied.inputs)
-        };
-        all[FRICTION_WHEELS..].copy_from_slice(&wheels);
+            applied.friction().add_commands(&applied.inputs, &mut all);
+        }
         all
     }
 
@@ -263,73 +258,71 @@ pub trait FrictionEquations<const N: usize> {
     fn add_friction_torques(
         &self,
         at: &Point<N>,
-        surface_loads: &[SurfaceLoad; FRICTION_BODIES],
+        surface_loads: &[SurfaceLoad; PAIRS],
         sum: &mut [f64; N],
         ledger_rates: &mut LedgerRates,
     ) {
-        for i in bodies_with_friction(self) {
-            let (friction, state, count) = self.friction_on(i);
-            let torque = friction.act(state, &self.slip(at, i), &surface_loads[i], count, &mut ledger_rates.heat);
+        for pair in rubbing_pairs(self) {
+            let ((friction, state), i) = (self.friction_on(pair), pair.number);
+            let slips = (slip_speed(at, pair), || slip_position(at, pair));
+            let torque = friction.act(state, slips, &surface_loads[i], pair.count, &mut ledger_rates.heat);
             ledger_rates.limit[i] = torque * state.mode.direction();
-            sum[self.freedom_of(i)] -= torque;
-            if i < FRICTION_PLANETS {
-                sum[CARRIER] += torque;
+            sum[pair.body] -= torque;
+            if let Some(base) = pair.base {
+                sum[base] += torque;
             }
         }
     }
 
     /// Adds the derivatives of dry friction with respect to the motion of its bodies, under the loads on its surfaces.
-    fn friction_slopes(&self, at: &Point<N>, surface_loads: &[SurfaceLoad; FRICTION_BODIES], j: &mut Jacobian<'_, N>) {
-        for i in bodies_with_friction(self) {
-            let (friction, state, _) = self.friction_on(i);
-            let [k, c] = friction.torque_slopes(state, &self.slip(at, i), &surface_loads[i]);
-            let body = self.freedom_of(i);
-            if i >= FRICTION_WHEELS {
-                // wheel angle = carrier angle + side gear angle − twist
-                let s = i - FRICTION_WHEELS;
-                j.by_position[body][CARRIER] -= k;
-                j.by_position[body][s] -= k;
-                if body != s {
-                    j.by_position[body][body] += k;
-                }
-                j.by_velocity[body][body] -= c;
+    fn friction_slopes(&self, at: &Point<N>, surface_loads: &[SurfaceLoad; PAIRS], j: &mut Jacobian<'_, N>) {
+        for pair in rubbing_pairs(self) {
+            let (friction, state) = self.friction_on(pair);
+            let [k, c] = friction.torque_slopes(state, slip_speed(at, pair), &surface_loads[pair.number]);
+            // friction that slides at a constant limit has no derivatives
+            if k == 0.0 && c == 0.0 {
                 continue;
             }
-            j.by_position[body][body] -= k;
-            j.by_rate[body][body] -= c;
-            if i < FRICTION_PLANETS {
-                j.by_position[CARRIER][i] += k;
-                j.by_rate[CARRIER][i] += c;
+            for (row, sign) in [Some((pair.body, -1.0)), pair.base.map(|base| (base, 1.0))].into_iter().flatten() {
+                for &(i, factor) in pair.position() {
+                    j.by_position[row][i] += sign * factor * k;
+                }
+                // a common rotation of body and base causes no torque, not even by rounding
+                match pair.base {
+                    Some(_) => pair.position().iter().for_each(|&(i, factor)| j.by_rate[row][i] += sign * factor * c),
+                    None => j.by_velocity[row][pair.body] += sign * c,
+                }
             }
         }
     }
 
     /// Torques of the friction on the wheels [N·m].
-    fn brake_torques(&self, at: &Point<N>) -> [f64; 2]
-    where
-        Self: Sized,
-    {
-        let surface_loads = self.applied().friction().wheel_loads(&self.applied().inputs);
+    fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
+        let mut loads = [SurfaceLoad::default(); PAIRS];
+        self.applied().friction().add_commands(&self.applied().inputs, &mut loads);
         [0, 1].map(|s| {
-            let (friction, state, _) = self.friction_on(FRICTION_WHEELS + s);
-            let torque = || friction.torque(state, &self.slip(at, FRICTION_WHEELS + s), &surface_loads[s]);
-            if friction.is_on() { torque() } else { 0.0 }
+            let Some(pair) = self.pair(RubbingKind::Wheel.number(s)) else { return 0.0 };
+            let (friction, state) = self.friction_on(pair);
+            if friction.is_on() { friction.torque(state, &slip(at, pair), &loads[pair.number]) } else { 0.0 }
         })
     }
 
     /// Energy in the springs of stuck friction [J].
     fn friction_energy(&self, at: &Point<N>) -> f64 {
-        let energy = |i: usize| {
-            let (friction, state, count) = self.friction_on(i);
-            count * friction.energy(state, self.slip(at, i).position)
+        let energy = |pair: &RubbingPair| {
+            let (friction, state) = self.friction_on(pair);
+            pair.count * friction.energy(state, slip_position(at, pair))
         };
-        self.bodies_that_stick().filter(|&i| self.applied().friction_state[i].stiffness > 0.0).map(energy).sum()
+        pairs(self).filter(|pair| self.applied().friction_state[pair.number].stiffness > 0.0).map(energy).sum()
     }
 
     /// True if loads decide whether friction switches at `at`.
     fn awaits_load(&self, at: &Point<N>) -> bool {
-        let awaits = |i: usize| self.friction_on(i).0.awaits_load(self.friction_on(i).1, &self.slip(at, i));
-        self.has_dry_friction() && bodies_with_friction(self).any(awaits)
+        let awaits = |pair: &RubbingPair| {
+            let (friction, state) = self.friction_on(pair);
+            friction.awaits_load(state, slip_speed(at, pair))
+        };
+        self.has_dry_friction() && rubbing_pairs(self).any(awaits)
     }
 
     /// Fraction of a step after which friction switches, or `None` if it does not.
@@ -338,27 +331,27 @@ pub trait FrictionEquations<const N: usize> {
             return None;
         }
         let surface_loads = [start, end].map(|at| self.surface_loads(at.point, at.time));
-        bodies_with_friction(self)
-            .filter_map(|i| {
-                let slips = [self.slip(start.point, i), self.slip(end.point, i)];
-                let [start, end] = [0, 1].map(|k| LoadedSlip { slip: &slips[k], load: &surface_loads[k][i] });
-                let (friction, state, _) = self.friction_on(i);
+        rubbing_pairs(self)
+            .filter_map(|pair| {
+                let slips = [start, end].map(|at| slip(at.point, pair));
+                let [start, end] = [0, 1].map(|k| LoadedSlip { slip: &slips[k], load: &surface_loads[k][pair.number] });
+                let (friction, state) = self.friction_on(pair);
                 friction.crossing(state, start, end)
             })
             .reduce(f64::min)
     }
 
     /// Distance of each friction from its switch, or `None` if it does not act.
-    fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; FRICTION_BODIES]
+    fn friction_margins(&self, at: &Point<N>) -> [Option<f64>; PAIRS]
     where
         Self: Sized,
     {
-        let mut margins = [None; FRICTION_BODIES];
+        let mut margins = [None; PAIRS];
         if self.has_dry_friction() {
             let surface_loads = self.surface_loads(at, 0.0);
-            for i in bodies_with_friction(self) {
-                let (friction, state, _) = self.friction_on(i);
-                margins[i] = Some(friction.margin(state, &self.slip(at, i), &surface_loads[i]));
+            for pair in rubbing_pairs(self) {
+                let ((friction, state), i) = (self.friction_on(pair), pair.number);
+                margins[i] = Some(friction.margin(state, &slip(at, pair), &surface_loads[i]));
             }
         }
         margins
@@ -370,63 +363,81 @@ pub trait FrictionEquations<const N: usize> {
             return false;
         }
         let surface_loads = self.surface_loads(at, time);
-        bodies_with_friction(self).any(|i| {
-            let (friction, state, _) = self.friction_on(i);
-            friction.is_due(state, &self.slip(at, i), &surface_loads[i], self.stops(at, time, i))
+        rubbing_pairs(self).any(|pair| {
+            let (friction, state) = self.friction_on(pair);
+            friction.is_due(state, &slip(at, pair), &surface_loads[pair.number], self.stops(at, time, pair))
         })
     }
 
-    /// True if body `i` slides at a speed near zero and does not accelerate in its sliding direction. This is evaluated
+    /// True if a pair slides at a speed near zero and does not accelerate in its sliding direction. This is evaluated
     /// at `at`, `time` [s] after the inputs were set.
-    fn stops(&self, at: &Point<N>, time: f64, i: usize) -> bool {
-        let direction = self.applied().friction_state[i].mode.direction();
-        if direction == 0.0 || self.slip(at, i).speed.abs() >= SPEED_TOLERANCE {
+    fn stops(&self, at: &Point<N>, time: f64, pair: &RubbingPair) -> bool {
+        let direction = self.applied().friction_state[pair.number].mode.direction();
+        if direction == 0.0 || slip_speed(at, pair).abs() >= SPEED_TOLERANCE {
             return false;
         }
         let v = self.acceleration_at(at, time);
-        direction * self.slip(&Point { q: at.q, v }, i).speed <= 0.0
+        direction * slip_speed(&Point { q: at.q, v }, pair) <= 0.0
     }
 
     /// Drags the anchors of sliding bodies to the point `at`. `ledger_rates` contain the limit torques at this point.
     #[inline]
-    fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; FRICTION_BODIES]) {
+    fn drag_anchors(&self, at: &Point<N>, ledger_rates: &LedgerRates, anchors: &mut [f64; PAIRS]) {
         if !self.has_dry_friction() {
             return;
         }
-        for i in bodies_with_friction(self).filter(|&i| self.applied().friction_state[i].mode != Mode::Stuck) {
-            anchors[i] = self.friction_on(i).0.drag(anchors[i], self.slip(at, i).position, ledger_rates.limit[i]);
+        for pair in rubbing_pairs(self) {
+            let ((friction, state), i) = (self.friction_on(pair), pair.number);
+            if state.mode != Mode::Stuck {
+                anchors[i] = friction.drag(anchors[i], slip_position(at, pair), ledger_rates.limit[i]);
+            }
         }
     }
 
-    /// Switches friction on `bodies` if it is due at `at`, `time` [s] after the inputs were set. Energy that its
-    /// springs lose becomes heat.
-    fn settle_friction(&mut self, at: &Point<N>, time: f64, bodies: Range<usize>, heat: &mut [f64]) {
+    /// Switches friction that is due at `at`, `time` [s] after the inputs were set: of all pairs, or only of `kind`.
+    /// Energy that its springs lose becomes heat.
+    fn settle_friction(&mut self, at: &Point<N>, time: f64, kind: Option<RubbingKind>, heat: &mut [f64]) {
         let surface_loads = self.surface_loads(at, time);
-        for i in self.bodies_that_stick().filter(|i| bodies.contains(i)) {
-            let (friction, &(mut state), count) = self.friction_on(i);
+        let numbers = kind.map_or(0..PAIRS, RubbingKind::numbers);
+        for i in numbers {
+            let Some(&pair) = self.pair(i) else { continue };
+            let (friction, &(mut state)) = self.friction_on(&pair);
             if friction.is_on() {
-                let stops = self.stops(at, time, i);
-                friction.settle(
-                    &mut state,
-                    LoadedSlip { slip: &self.slip(at, i), load: &surface_loads[i] },
-                    stops,
-                    count,
-                    heat,
-                );
+                let stops = self.stops(at, time, &pair);
+                let at = LoadedSlip { slip: &slip(at, &pair), load: &surface_loads[i] };
+                friction.settle(&mut state, at, stops, pair.count, heat);
                 self.applied_mut().friction_state[i] = state;
             }
         }
     }
 
     /// Adapts friction to changed stiffnesses. It starts on bodies without friction so far, or ends on others.
-    fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64])
+    fn adapt_friction(&mut self, at: &Point<N>, heat: &mut [f64]) {
+        for i in 0..PAIRS {
+            let Some(&pair) = self.pair(i) else { continue };
+            let (friction, &(mut state)) = self.friction_on(&pair);
+            friction.adapt(&mut state, &slip(at, &pair), heat, pair.count);
+            self.applied_mut().friction_state[i] = state;
+        }
+    }
+
+    /// Pressure times speed of each surface that slides at `at` [W/m²], with the number of its pair.
+    fn each_pv(&self, at: &Point<N>, mut see: impl FnMut(&RubbingSurface, usize, f64))
     where
         Self: Sized,
     {
-        for i in self.bodies_that_stick() {
-            let (friction, &(mut state), count) = self.friction_on(i);
-            friction.adapt(&mut state, &self.slip(at, i), heat, count);
-            self.applied_mut().friction_state[i] = state;
+        let slides = |pair: &&RubbingPair| self.friction_on(pair).1.mode.direction() != 0.0;
+        if !self.has_dry_friction() || !rubbing_pairs(self).any(|pair| slides(&pair)) {
+            return;
+        }
+        let loads = self.surface_loads(at, 0.0);
+        let surfaces = self.body_effects().map_or(&[][..], |effects| &effects.surfaces);
+        for pair in rubbing_pairs(self).filter(slides) {
+            let speed = self.friction_on(pair).1.mode.direction() * slip_speed(at, pair);
+            let kind = RubbingKind::of(pair.number).0;
+            for surface in surfaces.iter().filter(|surface| surface.kind == kind) {
+                see(surface, pair.number, surface.pressed.at(&loads[pair.number]) * speed.max(0.0));
+            }
         }
     }
 }

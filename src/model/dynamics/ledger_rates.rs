@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::integrate::{Imbalance, Step};
-use crate::model::scene::FRICTION_BODIES;
+use crate::model::scene::PAIRS;
 use crate::model::setup::{CONTACT_HEAT, HEATS};
 use crate::numeric::finite;
 
@@ -18,8 +18,8 @@ pub struct LedgerRates {
     pub shaft: [f64; 2],
     /// Torque of the carrier's drive beyond its command [N·m].
     pub drive: f64,
-    /// Limit torque of the dry friction on each body that slides [N·m].
-    pub limit: [f64; FRICTION_BODIES],
+    /// Limit torque of the dry friction on each pair that slides [N·m].
+    pub limit: [f64; PAIRS],
 }
 
 /// Fraction of the kinetic energy by which rounding may disturb the balance of a step.
@@ -95,7 +95,7 @@ mod tests {
     fn rates_with_a_limit_torque_that_is_not_finite_are_not_finite() {
         let mut rates = LedgerRates::default();
         assert!(rates.is_finite());
-        rates.limit[FRICTION_BODIES - 1] = f64::NAN;
+        rates.limit[PAIRS - 1] = f64::NAN;
         assert!(!rates.is_finite());
     }
 }

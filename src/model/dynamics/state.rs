@@ -12,9 +12,7 @@ use super::timeline::Timeline;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{
-    CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Inputs, Layout, MAX_DOF, OilSpec, PLANET,
-};
+use crate::model::scene::{Inputs, Layout, MAX_DOF, OilSpec, PAIRS, PLANET, RubbingPair};
 use crate::model::setup::HEATS;
 use crate::model::thermal::Thermal;
 use crate::numeric::Finite;
@@ -45,8 +43,8 @@ pub struct State {
     pub heat: [f64; HEATS],
     /// Temperatures.
     pub thermal: Thermal,
-    /// State of the dry friction: side gears, groups of planets, wheels.
-    pub friction: [FrictionState; FRICTION_BODIES],
+    /// State of the dry friction, by the number of the pair.
+    pub friction: [FrictionState; PAIRS],
     /// Means of the shaft torques over whole mesh cycles, for the torque bias.
     pub torque_means: TorqueMeans,
     /// True if the tooth of the tooth fault is broken.
@@ -80,7 +78,7 @@ impl State {
             work: 0.0,
             heat: [0.0; HEATS],
             thermal: Thermal::uniform(OilSpec::default().temperature),
-            friction: [FrictionState::default(); FRICTION_BODIES],
+            friction: [FrictionState::default(); PAIRS],
             torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
             lock: 0.0,
@@ -150,11 +148,10 @@ impl State {
         }
     }
 
-    /// Moves whole periods of each position into a counter.
-    ///
-    /// Anchors of dry friction are shifted together with their bodies.
-    pub fn wrap(&mut self, periods: &[f64; MAX_DOF], layout: &Layout) {
-        for (i, period) in periods.iter().enumerate().take(layout.count()) {
+    /// Moves whole periods of each position into a counter, and shifts the anchors of dry friction on these `pairs`
+    /// together with their bodies.
+    pub fn wrap(&mut self, periods: &[f64; MAX_DOF], pairs: &[Option<RubbingPair>; PAIRS]) {
+        for (i, period) in periods.iter().enumerate() {
             // the usual case
             if self.q[i].abs() < *period {
                 continue;
@@ -163,22 +160,16 @@ impl State {
             if count != 0.0 {
                 self.q[i] -= count * period;
                 self.whole_periods[i] = self.whole_periods[i].saturating_add(count as i64);
-                self.move_anchors(i, count * period, layout);
+                self.move_anchors(i, count * period, pairs);
             }
         }
     }
 
-    /// Shifts the anchors of all friction whose position depends on degree of freedom `i`.
-    fn move_anchors(&mut self, i: usize, by: f64, layout: &Layout) {
-        let planet = i.wrapping_sub(layout.planet(0));
-        if i < CARRIER {
-            self.friction[i].anchor -= by;
-            self.friction[FRICTION_WHEELS + i].anchor -= by;
-        } else if i == CARRIER {
-            self.friction[FRICTION_WHEELS].anchor -= by;
-            self.friction[FRICTION_WHEELS + 1].anchor -= by;
-        } else if planet < layout.groups {
-            self.friction[FRICTION_PLANETS + planet].anchor -= by;
+    /// Shifts the anchors of all friction whose slip depends on degree of freedom `i`.
+    fn move_anchors(&mut self, i: usize, by: f64, pairs: &[Option<RubbingPair>; PAIRS]) {
+        for pair in pairs.iter().flatten() {
+            let moved = pair.position().iter().filter(|(of, _)| *of == i).map(|(_, factor)| factor * by);
+            self.friction[pair.number].anchor -= moved.sum::<f64>();
         }
     }
 
@@ -272,13 +263,14 @@ mod tests {
     use crate::model::dynamics::timeline::CommunicationPoint;
 
     #[test]
-    fn anchors_of_a_side_gear_move_with_it_and_no_others_do() {
-        let layout = Layout { groups: 1, members: [2.0, 0.0, 0.0, 0.0], has_pins: false, attached: [false; _] };
-        for side in 0..2 {
+    fn the_anchor_of_a_pair_moves_with_each_body_on_which_its_slip_depends() {
+        let pair = |number, position: &[_]| Some(RubbingPair::new(number, (0, None), position, 1.0));
+        let mut pairs = [None; PAIRS];
+        (pairs[0], pairs[6]) = (pair(0, &[(0, 1.0)]), pair(6, &[(2, 1.0), (0, 1.0), (5, -1.0)]));
+        for (moved, anchors) in [(0, [-2.0, -2.0]), (1, [0.0; 2]), (2, [0.0, -2.0]), (5, [0.0, 2.0])] {
             let mut state = State::at_rest(0.0, 1e-3);
-            state.move_anchors(side, 2.0, &layout);
-            let moved: Vec<usize> = (0..state.friction.len()).filter(|&k| state.friction[k].anchor != 0.0).collect();
-            assert_eq!(moved, [side, FRICTION_WHEELS + side]);
+            state.move_anchors(moved, 2.0, &pairs);
+            assert_eq!([0, 6].map(|number| state.friction[number].anchor), anchors, "degree of freedom {moved}");
         }
     }
 

@@ -1,32 +1,32 @@
-//! Dry friction on one kind of body, combined from all sources.
+//! Dry friction on the pairs of one kind, combined from all its surfaces.
 
-use super::{FrictionPart, SurfaceLoad};
+use super::{ActingSurface, RubbingSurface, SurfaceLoad};
 
-/// Maximum number of friction parts on one body: washer, clutch pack, its measured curve, and lock. The start of a
-/// simulation checks it ([`super::Friction::part_count`]).
-pub const PARTS: usize = 4;
+/// Maximum number of surfaces of one pair: washer, clutch pack, its measured curve, and lock. The start of a simulation
+/// checks it.
+pub const MOST_SURFACES: usize = 4;
 
-/// Limit torques of all parts, and the spring that holds the body.
+/// Limit torques of all surfaces, and the spring that holds the body.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyFriction {
-    parts: [FrictionPart; PARTS],
+    surfaces: [ActingSurface; MOST_SURFACES],
     count: usize,
-    /// True if the friction of any part changes with slip.
+    /// True if the friction of any surface changes with slip.
     pub(super) varies_with_slip: bool,
-    /// Sum of the stiffnesses of all sources [N·m/rad].
+    /// Sum of the stiffnesses of all surfaces [N·m/rad].
     pub stiffness: f64,
     /// Damping of the spring over its stiffness [s].
     pub(super) damping_time: f64,
     /// True if the limit torque is commanded. It may then fall while a body is held.
     pub(super) commanded: bool,
-    /// Index of the heat that receives the spring's energy when the last source is switched off.
+    /// Index of the heat that receives the spring's energy when the last surface is released.
     pub(super) released_heat_index: usize,
 }
 
 impl BodyFriction {
-    /// Friction without sources.
+    /// No surfaces.
     pub const NONE: Self = Self {
-        parts: [FrictionPart::NONE; PARTS],
+        surfaces: [ActingSurface::NONE; MOST_SURFACES],
         count: 0,
         varies_with_slip: false,
         stiffness: 0.0,
@@ -35,60 +35,62 @@ impl BodyFriction {
         released_heat_index: 0,
     };
 
-    /// Friction without sources. `damping_time` [s] is the spring's damping over its stiffness.
+    /// No surfaces. `damping_time` [s] is the spring's damping over its stiffness.
     pub fn new(damping_time: f64, released_heat_index: usize) -> Self {
         Self { damping_time, released_heat_index, ..Self::NONE }
     }
 
-    /// Friction without sources, for a limit torque that is commanded.
+    /// No surfaces, for a limit torque that is commanded.
     pub fn commanded(damping_time: f64, released_heat_index: usize) -> Self {
         Self { commanded: true, ..Self::new(damping_time, released_heat_index) }
     }
 
-    /// Adds parts that share a spring of `stiffness` [N·m/rad] with the damping `damping_time` [s] over its stiffness.
-    /// `varies_with_slip` is true if their friction changes with slip.
-    pub fn push(&mut self, parts: &[FrictionPart], (stiffness, damping_time): (f64, f64), varies_with_slip: bool) {
+    /// Adds the surface number `index`, of which the fraction `pressed` acts with `factor` times its friction.
+    /// `damping_time` [s] is the damping of its spring over its stiffness.
+    pub fn push(&mut self, (index, surface): (u16, &RubbingSurface), [pressed, factor, damping_time]: [f64; 3]) {
+        let limit = surface.limit.times(pressed * factor);
+        self.surfaces[self.count] = ActingSurface { limit, heat_index: surface.heat_index, surface: index };
+        self.count += 1;
+        self.varies_with_slip |= surface.varies_with_slip();
+        let stiffness = pressed * surface.stiffness;
         if stiffness > 0.0 {
-            self.parts[self.count..self.count + parts.len()].copy_from_slice(parts);
-            self.count += parts.len();
-            self.varies_with_slip |= varies_with_slip;
             self.stiffness += stiffness;
             // dampings add up like stiffnesses; equal times remain exactly what they are
             self.damping_time += (damping_time - self.damping_time) * (stiffness / self.stiffness);
         }
     }
 
-    /// Parts of all sources.
-    pub fn parts(&self) -> &[FrictionPart] {
-        &self.parts[..self.count]
+    /// Surfaces that act.
+    pub fn surfaces(&self) -> &[ActingSurface] {
+        &self.surfaces[..self.count]
     }
 
-    /// True if there is any source.
+    /// True if any surface acts.
     pub fn is_on(&self) -> bool {
         self.count > 0
     }
 
     /// True if the limit torque depends on loads.
     pub fn depends_on_load(&self) -> bool {
-        self.parts().iter().any(|p| p.per_thrust != 0.0 || p.per_load != 0.0)
+        self.surfaces().iter().any(|surface| surface.limit.varies())
     }
 
     /// Kinetic limit torque without its change over speed [N·m].
     pub fn limit(&self, by: &SurfaceLoad) -> f64 {
-        self.parts().iter().map(|p| p.at(by)).sum()
+        self.surfaces().iter().map(|surface| surface.limit.at(by)).sum()
     }
 
     /// Derivatives of the limit torque with respect to thrust and load.
     pub(super) fn limit_slopes(&self) -> [f64; 2] {
-        self.parts().iter().fold([0.0; 2], |[t, l], p| [t + p.per_thrust, l + p.per_load])
+        self.surfaces().iter().fold([0.0; 2], |[t, l], of| [t + of.limit.per_thrust, l + of.limit.per_load])
     }
 
-    /// Returns the limit torque [N·m]. Adds `sliding` times the torque of each part to the heat of its cause; `sliding`
-    /// is the slip speed times the number of bodies [rad/s].
+    /// Returns the limit torque [N·m]. Adds `sliding` times the torque of each surface to the heat of its cause;
+    /// `sliding` is the slip speed times the number of bodies [rad/s].
     pub(super) fn limit_with_heat(&self, sliding: f64, by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
-        self.parts().iter().fold(0.0, |limit, part| {
-            let torque = part.at(by);
-            heat[part.heat_index] += sliding * torque;
+        self.surfaces().iter().fold(0.0, |limit, surface| {
+            let torque = surface.limit.at(by);
+            heat[surface.heat_index] += sliding * torque;
             limit + torque
         })
     }

@@ -8,7 +8,7 @@
 //! transition becomes heat.
 
 use super::body_friction::BodyFriction;
-use super::{FrictionPart, FrictionSource, FrictionState, Mode, Slip, SurfaceLoad};
+use super::{ActingSurface, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
 use crate::numeric::{TAU, quotient};
 
 /// Damping of the spring over its stiffness τ if the source gives none [s].
@@ -44,29 +44,29 @@ pub struct LoadedSlip<'a> {
     pub load: &'a SurfaceLoad,
 }
 
-/// Friction on a body: its parts, and the sources with their laws of sliding.
+/// Friction on a body: its surfaces that act, and all surfaces with their laws of sliding.
 #[derive(Clone, Copy, Debug)]
 pub struct DryFriction<'a> {
     of: &'a BodyFriction,
-    sources: &'a [FrictionSource],
+    all: &'a [RubbingSurface],
 }
 
 impl<'a> DryFriction<'a> {
-    /// Friction `of` a body from `sources`.
+    /// Friction `of` a body, whose surfaces are among `all`.
     #[inline]
-    pub fn new(of: &'a BodyFriction, sources: &'a [FrictionSource]) -> Self {
-        Self { of, sources }
+    pub fn new(of: &'a BodyFriction, all: &'a [RubbingSurface]) -> Self {
+        Self { of, all }
     }
 
-    /// True if there is any source.
+    /// True if any surface acts.
     #[inline]
     pub fn is_on(&self) -> bool {
         self.of.is_on()
     }
 
-    fn parts(&self) -> impl Iterator<Item = (&'a FrictionPart, &'a FrictionSource)> + use<'a> {
-        let sources = self.sources;
-        self.of.parts().iter().map(move |part| (part, &sources[usize::from(part.source)]))
+    fn surfaces(&self) -> impl Iterator<Item = (&'a ActingSurface, &'a RubbingSurface)> + use<'a> {
+        let all = self.all;
+        self.of.surfaces().iter().map(move |acting| (acting, &all[usize::from(acting.surface)]))
     }
 
     /// Limit torque of a body that slides at `speed` [rad/s] in its direction [N·m], and the derivative with respect to
@@ -80,8 +80,8 @@ impl<'a> DryFriction<'a> {
     /// other friction small.
     #[inline(never)]
     fn limit_at(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        self.parts().fold([0.0; 2], |[torque, slope], (part, source)| {
-            let [value, by_speed] = part.sliding(source, speed, by);
+        self.surfaces().fold([0.0; 2], |[torque, slope], (acting, surface)| {
+            let [value, by_speed] = acting.sliding(surface, speed, by);
             [torque + value, slope + by_speed]
         })
     }
@@ -94,15 +94,15 @@ impl<'a> DryFriction<'a> {
 
     #[inline(never)]
     fn limit_slopes_at(&self, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
-        self.parts().fold([0.0; 2], |[t, l], (part, source)| {
-            let [by_thrust, by_load] = part.slopes(source, speed, by);
+        self.surfaces().fold([0.0; 2], |[t, l], (acting, surface)| {
+            let [by_thrust, by_load] = acting.slopes(surface, speed, by);
             [t + by_thrust, l + by_load]
         })
     }
 
-    /// Limit torque of a held body: static ratio times kinetic limit torque, summed over all parts [N·m].
+    /// Limit torque of a held body: static ratio times kinetic limit torque, summed over all surfaces [N·m].
     fn breakaway(&self, by: &SurfaceLoad) -> f64 {
-        self.parts().map(|(part, source)| part.breakaway(source, by)).sum()
+        self.surfaces().map(|(acting, surface)| acting.breakaway(surface, by)).sum()
     }
 
     /// Torque against the motion [N·m].
@@ -115,22 +115,30 @@ impl<'a> DryFriction<'a> {
 
     /// Derivatives of the torque with respect to position and speed. [`Self::limit_slopes`] returns the derivatives
     /// with respect to loads.
-    pub fn torque_slopes(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> [f64; 2] {
+    pub fn torque_slopes(&self, state: &FrictionState, speed: f64, by: &SurfaceLoad) -> [f64; 2] {
         match state.mode {
             Mode::Stuck => [state.stiffness, self.of.damping_time * state.stiffness],
-            mode => [0.0, self.sliding_limit(mode.direction() * slip.speed, by)[1]],
+            mode => [0.0, self.sliding_limit(mode.direction() * speed, by)[1]],
         }
     }
 
-    /// Returns the torque against the motion [N·m], and adds the heat of `count` identical bodies to its causes.
-    pub fn act(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, count: f64, heat: &mut [f64]) -> f64 {
+    /// Returns the torque against the motion at `speed` [rad/s] and at a `position` [rad], which only a held body needs
+    /// [N·m]. Adds the heat of `count` identical bodies to its causes.
+    #[inline]
+    pub fn act(
+        &self,
+        state: &FrictionState,
+        (speed, position): (f64, impl FnOnce() -> f64),
+        by: &SurfaceLoad,
+        count: f64,
+        heat: &mut [f64],
+    ) -> f64 {
         if state.mode == Mode::Stuck {
-            let power = state.stiffness * self.of.damping_time * slip.speed * slip.speed;
-            self.add_heat(count * power, by, heat);
-            return self.torque(state, slip, by);
+            self.add_heat(count * state.stiffness * self.of.damping_time * speed * speed, by, heat);
+            return self.torque(state, &Slip { position: position(), speed }, by);
         }
         let direction = state.mode.direction();
-        let slides = (direction * slip.speed, count * direction * slip.speed);
+        let slides = (direction * speed, count * direction * speed);
         direction
             * if self.of.varies_with_slip {
                 self.limit_with_heat_at(slides, by, heat)
@@ -139,29 +147,29 @@ impl<'a> DryFriction<'a> {
             }
     }
 
-    /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each part
+    /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each surface
     /// to the heat of its cause.
     #[inline(never)]
     fn limit_with_heat_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
-        self.parts().fold(0.0, |limit, (part, source)| {
-            let [torque, _] = part.sliding(source, speed, by);
-            heat[part.heat_index] += sliding * torque;
+        self.surfaces().fold(0.0, |limit, (acting, surface)| {
+            let [torque, _] = acting.sliding(surface, speed, by);
+            heat[acting.heat_index] += sliding * torque;
             limit + torque
         })
     }
 
     /// Returns true if the loads decide on a switch or on the mode after it: while the body is stuck, and as soon as
     /// its sliding speed has reached zero.
-    pub fn awaits_load(&self, state: &FrictionState, slip: &Slip) -> bool {
-        state.mode.direction() * slip.speed <= 0.0
+    pub fn awaits_load(&self, state: &FrictionState, speed: f64) -> bool {
+        state.mode.direction() * speed <= 0.0
     }
 
     /// Distributes the heat `amount` [J or W] to the causes in proportion to their limit torques.
     fn add_heat(&self, amount: f64, by: &SurfaceLoad, heat: &mut [f64]) {
         let whole = self.of.limit(by);
-        for part in self.of.parts() {
-            let share = if whole > 0.0 { part.at(by) / whole } else { 1.0 / self.of.parts().len() as f64 };
-            heat[part.heat_index] += amount * share;
+        for acting in self.of.surfaces() {
+            let share = if whole > 0.0 { acting.limit.at(by) / whole } else { 1.0 / self.of.surfaces().len() as f64 };
+            heat[acting.heat_index] += amount * share;
         }
     }
 
@@ -216,7 +224,7 @@ impl<'a> DryFriction<'a> {
         if self.of.commanded && state.mode == Mode::Stuck {
             return self.crossing_of_command(state, start, end);
         }
-        if !self.awaits_load(state, end.slip) || self.of.limit(end.load) <= self.torque_resolution(end.slip) {
+        if !self.awaits_load(state, end.slip.speed) || self.of.limit(end.load) <= self.torque_resolution(end.slip) {
             return None;
         }
         let after = self.overshoot(state, end.slip, end.load);
@@ -333,7 +341,7 @@ impl<'a> DryFriction<'a> {
             *state = FrictionState::default();
         }
         state.stiffness = self.of.stiffness;
-        let cause = self.of.parts().first().map_or(self.of.released_heat_index, |part| part.heat_index);
+        let cause = self.of.surfaces().first().map_or(self.of.released_heat_index, |first| first.heat_index);
         heat[cause] += count * (before - self.energy(state, slip.position));
     }
 }

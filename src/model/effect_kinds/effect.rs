@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{BodyEffect, BodyMotion, FlankFriction, FrictionSource, ToothEffects};
+use super::{BodyEffect, BodyMotion, FlankFriction, RubbingSurface, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
 use crate::declaration::{Condition, DisplayUnit, EnumType, Group, Need, Row, Rows, Unit};
@@ -202,8 +202,6 @@ pub trait Effect: Any {
         false
     }
 
-    /// Dry friction on bodies, if the effect adds any.
-    fn friction(&self, _setting: &Setting) -> Option<FrictionSource> {
-        None
-    }
+    /// Adds the surfaces on which the effect lets bodies rub to `surfaces`.
+    fn add_surfaces(&self, _setting: &Setting, _surfaces: &mut Vec<RubbingSurface>) {}
 }

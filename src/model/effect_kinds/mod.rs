@@ -1,8 +1,9 @@
 //! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`, `element`), dry friction
-//! with sticking (`friction_source`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
+//! with sticking (`rubbing_surface`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
 
 pub mod body_effect;
 pub mod body_friction;
+pub mod by_load;
 pub mod dry_friction;
 #[cfg(test)]
 #[path = "tests/dry_friction.rs"]
@@ -13,30 +14,25 @@ pub mod element;
 #[path = "tests/element.rs"]
 pub mod element_tests;
 pub mod friction;
-pub mod friction_part;
-pub mod friction_source;
 pub mod friction_state;
 pub mod memory;
-pub mod pressed;
 pub mod ramps;
+pub mod rubbing_surface;
 pub mod slip_law;
 pub mod slip_spec;
 pub mod teeth;
 pub mod torque_curve;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
+pub use by_load::{ByLoad, PvLimit};
 pub(super) use effect::readings;
 pub use effect::{BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
-pub use friction_part::{FrictionPart, Slip, SurfaceLoad};
-pub use friction_source::{
-    FrictionSource, PlanetFriction, SideFriction, SurfaceKind, SurfaceTemperature, WheelFriction,
-};
 pub use friction_state::{FrictionState, Mode};
 pub use memory::{Memory, Remembered};
-pub use pressed::{Pressed, PvLimit, Surface};
 pub use ramps::Ramps;
+pub use rubbing_surface::{ActingSurface, Command, RubbingSurface, Slip, SurfaceLoad, SurfaceTemperature};
 pub use slip_law::SlipLaw;
 pub(super) use slip_spec::check_slip;
 pub use slip_spec::{Slides, SlipSpec, depends_on_temperature};

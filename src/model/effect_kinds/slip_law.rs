@@ -32,9 +32,6 @@ pub struct SlipLaw {
 }
 
 impl SlipLaw {
-    /// Friction that does not change with speed.
-    pub const CONSTANT: Self = Self { radius: 0.0, excess: 0.0, stribeck_speed: 0.0, slope: 0.0 };
-
     /// True if speed has no influence.
     pub fn is_constant(&self) -> bool {
         (self.excess == 0.0 || self.stribeck_speed == 0.0) && self.slope == 0.0
@@ -83,6 +80,6 @@ mod tests {
         assert_eq!(CLUTCH.factor(1e6), [LEAST, 0.0]);
         let jump = SlipLaw { stribeck_speed: 0.0, slope: 0.0, ..CLUTCH };
         assert_eq!(jump.factor(3.0), [1.0, 0.0]);
-        assert!(SlipLaw::CONSTANT.is_constant() && jump.is_constant() && !CLUTCH.is_constant());
+        assert!(jump.is_constant() && !CLUTCH.is_constant());
     }
 }

@@ -5,7 +5,8 @@ use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
-use crate::model::effect_kinds::{BUILT, Declare, Effect, FrictionSource, Heat, InputField, Setting, SideFriction};
+use crate::model::effect_kinds::{BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, RubbingSurface, Setting};
+use crate::model::scene::RubbingKind;
 
 parameters! {
     /// Lock between side gears and carrier, controlled by a command.
@@ -33,9 +34,13 @@ impl Declare for LockSpec {
 }
 
 impl Effect for LockSpec {
-    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
-        let side = SideFriction { constant: self.torque, stiffness: self.stiffness, ..SideFriction::default() };
-        let Self { damping_time, .. } = *self;
-        Some(FrictionSource { side, damping_time, by_lock: true, ..FrictionSource::new(setting.heat_index) })
+    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+        surfaces.push(RubbingSurface {
+            limit: ByLoad { constant: self.torque, ..ByLoad::NONE },
+            stiffness: self.stiffness,
+            damping_time: [self.damping_time; 2],
+            command: Command::Lock,
+            ..RubbingSurface::new(RubbingKind::Side, setting.heat_index)
+        });
     }
 }

@@ -14,10 +14,10 @@
 use crate::declaration::prelude::*;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
-    Declare, Effect, FrictionSource, Heat, Needs, PlanetFriction, Pressed, Reading, Setting, SideFriction, Slides,
-    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
+    ByLoad, Declare, Effect, Heat, Needs, Reading, RubbingSurface, Setting, Slides, SlipSpec, SurfaceTemperature,
+    check_slip, depends_on_temperature, readings,
 };
-use crate::model::scene::GearContact;
+use crate::model::scene::{GearContact, RubbingKind};
 use crate::model::thermal::WASHERS;
 use crate::numeric::sin;
 use crate::problem::{Problem, distinct_texts};
@@ -182,31 +182,32 @@ impl Effect for ThrustFrictionSpec {
         self.misfit_of_pin(setting).into_iter().chain(washers.into_iter().flatten()).collect()
     }
 
-    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
         let [planet, side] = setting.pair.gears.map(|gear| f64::from(gear.teeth));
         let ratio = planet / side;
-        let Radii { pin, washer } = self.radii(setting);
-        let by_thrust = |radius: f64, area: f64| Pressed { per_thrust: radius / area, ..Pressed::NONE };
-        let on_pin = Pressed { per_load: pin / self.pin_area, ..Pressed::NONE };
-        Some(FrictionSource {
-            side: SideFriction {
-                per_thrust: self.coefficient * washer[1],
-                stiffness: self.stiffness,
-                radius: washer[1],
-                pressed: by_thrust(washer[1], self.side_washer_area),
-                ..SideFriction::default()
-            },
-            planet: PlanetFriction {
-                per_pin_force: self.pin_coefficient * pin,
-                per_thrust: self.coefficient * washer[0],
-                stiffness: self.stiffness * ratio * ratio,
-                radius: [pin, washer[0]],
-                pressed: [on_pin, by_thrust(washer[0], self.planet_washer_area)],
-            },
+        let Radii { pin, washer: washer_radius } = self.radii(setting);
+        let by_thrust = |per_thrust: f64| ByLoad { per_thrust, ..ByLoad::NONE };
+        let by_load = |per_load: f64| ByLoad { per_load, ..ByLoad::NONE };
+        let surface = |kind: RubbingKind, radius: f64, [limit, pressed]: [ByLoad; 2]| RubbingSurface {
+            limit,
+            radius,
+            pressed,
             sliding: self.sliding,
             temperature: SurfaceTemperature::Node(WASHERS),
-            ..FrictionSource::new(setting.heat_index)
-        })
+            ..RubbingSurface::new(kind, setting.heat_index)
+        };
+        let washer = |kind: RubbingKind, radius: f64, area: f64| {
+            surface(kind, radius, [by_thrust(self.coefficient * radius), by_thrust(radius / area)])
+        };
+        let on_side = washer(RubbingKind::Side, washer_radius[1], self.side_washer_area);
+        let on_planet = washer(RubbingKind::Planet, washer_radius[0], self.planet_washer_area);
+        let pin =
+            surface(RubbingKind::Planet, pin, [by_load(self.pin_coefficient * pin), by_load(pin / self.pin_area)]);
+        surfaces.extend([
+            RubbingSurface { stiffness: self.stiffness, ..on_side },
+            RubbingSurface { place: " on its pin", stiffness: self.stiffness * ratio * ratio, ..pin },
+            RubbingSurface { place: " on its washer", ..on_planet },
+        ]);
     }
 }
 

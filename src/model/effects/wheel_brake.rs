@@ -13,9 +13,10 @@ use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, Declare, Effect, FrictionSource, Heat, InputField, Pressed, Reading, Setting, Slides, SlipSpec,
-    SurfaceTemperature, WheelFriction, check_slip, depends_on_temperature, readings,
+    BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, Reading, RubbingSurface, Setting, Slides, SlipSpec,
+    SurfaceTemperature, check_slip, depends_on_temperature, readings,
 };
+use crate::model::scene::RubbingKind;
 use crate::numeric::sqrt;
 use crate::problem::Problem;
 
@@ -86,19 +87,20 @@ impl Effect for WheelBrakeSpec {
         check_slip!("wheel_brake", self.sliding, found);
     }
 
-    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
         let end = [setting.inertia.left_end, setting.inertia.right_end];
-        let wheel = WheelFriction {
-            limit: |inputs| inputs.brake_torque,
+        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
+        let per_load = 1.0 / (self.lining_coefficient * self.friction_area);
+        surfaces.push(RubbingSurface {
+            limit: ByLoad { per_load: 1.0, ..ByLoad::NONE },
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
             radius: self.mean_radius,
-            // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
-            pressed: Pressed { per_load: 1.0 / (self.lining_coefficient * self.friction_area), ..Pressed::NONE },
-        };
-        let Self { sliding, .. } = *self;
-        let temperature = SurfaceTemperature::Given(self.temperature);
-        let none = FrictionSource::new(setting.heat_index);
-        Some(FrictionSource { wheel: Some(wheel), sliding, temperature, ..none })
+            pressed: ByLoad { per_load, ..ByLoad::NONE },
+            sliding: self.sliding,
+            temperature: SurfaceTemperature::Given(self.temperature),
+            command: Command::Limits(|inputs| inputs.brake_torque),
+            ..RubbingSurface::new(RubbingKind::Wheel, setting.heat_index)
+        });
     }
 }

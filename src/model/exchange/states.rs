@@ -5,7 +5,7 @@ use crate::model::assembly::Gears;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, Largest};
 use crate::model::run::Simulation;
-use crate::model::scene::{CARRIER, FRICTION_PLANETS, FRICTION_WHEELS, MAX_DOF, MAX_PLANETS, Plan};
+use crate::model::scene::{CARRIER, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PAIRS, Plan, RubbingKind};
 
 /// Body whose position and velocity are states.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,9 +49,11 @@ pub const BODIES: [Body; MAX_DOF] = {
 
 /// Number of states: positions of all bodies, then their velocities.
 pub const STATES: usize = 2 * MAX_DOF;
-/// Number of event indicators: touch of drive and coast flanks of each mesh, then dry friction on side gears, planets
-/// and wheels.
-pub const INDICATORS: usize = 4 * MAX_PLANETS + FRICTION_PLANETS + MAX_PLANETS + 2;
+/// Number of event indicators: touch of drive and coast flanks of each mesh, then dry friction by the numbers of the
+/// pairs, with each planet instead of each group.
+pub const INDICATORS: usize = 4 * MAX_PLANETS + PAIRS;
+// otherwise planets would need more indicators than groups of planets
+const _: () = assert!(MAX_PLANETS == MAX_GROUPS);
 /// Value of an indicator whose event cannot occur.
 const NEVER: f64 = 1.0;
 
@@ -130,12 +132,13 @@ impl Simulation {
         with_equations!(model, state, inputs, |equations| {
             let margins = equations.friction_margins(&state.point());
             let friction = &mut indicators[4 * MAX_PLANETS..];
-            for s in 0..2 {
-                friction[s] = margins[s].unwrap_or(NEVER);
-                friction[FRICTION_PLANETS + MAX_PLANETS + s] = margins[FRICTION_WHEELS + s].unwrap_or(NEVER);
-            }
-            for i in 0..plan.planets {
-                friction[FRICTION_PLANETS + i] = margins[FRICTION_PLANETS + plan.group_of[i]].unwrap_or(NEVER);
+            for (number, indicator) in friction.iter_mut().enumerate() {
+                let of = match RubbingKind::of(number) {
+                    (RubbingKind::Planet, i) if i >= plan.planets => continue,
+                    (RubbingKind::Planet, i) => RubbingKind::Planet.number(plan.group_of[i]),
+                    _ => number,
+                };
+                *indicator = margins[of].unwrap_or(NEVER);
             }
         });
         indicators

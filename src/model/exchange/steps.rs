@@ -12,7 +12,7 @@ use crate::model::run::events::{
 };
 use crate::model::run::progress::complete;
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
-use crate::model::scene::{FRICTION_BODIES, InputDerivatives, Inputs, MAX_DOF};
+use crate::model::scene::{InputDerivatives, Inputs, MAX_DOF};
 
 /// Result of an event in model exchange.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -129,7 +129,7 @@ impl Simulation {
             state.statistics.accepted += 1;
             state.statistics.evaluations += 2;
             state.control.last = h;
-            state.wrap(&model.periods, &model.layout);
+            state.wrap(&model.periods, &model.body_effects().pairs);
         }
         let jumps = imposed::is_impulse(model, &from.followed_commands, inputs);
         let commanded = inputs.lock != state.lock || have_brakes_changed(model, inputs, state);
@@ -174,7 +174,7 @@ impl Simulation {
         let friction = state.friction;
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
-                equations.settle_friction(&state.point(), 0.0, 0..FRICTION_BODIES, &mut state.heat);
+                equations.settle_friction(&state.point(), 0.0, None, &mut state.heat);
                 state.friction = equations.applied().friction_state;
             }
         });

@@ -1,7 +1,6 @@
 //! Forces, torques and powers at an instant, and the ratios that follow from them. They are computed when outputs
 //! request them.
 
-use super::pv::each_pv;
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
@@ -189,9 +188,9 @@ fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State)
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
 /// frames small.
 #[inline(never)]
-fn read_pv<const N: usize>(out: &mut Forces, model: &Model, equations: &impl FrictionEquations<N>, at: &Point<N>) {
-    each_pv(equations, &model.body_effects().friction, at, |source, _, pv| {
-        if let Some(index) = indices_of(source.effect, Changes::Always).next() {
+fn read_pv<const N: usize>(out: &mut Forces, equations: &impl FrictionEquations<N>, at: &Point<N>) {
+    equations.each_pv(at, |surface, _, pv| {
+        if let Some(index) = indices_of(surface.effect, Changes::Always).next() {
             out.readings[index] = out.readings[index].max(pv);
         }
     });
@@ -226,7 +225,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
     read_effects(&mut out, model, inputs, state);
-    read_pv(&mut out, model, equations, point);
+    read_pv(&mut out, equations, point);
     if extent == Extent::Bodies {
         add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
         return out;
@@ -385,7 +384,7 @@ pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inpu
     let heat = lost(&ledger_rates.heat);
     let torques = equations.torques(point);
     let mut out = without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&torques, shafts), heat);
-    read_pv(&mut out, model, equations, point);
+    read_pv(&mut out, equations, point);
     out
 }
 

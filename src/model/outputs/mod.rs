@@ -5,7 +5,6 @@ pub mod ledger_readings;
 mod loads;
 pub mod motion;
 pub mod pairs;
-pub mod pv;
 
 pub use ledger_readings::LedgerReadings;
 pub use motion::Motion;

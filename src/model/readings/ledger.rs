@@ -4,7 +4,7 @@ use crate::model::dynamics::State;
 use crate::model::outputs::LedgerReadings;
 use crate::model::run::Simulation;
 use crate::model::run::events::energy;
-use crate::model::scene::{FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS};
+use crate::model::scene::RubbingKind;
 use crate::model::setup::STEP_READINGS;
 use crate::model::thermal::of_scene;
 
@@ -32,18 +32,14 @@ impl Simulation {
         self.read_coupling(&mut readings);
         // held bodies follow the recorded events, because completing the step may switch friction before its event is
         // recorded
-        let held = |range: std::ops::Range<usize>| {
-            let friction = self.state.friction[range].iter();
+        let held = |kind: RubbingKind| {
+            let friction = self.state.friction[kind.numbers()].iter();
             friction.filter(|friction| friction.holds()).count() as f64
         };
         LedgerReadings {
             heat: state.heat,
             readings,
-            held: [
-                held(0..FRICTION_PLANETS),
-                held(FRICTION_PLANETS..FRICTION_WHEELS),
-                held(FRICTION_WHEELS..FRICTION_BODIES),
-            ],
+            held: RubbingKind::ALL.map(held),
             energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
             rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,

@@ -1,17 +1,16 @@
 //! Warnings that a simulation reports once during a run: a law used outside its published range, a stress above the
 //! strength, a p·v above its limit.
 
+use crate::declaration::SIDES;
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::{IdealEquations, Largest};
-use crate::model::effect_kinds::{FrictionSource, Surface};
+use crate::model::dynamics::{FrictionEquations, Largest, with_equations};
 use crate::model::effects::EFFECTS;
 use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
-use crate::model::outputs::pv::each_pv;
 use crate::model::run::{Simulation, effort, six_digits};
-use crate::model::scene::{MAX_PLANETS, Method};
+use crate::model::scene::{MAX_PLANETS, Method, RubbingKind};
 use crate::numeric::PI;
 use crate::problem::{Problem, distinct_texts};
 
@@ -172,31 +171,24 @@ impl Simulation {
     #[inline(never)]
     fn above_pv_limit(&self, effect: &str, variable: &'static str) -> Option<Problem> {
         let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        let sources = &model.body_effects().friction;
-        let limit = sources.iter().find(|source| source.effect == effect)?.sliding.pv_limit;
+        let surfaces = &model.body_effects().surfaces;
+        let limit = surfaces.iter().find(|surface| surface.effect == effect)?.sliding.pv_limit;
         if limit == 0.0 {
             return None;
         }
-        let mut worst: Option<(Surface, f64)> = None;
-        let mut see = |source: &FrictionSource, surface: Surface, pv: f64| {
-            if source.effect == effect && pv > worst.map_or(limit, |(_, most)| most) {
-                worst = Some((surface, pv));
-            }
-        };
-        match &model.gears {
-            Gears::Teeth(teeth) => each_pv(&Largest::new(teeth, inputs, state), sources, &state.point(), &mut see),
-            Gears::Ideal(ideal) => {
-                each_pv(&IdealEquations::new(ideal, inputs, state), sources, &state.point(), &mut see)
-            }
-        }
-        let (surface, pv) = worst?;
-        let planet = |group: usize| format!("planet[{}]", model.ideal.plan.group(group).planet + 1);
-        let side = |s: usize| ["left", "right"][s];
-        let what = match surface {
-            Surface::Side(s) => format!("the {} side gear", side(s)),
-            Surface::Pin(group) => format!("{} on its pin", planet(group)),
-            Surface::PlanetWasher(group) => format!("{} on its washer", planet(group)),
-            Surface::Wheel(s) => format!("the {} wheel", side(s)),
+        let mut worst: Option<(&str, usize, f64)> = None;
+        with_equations!(model, state, inputs, |equations| {
+            equations.each_pv(&state.point::<N>(), |surface, pair, pv| {
+                if surface.effect == effect && pv > worst.map_or(limit, |(.., most)| most) {
+                    worst = Some((surface.place, pair, pv));
+                }
+            });
+        });
+        let (place, pair, pv) = worst?;
+        let what = match RubbingKind::of(pair) {
+            (RubbingKind::Side, s) => format!("the {} side gear{place}", SIDES[s]),
+            (RubbingKind::Planet, g) => format!("planet[{}]{place}", model.ideal.plan.group(g).planet + 1),
+            (RubbingKind::Wheel, s) => format!("the {} wheel{place}", SIDES[s]),
         };
         let [pv, limit] = distinct_texts([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
         let time = state.time();

@@ -1,15 +1,15 @@
 //! Causes of many steps: rattle, or a criterion that keeps rejecting steps.
 
 use super::hints;
+use crate::declaration::SIDES;
 use crate::integrate::{Point, SecondOrder, Statistics};
+use crate::model::assembly::BodyEffects;
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
-use crate::model::effect_kinds::{FrictionSource, Mode};
-use crate::model::scene::{
-    ATTACHED, CARRIER, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, GearContact, Inputs, Layout,
-};
+use crate::model::effect_kinds::Mode;
+use crate::model::scene::{ATTACHED, CARRIER, GearContact, Inputs, Layout, RubbingKind};
 use crate::model::setup::Parameters;
 use crate::problem::Problem;
 
@@ -85,12 +85,11 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
         };
         let layout = equations.layout();
         let (name, unit) = name_of(layout, i);
-        let sources = &model.body_effects().friction;
         format!(
             "the motion of {name} changes fastest: {:.1e} {unit}/s and {:.1e} {unit}/s²{}",
             at.v[i],
             rates[i],
-            friction_on(sources, state, i, |k| FrictionEquations::<N>::freedom_of(&equations, k))
+            friction_on(model.body_effects(), state, i)
         )
     })
 }
@@ -114,21 +113,16 @@ fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
     (name, "rad")
 }
 
-const SIDES: [&str; 2] = ["left", "right"];
-
-/// Names the dry friction that holds or brakes the body of degree of freedom `i`. Empty if none acts. `freedom_of`
-/// gives the degree of freedom of each body that may stick.
-fn friction_on(sources: &[FrictionSource], state: &State, i: usize, freedom_of: impl Fn(usize) -> usize) -> String {
-    (0..FRICTION_BODIES)
-        .filter(|&k| state.friction[k].stiffness > 0.0 && freedom_of(k) == i)
-        .map(|k| {
-            let does = if state.friction[k].mode == Mode::Stuck { "holds" } else { "brakes" };
-            let rubs = |source: &&FrictionSource| match k {
-                0..FRICTION_PLANETS => source.side.stiffness > 0.0,
-                FRICTION_PLANETS..FRICTION_WHEELS => source.planet.stiffness > 0.0,
-                _ => source.wheel.is_some(),
-            };
-            let names: Vec<&str> = sources.iter().filter(rubs).map(|source| source.effect).collect();
+/// Names the dry friction that holds or brakes the body of degree of freedom `i`. Empty if none acts.
+fn friction_on(effects: &BodyEffects, state: &State, i: usize) -> String {
+    let acting = effects.pairs.iter().flatten().filter(|pair| state.friction[pair.number].stiffness > 0.0);
+    acting
+        .filter(|pair| pair.body == i)
+        .map(|pair| {
+            let does = if state.friction[pair.number].mode == Mode::Stuck { "holds" } else { "brakes" };
+            let kind = RubbingKind::of(pair.number).0;
+            let holding = effects.surfaces.iter().filter(|surface| surface.kind == kind && surface.stiffness > 0.0);
+            let names: Vec<&str> = holding.map(|surface| surface.effect).collect();
             format!("; {} {does} it", names.join(" or "))
         })
         .collect()
@@ -174,13 +168,8 @@ mod tests {
             "{text}"
         );
         assert!(text.contains("the motion of the carrier changes fastest") && text.ends_with("rad/s²"), "{text}");
-        with_equations!(&model, &state, &inputs, |equations| {
-            let sources = &model.body_effects().friction;
-            let freedom_of = |k: usize| FrictionEquations::<N>::freedom_of(&equations, k);
-            let friction = |i: usize| friction_on(sources, &state, i, freedom_of);
-            assert_eq!(friction(1), "; wheel_brake holds it");
-            assert_eq!(friction(CARRIER), "");
-        });
+        assert_eq!(friction_on(model.body_effects(), &state, 1), "; wheel_brake holds it");
+        assert_eq!(friction_on(model.body_effects(), &state, CARRIER), "");
         let before = state.statistics;
         state.statistics.accepted += 77;
         let text = too_many_steps(&model, &inputs, &state, &before);

@@ -7,7 +7,7 @@ use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{FRICTION_BODIES, FRICTION_WHEELS, InputDerivatives, Inputs};
+use crate::model::scene::{InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
@@ -62,7 +62,7 @@ pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
 }
 
 /// Records an event for each body that friction starts or stops holding, compared with the friction `before`.
-pub fn record_holds(before: &[FrictionState; FRICTION_BODIES], state: &mut State) {
+pub fn record_holds(before: &[FrictionState; PAIRS], state: &mut State) {
     let (after, time) = (state.friction, state.time());
     state.events.record_friction([before, &after], time);
 }
@@ -72,7 +72,7 @@ pub fn record_holds(before: &[FrictionState; FRICTION_BODIES], state: &mut State
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
-        equations.settle_friction(&state.point(), 0.0, FRICTION_WHEELS..FRICTION_BODIES, &mut state.heat);
+        equations.settle_friction(&state.point(), 0.0, Some(RubbingKind::Wheel), &mut state.heat);
         state.friction = equations.applied().friction_state;
     });
 }
@@ -80,7 +80,7 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
 /// True if brakes were applied or released since friction last switched.
 pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
-    (0..2).any(|s| friction.wheel[s].stiffness != state.friction[FRICTION_WHEELS + s].stiffness)
+    RubbingKind::Wheel.numbers().any(|i| friction.on(i).stiffness != state.friction[i].stiffness)
 }
 
 /// True if wheels have brakes.

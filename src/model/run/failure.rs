@@ -3,6 +3,7 @@
 use std::fmt;
 
 use super::hints;
+use crate::declaration::SIDES;
 use crate::model::assembly::{Gears, Model};
 
 /// Error of a step that could not be completed. The simulation is at the last good time.
@@ -62,7 +63,7 @@ impl ExcessiveDeflection {
              at most {:.3} mm; reduce the load or {}; in a coupling, take shorter communication steps",
             limit_name(model),
             self.planet + 1,
-            ["left", "right"][self.side],
+            SIDES[self.side],
             self.deflection * cone * 1e3,
             limit * cone * 1e3,
             hints::stiffer_teeth(&model.parameters)

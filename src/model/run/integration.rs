@@ -25,7 +25,7 @@ use crate::model::dynamics::shape::{
 use crate::model::dynamics::timeline::LONGEST_INTERVAL;
 use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
 use crate::model::effects::Memories;
-use crate::model::scene::{FRICTION_BODIES, Inputs, Method};
+use crate::model::scene::{Inputs, Method};
 
 /// Longest step [s].
 const LONGEST: f64 = LONGEST_INTERVAL;
@@ -265,7 +265,7 @@ fn switch_friction<const N: usize, E: LedgerEquations<N> + ?Sized>(
     begin: f64,
 ) -> bool {
     let before = equations.applied().friction_state;
-    equations.settle_friction(&trajectory.point, trajectory.time, 0..FRICTION_BODIES, &mut state.heat);
+    equations.settle_friction(&trajectory.point, trajectory.time, None, &mut state.heat);
     let friction = [&before, &equations.applied().friction_state];
     state.events.record_friction(friction, begin + trajectory.time)
 }

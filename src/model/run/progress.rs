@@ -231,7 +231,7 @@ fn integrate_interval(
 /// that it is exact to the last bit.
 pub fn wrap_and_constrain(model: &Model, state: &mut State) {
     if state.pending_step.is_none() {
-        state.wrap(&model.periods, &model.layout);
+        state.wrap(&model.periods, &model.body_effects().pairs);
     }
     if let Gears::Ideal(_) = &model.gears {
         model.ideal.constrain(&mut state.v);

@@ -222,7 +222,7 @@ impl Simulation {
             progress::arrive_at(state, until, state.time() + h)?;
             state.statistics.accepted += 1;
             state.control.last = h;
-            state.wrap(&model.periods, &model.layout);
+            state.wrap(&model.periods, &model.body_effects().pairs);
             return Ok(());
         }
         let before = (*inputs, *state);

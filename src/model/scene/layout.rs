@@ -11,12 +11,6 @@ pub const MAX_GROUPS: usize = MAX_PLANETS;
 /// Maximum number of degrees of freedom: side gears, carrier, seats, planets and pins of all groups, and attached
 /// bodies.
 pub const MAX_DOF: usize = CARRIER + 1 + 2 + 2 * MAX_GROUPS + ATTACHED_COUNT;
-/// Number of bodies with dry friction: side gears, groups of planets, wheels.
-pub const FRICTION_BODIES: usize = FRICTION_WHEELS + 2;
-/// Index of the first planet group among the bodies with dry friction.
-pub const FRICTION_PLANETS: usize = 2;
-/// Index of the left wheel among the bodies with dry friction.
-pub const FRICTION_WHEELS: usize = FRICTION_PLANETS + MAX_GROUPS;
 
 /// Index of the left side gear; its position is the angle α_L relative to the carrier.
 pub const LEFT: usize = 0;

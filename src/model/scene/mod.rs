@@ -6,16 +6,15 @@ pub mod layout;
 mod material;
 mod oil;
 mod plan;
+mod rubbing;
 mod solver;
 
 pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
-pub use layout::{
-    ATTACHED, ATTACHED_COUNT, CARRIER, ENDS, FRICTION_BODIES, FRICTION_PLANETS, FRICTION_WHEELS, Layout, MAX_DOF,
-    MAX_GROUPS, MAX_PLANETS, PLANET,
-};
+pub use layout::{ATTACHED, ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET};
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};
 pub use plan::{Group, Plan, Requests};
+pub use rubbing::{PAIRS, RubbingKind, RubbingPair};
 pub use solver::{Method, SolidTeeth, SolverSpec};

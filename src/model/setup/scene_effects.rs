@@ -2,7 +2,7 @@
 
 use super::effect_outputs::heat_index;
 use crate::model::effect_kinds::{
-    BUILT, BodyEffect, Changes, Effect, FlankFriction, FrictionSource, Instant, Setting, ToothEffects,
+    BUILT, BodyEffect, Changes, Effect, FlankFriction, Instant, RubbingSurface, Setting, ToothEffects,
 };
 use crate::model::effects::{EffectEntry, EffectParameters, Effects, configured};
 use crate::model::scene::{Plan, Requests};
@@ -100,11 +100,14 @@ impl<'a> SceneEffects<'a> {
         self.acting().any(|(_, _, effect)| effect.is_oiled())
     }
 
-    /// Sources of dry friction.
-    pub fn friction(&self) -> impl Iterator<Item = FrictionSource> + use<'a> {
-        self.acting().filter_map(|(entry, setting, effect)| {
-            effect.friction(&setting).map(|source| FrictionSource { effect: entry.name, ..source })
-        })
+    /// Replaces `surfaces` by those with dry friction.
+    pub fn set_surfaces(&self, surfaces: &mut Vec<RubbingSurface>) {
+        surfaces.clear();
+        for (entry, setting, effect) in self.acting() {
+            let before = surfaces.len();
+            effect.add_surfaces(&setting, surfaces);
+            surfaces[before..].iter_mut().for_each(|surface| surface.effect = entry.name);
+        }
     }
 }
 

@@ -86,6 +86,6 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         }
     }
     state.set_point(&point);
-    state.wrap(&model.periods, &teeth.layout);
+    state.wrap(&model.periods, &model.body_effects().pairs);
     Ok(Preload { carried, settled })
 }

@@ -1,12 +1,12 @@
 //! Tests of dry friction with sticking.
 
-use super::body_friction::{BodyFriction, PARTS};
+use super::body_friction::{BodyFriction, MOST_SURFACES};
+use super::by_load::ByLoad;
 use super::dry_friction::*;
 use super::friction::Friction;
-use super::friction_part::{FrictionPart, Slip, SurfaceLoad};
-use super::friction_source::{FrictionSource, SideFriction};
 use super::friction_state::{FrictionState, Mode};
-use super::torque_curve::TorqueCurve;
+use super::rubbing_surface::{RubbingSurface, Slip, SurfaceLoad};
+use crate::model::scene::RubbingKind;
 
 const STIFFNESS: f64 = 1e3;
 
@@ -15,9 +15,15 @@ fn under<'a>(slip: &'a Slip, load: &'a SurfaceLoad) -> LoadedSlip<'a> {
     LoadedSlip { slip, load }
 }
 
+/// A surface whose limit torque is its load, with a spring.
+fn surface(stiffness: f64) -> RubbingSurface {
+    let limit = ByLoad { per_load: 1.0, ..ByLoad::NONE };
+    RubbingSurface { limit, stiffness, ..RubbingSurface::new(RubbingKind::Side, 0) }
+}
+
 /// A body whose limit torque is its load.
 fn by_load(mut body: BodyFriction) -> BodyFriction {
-    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], (STIFFNESS, DAMPING_TIME), false);
+    body.push((0, &surface(STIFFNESS)), [1.0, 1.0, DAMPING_TIME]);
     body
 }
 
@@ -31,7 +37,7 @@ fn pressed(load: f64) -> SurfaceLoad {
 
 #[test]
 fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
-    let (clutch, sources) = (clutch(), [FrictionSource::new(0)]);
+    let (clutch, sources) = (clutch(), [surface(STIFFNESS)]);
     let clutch = DryFriction::new(&clutch, &sources);
     // sliding at a limit of 10 N·m winds the spring to 10 N·m
     let anchor = clutch.drag(0.0, 0.5, 10.0);
@@ -49,7 +55,7 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
 
 #[test]
 fn a_crossing_from_one_limit_to_the_other_is_found_in_one_call() {
-    let (clutch, sources, by) = (clutch(), [FrictionSource::new(0)], pressed(10.0));
+    let (clutch, sources, by) = (clutch(), [surface(STIFFNESS)], pressed(10.0));
     let clutch = DryFriction::new(&clutch, &sources);
     // the spring is wound to +10 N·m at 0 and turned back: −10 N·m is reached at −20 mrad, a fifth of the way to −100
     // mrad; damping reaches the limit earlier, by the rotation within the damping time
@@ -62,7 +68,7 @@ fn a_crossing_from_one_limit_to_the_other_is_found_in_one_call() {
 
 #[test]
 fn a_held_body_slides_when_its_command_falls_below_its_torque() {
-    let (brake, sources) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [FrictionSource::new(0)]);
+    let (brake, sources) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [surface(STIFFNESS)]);
     let brake = DryFriction::new(&brake, &sources);
     // the brake holds 4 N·m while its command falls from 10 N·m to 0: the limit is reached after six tenths of the step
     let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
@@ -85,7 +91,7 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
         let mut hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness };
         let before = 0.5 * stiffness * 1e-4;
         let mut heat = [0.0];
-        let (clutch, sources) = (clutch(), [FrictionSource::new(0)]);
+        let (clutch, sources) = (clutch(), [surface(STIFFNESS)]);
         let clutch = DryFriction::new(&clutch, &sources);
         clutch.adapt(&mut hold, &turn, &mut heat, 1.0);
         let after = clutch.energy(&hold, turn.position);
@@ -96,7 +102,7 @@ fn no_change_of_stiffness_gives_a_spring_energy() {
 
 #[test]
 fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_further() {
-    let (sources, by) = ([FrictionSource::new(0)], pressed(10.0));
+    let (sources, by) = ([surface(STIFFNESS)], pressed(10.0));
     let (clutch, brake) = (clutch(), by_load(BodyFriction::commanded(DAMPING_TIME, 0)));
     // a jump of an imposed speed may leave a braked wheel at a speed of some ulps
     for (body, speeds) in [(&clutch, &[0.0, -0.0][..]), (&brake, &[0.0, -0.0, 1e-15])] {
@@ -127,8 +133,8 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
     // 1e-5 of 1 mN·m
     let stiff = 1e9;
     let mut body = BodyFriction::commanded(DAMPING_TIME, 0);
-    body.push(&[FrictionPart { per_load: 1.0, ..FrictionPart::NONE }], (stiff, DAMPING_TIME), false);
-    let (sources, by) = ([FrictionSource::new(0)], pressed(1e-3));
+    body.push((0, &surface(stiff)), [1.0, 1.0, DAMPING_TIME]);
+    let (sources, by) = ([surface(STIFFNESS)], pressed(1e-3));
     let brake = DryFriction::new(&body, &sources);
     for sign in [1.0, -1.0] {
         let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: stiff };
@@ -147,12 +153,10 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
 }
 
 #[test]
-fn all_frictions_of_a_side_gear_fit_on_it_and_more_are_counted() {
-    let side = SideFriction { stiffness: 1.0, ..SideFriction::default() };
-    let source = FrictionSource { side, ..FrictionSource::new(0) };
-    let curve = TorqueCurve::new(&[[0.0, 1.0]]);
-    let measured = FrictionSource { side: SideFriction { curve, ..side }, ..FrictionSource::new(0) };
+fn all_frictions_of_a_side_gear_fit_on_it_and_more_are_refused() {
     // washer, clutch pack with its measured curve, and lock
-    assert_eq!(Friction::part_count(&[source, measured, source]), PARTS);
-    assert_eq!(Friction::part_count(&[source, measured, source, source]), PARTS + 1);
+    let surfaces = vec![surface(STIFFNESS); MOST_SURFACES + 1];
+    assert!(Friction::check(&surfaces[1..]).is_ok());
+    let refused = Friction::check(&surfaces).unwrap_err();
+    assert!(refused.to_string().contains("5 dry frictions on one body, but it takes at most 4"), "{refused}");
 }

@@ -19,10 +19,10 @@ mod slip_torque;
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
-    BodyEffect, Declare, Effect, Element, FrictionSource, Heat, Part, Pressed, Ramps, Reading, Setting, SideFriction,
-    Slides, SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
+    BodyEffect, ByLoad, Declare, Effect, Element, Heat, Part, Ramps, Reading, RubbingSurface, Setting, Slides,
+    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
 };
-use crate::model::scene::{CARRIER, GearContact, Plan};
+use crate::model::scene::{CARRIER, GearContact, Plan, RubbingKind};
 use crate::model::thermal::CLUTCH;
 use crate::problem::Problem;
 use curve::CurvePoint;
@@ -186,26 +186,27 @@ impl Effect for LimitedSlipSpec {
         Some(Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)))
     }
 
-    fn friction(&self, setting: &Setting) -> Option<FrictionSource> {
+    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
         let curve = self.curve_that_holds();
         if !self.is_pressed() && curve.is_none() && self.slip_torque().is_some() {
-            return None;
+            return;
         }
-        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
-        let per_torque = 1.0 / (self.plate_coefficient * self.friction_area);
-        let pressed = Pressed { constant: self.preload, per_load: self.torque_coefficient, ..Pressed::NONE };
-        let side = SideFriction {
-            constant: self.preload,
-            per_torque: self.torque_coefficient,
+        let none = RubbingSurface::new(RubbingKind::Side, setting.heat_index);
+        let limit = ByLoad { constant: self.preload, per_load: self.torque_coefficient, ..ByLoad::NONE };
+        surfaces.push(RubbingSurface {
+            limit,
             ramps: Ramps { coast_ratio: self.coast_ratio, both_sides: self.pressed_by == PressedBy::BothSides },
-            curve,
             stiffness: self.stiffness,
             radius: self.mean_radius,
-            pressed: pressed.times(per_torque),
-            ..SideFriction::default()
-        };
-        let Self { sliding, .. } = *self;
-        let temperature = SurfaceTemperature::Node(CLUTCH);
-        Some(FrictionSource { side, sliding, temperature, ..FrictionSource::new(setting.heat_index) })
+            // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
+            pressed: limit.times(1.0 / (self.plate_coefficient * self.friction_area)),
+            sliding: self.sliding,
+            temperature: SurfaceTemperature::Node(CLUTCH),
+            ..none
+        });
+        surfaces.extend(curve.map(|curve| {
+            let limit = ByLoad { constant: curve.breakaway(), ..ByLoad::NONE };
+            RubbingSurface { limit, curve: Some(curve), ..none }
+        }));
     }
 }

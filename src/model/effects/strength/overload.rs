@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::declaration::SIDES;
 use crate::model::scene::{MAX_GROUPS, Plan};
 use crate::numeric::{Finite, finite};
 use crate::problem::Problem;
@@ -71,7 +72,7 @@ impl Overloads {
 impl Overload {
     /// Warning that names gear, stress, strength and time.
     pub fn warning(&self, what: Stressed, plan: &Plan) -> Problem {
-        let side = ["left", "right"][self.side];
+        let side = SIDES[self.side];
         let planet = format!("planet[{}]", plan.group(self.group).planet + 1);
         let (variable, stress) = match what {
             Stressed::PlanetRoot => {

@@ -17,27 +17,32 @@ use super::SurfaceLoad;
 /// Width of the band in which friction changes, as a fraction of the limit.
 const BAND: f64 = 0.05;
 
-/// Pressure times radius of a surface [N/m], linear in thrust and load.
+/// Quantity of a surface that is linear in thrust and load: its limit torque [N·m], or its pressure times radius [N/m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pressed {
-    /// Constant value [N/m].
+pub struct ByLoad {
+    /// Constant value.
     pub constant: f64,
-    /// Value per thrust [1/m].
+    /// Value per thrust [N].
     pub per_thrust: f64,
-    /// Value per load, in N/m over the unit of the load.
+    /// Value per load, in the unit of the load.
     pub per_load: f64,
 }
 
-impl Pressed {
-    /// No pressure.
+impl ByLoad {
+    /// Zero.
     pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0 };
 
-    /// Pressure times radius under the loads `by` [N/m].
+    /// True if it depends on the loads.
+    pub fn varies(&self) -> bool {
+        self.per_thrust != 0.0 || self.per_load != 0.0
+    }
+
+    /// Value under the loads `by`.
     pub fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
     }
 
-    /// Returns `factor` times the pressure.
+    /// Returns `factor` times the quantity.
     pub fn times(self, factor: f64) -> Self {
         let Self { constant, per_thrust, per_load } = self;
         Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load }
@@ -74,32 +79,22 @@ impl PvLimit {
     }
 }
 
-/// Rubbing surface of a side, or of a group of planets.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Surface {
-    /// Surface between a side gear and the carrier: washer or clutch pack.
-    Side(usize),
-    /// Pin of a planet.
-    Pin(usize),
-    /// Washer of a planet.
-    PlanetWasher(usize),
-    /// Brake of a wheel.
-    Wheel(usize),
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effect_kinds::{FrictionPart, FrictionSource, SideFriction, SlipSpec};
+    use crate::model::effect_kinds::{ActingSurface, RubbingSurface, SlipSpec};
+    use crate::model::scene::RubbingKind;
 
-    const PRESSED: Pressed = Pressed { constant: 2e3, per_thrust: 9.0, per_load: 40.0 };
+    const PRESSED: ByLoad = ByLoad { constant: 2e3, per_thrust: 9.0, per_load: 40.0 };
     const LIMIT: PvLimit = PvLimit { limit: 1e6, beyond: 0.6 };
-    const PART: FrictionPart = FrictionPart { constant: 30.0, per_thrust: 1e-3, per_load: 0.1, ..FrictionPart::NONE };
+    const PART: ActingSurface =
+        ActingSurface { limit: ByLoad { constant: 30.0, per_thrust: 1e-3, per_load: 0.1 }, ..ActingSurface::NONE };
 
-    fn source() -> FrictionSource {
+    fn source() -> RubbingSurface {
         let PvLimit { limit: pv_limit, beyond: beyond_limit } = LIMIT;
-        FrictionSource {
-            side: SideFriction { radius: 0.05, pressed: PRESSED, ..SideFriction::default() },
+        RubbingSurface {
+            radius: 0.05,
+            pressed: PRESSED,
             sliding: SlipSpec {
                 static_ratio: 1.2,
                 stribeck_speed: 0.3,
@@ -108,7 +103,7 @@ mod tests {
                 beyond_limit,
                 ..SlipSpec::default()
             },
-            ..FrictionSource::new(0)
+            ..RubbingSurface::new(RubbingKind::Side, 0)
         }
     }
 
@@ -165,7 +160,7 @@ mod tests {
         let source = source();
         for share in [0.9, 1.02, 1.2] {
             let (by, speed) = at_share(share);
-            let hot = PART.times(0.5);
+            let hot = ActingSurface { limit: PART.limit.times(0.5), ..PART };
             assert_eq!(hot.sliding(&source, speed, &by), PART.sliding(&source, speed, &by).map(|of| 0.5 * of));
             assert_eq!(hot.slopes(&source, speed, &by), PART.slopes(&source, speed, &by).map(|of| 0.5 * of));
         }

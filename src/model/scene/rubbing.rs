@@ -1,0 +1,99 @@
+//! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes.
+//!
+//! The slip of a pair is a sum of positions. Its rate is the speed of the body minus that of its base, so friction pushes
+//! the body back and the base forward. A new kind of pair is a kind with its numbers here, and its rows in
+//! [`Plan::rubbing`].
+
+use std::ops::Range;
+
+use super::{CARRIER, MAX_GROUPS, Plan};
+
+/// Kind of pairs that rub on each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RubbingKind {
+    /// Side gear on the carrier.
+    Side,
+    /// Planet on its pin and seat.
+    Planet,
+    /// Wheel in its brake.
+    Wheel,
+}
+
+/// Largest number of pairs: side gears, groups of planets, wheels.
+pub const PAIRS: usize = RubbingKind::Wheel.numbers().end;
+
+impl RubbingKind {
+    /// All kinds, in the order of their numbers.
+    pub const ALL: [Self; 3] = [Self::Side, Self::Planet, Self::Wheel];
+
+    /// Numbers of the pairs of this kind.
+    pub const fn numbers(self) -> Range<usize> {
+        match self {
+            Self::Side => 0..2,
+            Self::Planet => 2..2 + MAX_GROUPS,
+            Self::Wheel => 2 + MAX_GROUPS..4 + MAX_GROUPS,
+        }
+    }
+
+    /// Number of pair `k` of this kind: a side, or a group of planets.
+    pub const fn number(self, k: usize) -> usize {
+        self.numbers().start + k
+    }
+
+    /// Kind of the pair with this number, and the side or the group of planets to which it belongs.
+    pub fn of(number: usize) -> (Self, usize) {
+        let kind = Self::ALL.into_iter().find(|kind| kind.numbers().contains(&number)).unwrap_or(Self::Side);
+        (kind, number - kind.numbers().start)
+    }
+}
+
+/// A body that rubs on its base.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RubbingPair {
+    /// Number of the pair.
+    pub number: usize,
+    /// Degree of freedom of the body.
+    pub body: usize,
+    /// Degree of freedom of the base; `None` for the housing, and for pins that turn with the carrier.
+    pub base: Option<usize>,
+    /// Number of identical pairs.
+    pub count: f64,
+    position: [(usize, f64); 3],
+    terms: usize,
+}
+
+impl RubbingPair {
+    /// Pair of a body with its base. Degrees of freedom whose positions, times a factor, add up to the slip are in
+    /// `position`, at most three. There are `count` identical pairs.
+    pub fn new(number: usize, (body, base): (usize, Option<usize>), position: &[(usize, f64)], count: f64) -> Self {
+        let terms = std::array::from_fn(|k| position.get(k).copied().unwrap_or((body, 0.0)));
+        Self { number, body, base, count, position: terms, terms: position.len() }
+    }
+
+    /// Degrees of freedom whose positions, times a factor, add up to the slip.
+    #[inline]
+    pub fn position(&self) -> &[(usize, f64)] {
+        &self.position[..self.terms]
+    }
+}
+
+impl Plan {
+    /// Pairs that may rub on each other, by their numbers. Without teeth, planets have no pairs of their own, because
+    /// they stick together with the side gears.
+    pub fn rubbing(&self, has_teeth: bool) -> [Option<RubbingPair>; PAIRS] {
+        let (layout, mut pairs) = (self.layout(), [None; PAIRS]);
+        let mut add = |pair: RubbingPair| pairs[pair.number] = Some(pair);
+        for s in 0..2 {
+            add(RubbingPair::new(RubbingKind::Side.number(s), (s, Some(CARRIER)), &[(s, 1.0)], 1.0));
+            // angle of the wheel = angle of the carrier + relative angle of the side gear − twist
+            let (end, angle) = (layout.end(s), [(CARRIER, 1.0), (s, 1.0), (layout.end(s), -1.0)]);
+            let (body, angle) = if self.shafts[s] { (end, &angle[..]) } else { (s, &angle[..2]) };
+            add(RubbingPair::new(RubbingKind::Wheel.number(s), (body, None), angle, 1.0));
+        }
+        for g in (0..layout.groups).filter(|_| has_teeth) {
+            let (number, planet) = (RubbingKind::Planet.number(g), layout.planet(g));
+            add(RubbingPair::new(number, (planet, None), &[(planet, 1.0)], self.group(g).members));
+        }
+        pairs
+    }
+}
