@@ -42,12 +42,12 @@ pub use outputs::motion::Motion;
 pub use outputs::pairs::{PAIRS, PairLine, PairLines};
 pub use readings::{CostClass, Reported};
 pub use run::{Accepted, HostInputs, Simulation, StepFailure, six_digits};
-pub use scene::ATTACHED;
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
     CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,
     PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
+pub use setup::ATTACHED;
 pub use setup::Parameters;
 pub use setup::advice::turned_backward;
 pub use setup::effect_outputs::{ALL_HEATS, CONTACT_HEAT, readings};

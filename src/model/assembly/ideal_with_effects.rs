@@ -8,7 +8,8 @@
 use super::{BodyEffects, Ideal};
 use crate::integrate::Matrix;
 use crate::model::effect_kinds::{BodyMotion, Slopes};
-use crate::model::scene::{ATTACHED_COUNT, Inputs, Layout, PLANET, Plan};
+use crate::model::scene::layout::LEFT;
+use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and half-shaft ends.
@@ -35,6 +36,8 @@ pub struct IdealWithEffects {
     pub plan: Plan,
     /// Index of each degree of freedom.
     pub layout: Layout,
+    /// Degrees of freedom of attached bodies other than half-shaft ends, and of the bodies relative to which they turn.
+    pub others: Vec<(usize, usize)>,
     /// Inertia by degree of freedom, summed over all planets [kg·m²].
     pub inertia: [f64; IDEAL_SIZE],
     /// Inertias of ends that are rigid on their side gears [kg·m²].
@@ -64,8 +67,10 @@ impl IdealWithEffects {
         let n = layout.count();
         let r = ideal.ratio;
         // columns of P
-        let carrier = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0];
-        let mut columns = vec![carrier, [r, -r, 0.0, 1.0, 0.0, 0.0]];
+        let (mut carrier, mut spin) = ([0.0; IDEAL_SIZE], [0.0; IDEAL_SIZE]);
+        carrier[..=CARRIER].fill(1.0);
+        (spin[LEFT], spin[LEFT + 1], spin[PLANET]) = (r, -r, 1.0);
+        let mut columns = vec![carrier, spin];
         columns.extend((0..ATTACHED_COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
         let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
         let is_free =
@@ -82,6 +87,7 @@ impl IdealWithEffects {
         let mut this = Self {
             plan,
             layout,
+            others: layout.attached().skip(if layout.has_ends() { ENDS } else { 0 }).collect(),
             inertia,
             rigid_end,
             ratio: r,

@@ -2,7 +2,7 @@
 
 use crate::geometry::solid::mass::GearMass;
 
-use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, MAX_DOF, Plan};
+use crate::model::scene::{CARRIER, ENDS, MAX_DOF, Plan};
 use crate::model::setup::Parameters;
 
 /// Inertias that the equations of motion need [kg·m²].
@@ -67,8 +67,10 @@ impl Inertias {
                 inertia[layout.end(s)] = self.end[s] - rigid_end[s];
             }
         }
-        for k in (ENDS..ATTACHED_COUNT).filter(|&k| plan.attached[k]) {
-            inertia[layout.body(k)] = plan.attached_inertia[k];
+        for (k, body) in plan.attached.iter().enumerate().skip(ENDS) {
+            if let Some(body) = body {
+                inertia[layout.body(k)] = body.inertia;
+            }
         }
         inertia[CARRIER] = self.carrier;
         for g in 0..layout.groups {

@@ -5,6 +5,7 @@
 //! constraint force λ_s = J_s ω̇_s − Q_s.
 
 use super::energy_floor::energy_floor;
+use super::shape::{set_twist_rates, turn_twist_rates};
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
 use crate::model::assembly::BodyEffects;
@@ -399,11 +400,11 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         for s in 0..2 {
             rates[s] -= v[CARRIER];
         }
-        if self.has_ends() {
-            for s in 0..2 {
-                rates[self.end(s)] = v[s] - v[self.end(s)];
-            }
+        // constant indices of the ends need no tests
+        for s in (0..2).filter(|_| self.has_ends()) {
+            rates[self.end(s)] = v[s] - v[self.end(s)];
         }
+        set_twist_rates(self.ideal.others.iter().copied(), v, &mut rates);
         rates
     }
 
@@ -417,6 +418,7 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
                 row[s] += row[end];
                 row[end] = -row[end];
             }
+            turn_twist_rates(self.ideal.others.iter().copied(), row);
         }
     }
 

@@ -186,7 +186,7 @@ impl<const N: usize> Shape<N> for Any {
 /// Sets the twist rates of `attached` bodies from the velocities `v`. Each body comes with the body against which it
 /// turns.
 #[inline(always)]
-fn set_twist_rates(attached: impl Iterator<Item = (usize, usize)>, v: &[f64], rates: &mut [f64]) {
+pub fn set_twist_rates(attached: impl Iterator<Item = (usize, usize)>, v: &[f64], rates: &mut [f64]) {
     for (i, to) in attached {
         rates[i] = v[to] - v[i];
     }
@@ -195,7 +195,7 @@ fn set_twist_rates(attached: impl Iterator<Item = (usize, usize)>, v: &[f64], ra
 /// Converts derivatives with respect to the twist rates of `attached` bodies, in a row, to derivatives with respect to
 /// velocities.
 #[inline(always)]
-fn turn_twist_rates(attached: impl Iterator<Item = (usize, usize)>, row: &mut [f64]) {
+pub fn turn_twist_rates(attached: impl Iterator<Item = (usize, usize)>, row: &mut [f64]) {
     for (i, to) in attached {
         row[to] += row[i];
         row[i] = -row[i];

@@ -70,9 +70,9 @@ impl BodyFriction {
         self.count > 0
     }
 
-    /// True if the limit torque depends on loads.
+    /// True if the limit torque depends on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
-        self.surfaces().iter().any(|surface| surface.limit.varies())
+        !self.commanded && self.surfaces().iter().any(|surface| surface.limit.varies())
     }
 
     /// Kinetic limit torque without its change over speed [N·m].

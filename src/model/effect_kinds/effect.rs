@@ -31,6 +31,24 @@ pub struct Heat {
     pub at_wheels: bool,
 }
 
+/// Body that an effect attaches to another body: its names in messages and in the interface.
+#[derive(Clone, Copy, Debug)]
+pub struct Attached {
+    /// Name in messages.
+    pub name: &'static str,
+    /// Prefix of the names of its states.
+    pub of: &'static str,
+    /// Names of its position and its velocity, after the prefix.
+    pub states: [&'static str; 2],
+    /// Descriptions of its position and its velocity in the interface.
+    pub descriptions: [&'static str; 2],
+}
+
+impl Attached {
+    /// A body without names.
+    pub const NONE: Self = Self { name: "", of: "", states: [""; 2], descriptions: [""; 2] };
+}
+
 /// Times at which a reading changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Changes {
@@ -115,6 +133,8 @@ pub struct Setting<'a> {
     pub on: bool,
     /// Index of the effect's heat in the ledger.
     pub heat_index: usize,
+    /// Index of the effect's first body among all attached bodies.
+    pub body_index: usize,
 }
 
 /// Scene and motion at an instant, from which readings follow.
@@ -138,6 +158,8 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
     const HEAT: Option<Heat> = None;
     /// Outputs in addition to the heat.
     const READINGS: &'static [Reading] = &[];
+    /// Bodies that it may attach.
+    const BODIES: &'static [Attached] = &[];
     /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     const NEEDS: Option<Needs> = None;
     /// True if the effect may act although its switch is off.

@@ -7,23 +7,20 @@ use crate::model::scene::{InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::thermal::NODES;
 use crate::problem::Problem;
 
-/// Number of different frictions: on side gears, on planets, on the left and on the right wheel.
-const FRICTIONS: usize = 4;
-
-/// Number of the friction on each pair.
+/// Number of the friction on each pair. Pairs that are alike share one.
 const FRICTION_OF: [usize; PAIRS] = {
     let mut of = [0; PAIRS];
-    let mut i = 0;
+    let mut i = 1;
     while i < PAIRS {
-        if i >= RubbingKind::Wheel.number(0) {
-            of[i] = 2 + i - RubbingKind::Wheel.number(0);
-        } else if i >= RubbingKind::Planet.number(0) {
-            of[i] = 1;
-        }
+        let (kind, k) = RubbingKind::of(i);
+        of[i] = if kind.is_alike() && k > 0 { of[i - 1] } else { of[i - 1] + 1 };
         i += 1;
     }
     of
 };
+
+/// Number of different frictions.
+const FRICTIONS: usize = FRICTION_OF[PAIRS - 1] + 1;
 
 /// Friction on all pairs.
 #[derive(Clone, Copy, Debug)]
@@ -52,8 +49,7 @@ impl Friction {
     ) -> Self {
         let mut all = Self::NONE;
         let lock_heat = surfaces.iter().find(|surface| surface.is_lock()).map_or(0, |lock| lock.heat_index);
-        all.frictions[0] = BodyFriction::new(DAMPING_TIME, lock_heat);
-        all.frictions[1] = BodyFriction::new(DAMPING_TIME, 0);
+        all.frictions.fill(BodyFriction::new(DAMPING_TIME, lock_heat));
         for (index, surface) in (0..).zip(surfaces) {
             let factor = surface.factor(temperatures);
             if surface.limit.per_load != 0.0 && surface.kind == RubbingKind::Side {
@@ -121,7 +117,7 @@ impl Friction {
 
     /// True if limit torques depend on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
-        self.frictions[..2].iter().any(BodyFriction::depends_on_load)
+        self.frictions.iter().any(BodyFriction::depends_on_load)
     }
 
     /// Adds the commanded limit torques under `inputs` to the loads on the surfaces.

@@ -4,7 +4,7 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    BodyEffect, Declare, Effect, Element, Heat, Instant, Law, Part, Reading, Setting, Spring, readings,
+    Attached, BodyEffect, Declare, Effect, Element, Heat, Instant, Law, Part, Reading, Setting, Spring, readings,
 };
 use crate::model::scene::{InertiaSpec, Plan, Requests, Scene, SideDrive};
 use crate::problem::Problem;
@@ -47,6 +47,28 @@ impl Declare for HalfShaftSpec {
         /// Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid half-shaft
         "right.twist": RADIAN | DEG, Always(|shafts, at| shafts.twist(1, at));
     };
+    const BODIES: &'static [Attached] = &[
+        Attached {
+            name: "the left wheel",
+            of: "left",
+            states: ["shaft_twist", "end_speed"],
+            descriptions: [
+                "Twist of the left half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
+                "Speed of the wheel end of the left half-shaft; 0 without a separate wheel end, so for the wheel read \
+                 left.wheel_speed",
+            ],
+        },
+        Attached {
+            name: "the right wheel",
+            of: "right",
+            states: ["shaft_twist", "end_speed"],
+            descriptions: [
+                "Twist of the right half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
+                "Speed of the wheel end of the right half-shaft; 0 without a separate wheel end, so for the wheel read \
+                 right.wheel_speed",
+            ],
+        },
+    ];
     /// A speed-driven side acts through its half-shaft.
     const MAY_ACT_UNSWITCHED: bool = true;
     const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];

@@ -27,7 +27,7 @@ use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
 use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, RowsOf, Setting, row};
 use crate::friction::ToothFrictionSpec;
 use crate::geometry::PlainTeeth;
-use crate::model::effect_kinds::{Declare, Effect, Heat, InputField, Memory, Needs, Reading, Remembered};
+use crate::model::effect_kinds::{Attached, Declare, Effect, Heat, InputField, Memory, Needs, Reading, Remembered};
 
 /// Entry of an effect in the list [`EFFECTS`].
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +48,8 @@ pub struct EffectEntry {
     pub heat: Option<Heat>,
     /// Outputs in addition to the heat.
     pub readings: &'static [Reading],
+    /// Bodies that it may attach.
+    pub bodies: &'static [Attached],
     /// Values that make the effect visible in an example.
     pub example: &'static [(&'static str, f64)],
 }
@@ -63,6 +65,7 @@ impl EffectEntry {
             pv_limit: E::PV_LIMIT,
             heat: E::HEAT,
             readings: E::READINGS,
+            bodies: E::BODIES,
             example: E::EXAMPLE,
         }
     }

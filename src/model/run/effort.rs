@@ -9,8 +9,8 @@ use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::effect_kinds::Mode;
-use crate::model::scene::{ATTACHED, CARRIER, GearContact, Inputs, Layout, RubbingKind};
-use crate::model::setup::Parameters;
+use crate::model::scene::{CARRIER, GearContact, Inputs, Layout, RubbingKind};
+use crate::model::setup::{ATTACHED, Parameters};
 use crate::problem::Problem;
 
 /// Number of steps below which rattle is not reported. A start stays below it.
@@ -96,9 +96,9 @@ fn fastest(model: &Model, inputs: &Inputs, state: &State) -> String {
 
 /// Name of the body of degree of freedom `i`, and the unit of its position.
 fn name_of(layout: &Layout, i: usize) -> (String, &'static str) {
-    let attached = ATTACHED.iter().enumerate().find(|&(k, _)| layout.attached[k] && layout.body(k) == i);
-    if let Some((_, attached)) = attached {
-        return (attached.name.into(), "rad");
+    let mut attached = ATTACHED.iter().enumerate();
+    if let Some((_, body)) = attached.find(|&(k, _)| layout.attached[k].is_some() && layout.body(k) == i) {
+        return (body.name.into(), "rad");
     }
     let planets = layout.planet(0)..layout.planet(0) + layout.groups;
     let name = match i {

@@ -1,8 +1,8 @@
 //! Degrees of freedom: their maximum number, and the index of each.
 //!
 //! An attached body turns relative to another body. Its position is the twist: the angle of the other body minus its
-//! own angle. Its velocity is absolute, so it is not the rate of its position. A new attached body is a row of
-//! [`ATTACHED`]; an effect requests it by its moment of inertia (`Requests`).
+//! own angle. Its velocity is absolute, so it is not the rate of its position. An effect declares its attached bodies
+//! (`Declare::BODIES`) and requests them for a scene by their moments of inertia (`Requests`).
 
 /// Maximum number of planets.
 pub const MAX_PLANETS: usize = 4;
@@ -19,51 +19,10 @@ pub const CARRIER: usize = 2;
 /// Index of the first planet group in a scene whose pins do not move. Positions are spins ψ relative to the carrier.
 pub const PLANET: usize = 3;
 
-/// Body that turns relative to another body.
-pub struct Attached {
-    /// Degree of freedom relative to which it turns.
-    pub to: usize,
-    /// Name in messages.
-    pub name: &'static str,
-    /// Descriptions of its position and its velocity in the interface.
-    pub descriptions: [&'static str; 2],
-    /// Prefix of the names of its states.
-    pub of: &'static str,
-    /// Names of its position and its velocity, after the prefix.
-    pub states: [&'static str; 2],
-}
-
+/// Number of bodies that effects may attach. The list of effects checks it.
+pub const ATTACHED_COUNT: usize = 2;
 /// Number of half-shaft ends, which are the first attached bodies.
 pub const ENDS: usize = 2;
-
-/// All attached bodies, in the order of their degrees of freedom.
-pub const ATTACHED: [Attached; ENDS] = [
-    Attached {
-        to: LEFT,
-        name: "the left wheel",
-        descriptions: [
-            "Twist of the left half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
-            "Speed of the wheel end of the left half-shaft; 0 without a separate wheel end, so for the wheel read \
-             left.wheel_speed",
-        ],
-        of: "left",
-        states: ["shaft_twist", "end_speed"],
-    },
-    Attached {
-        to: LEFT + 1,
-        name: "the right wheel",
-        descriptions: [
-            "Twist of the right half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
-            "Speed of the wheel end of the right half-shaft; 0 without a separate wheel end, so for the wheel read \
-             right.wheel_speed",
-        ],
-        of: "right",
-        states: ["shaft_twist", "end_speed"],
-    },
-];
-
-/// Number of attached bodies.
-pub const ATTACHED_COUNT: usize = ATTACHED.len();
 
 /// Index of each degree of freedom, in the order side gears, carrier, axial seats of the side gears, planets, their
 /// pins, half-shaft ends, other attached bodies. Seats, pins, ends and other attached bodies are optional.
@@ -75,8 +34,8 @@ pub struct Layout {
     pub members: [f64; MAX_GROUPS],
     /// True if pins and seats move.
     pub has_pins: bool,
-    /// Mask of the attached bodies, in the order of [`ATTACHED`].
-    pub attached: [bool; ATTACHED_COUNT],
+    /// Degree of freedom relative to which each attached body turns; `None` if the scene does not have this body.
+    pub attached: [Option<usize>; ATTACHED_COUNT],
 }
 
 impl Layout {
@@ -108,26 +67,26 @@ impl Layout {
     /// Index of attached body `k`.
     #[inline]
     pub fn body(&self, k: usize) -> usize {
-        let before = self.attached[..k].iter().map(|&is| usize::from(is)).sum::<usize>();
+        let before = self.attached[..k].iter().map(|to| usize::from(to.is_some())).sum::<usize>();
         self.planet(self.groups * if self.has_pins { 2 } else { 1 } + before)
     }
     /// Indices of the attached bodies and of the bodies relative to which they turn.
     pub fn attached(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..ATTACHED_COUNT).filter(|&k| self.attached[k]).map(|k| (self.body(k), ATTACHED[k].to))
+        (0..ATTACHED_COUNT).filter_map(|k| Some((self.body(k), self.attached[k]?)))
     }
     /// True if any body is attached.
     #[inline]
     pub fn is_attached(&self) -> bool {
-        self.attached.contains(&true)
+        self.attached.iter().any(Option::is_some)
     }
     /// True if the ends of both half-shafts are degrees of freedom; otherwise, neither end is.
     #[inline]
     pub fn has_ends(&self) -> bool {
-        self.attached[0]
+        self.attached[0].is_some()
     }
     /// Returns [`Self::has_ends`], or `None` if pins and seats move or other bodies are attached.
     pub fn plain(&self) -> Option<bool> {
-        let others = self.has_pins || self.attached[ENDS..].contains(&true);
+        let others = self.has_pins || self.attached[ENDS..].iter().any(Option::is_some);
         (!others).then(|| self.has_ends())
     }
     /// Number of bodies that degree of freedom `i` represents. The planets of a group move identically.

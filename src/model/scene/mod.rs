@@ -12,7 +12,7 @@ mod solver;
 pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::Inputs;
-pub use layout::{ATTACHED, ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET};
+pub use layout::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PLANET};
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};
 pub use plan::{Group, Plan, Requests};

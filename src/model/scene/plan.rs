@@ -38,10 +38,8 @@ pub struct Plan {
     pub side_imposed: [bool; 2],
     /// True for each half-shaft that twists, left and right.
     pub shafts: [bool; 2],
-    /// Mask of the attached bodies.
-    pub attached: [bool; ATTACHED_COUNT],
-    /// Moments of inertia of the attached bodies, without half-shaft ends [kg·m²].
-    pub attached_inertia: [f64; ATTACHED_COUNT],
+    /// Attached bodies of the scene. The inertia of half-shaft ends is left out.
+    pub attached: [Option<AttachedBody>; ATTACHED_COUNT],
     /// True if pins and seats move.
     pub has_pins: bool,
     /// Representation of tooth contact.
@@ -57,8 +55,17 @@ pub struct Requests {
     pub pins: bool,
     /// True for each half-shaft that twists even if it is driven by torque, left and right.
     pub shafts: [bool; 2],
-    /// Moments of inertia of attached bodies other than half-shaft ends; 0 for none [kg·m²].
-    pub attached: [f64; ATTACHED_COUNT],
+    /// Attached bodies other than half-shaft ends.
+    pub attached: [Option<AttachedBody>; ATTACHED_COUNT],
+}
+
+/// Body that turns relative to another body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttachedBody {
+    /// Degree of freedom relative to which it turns.
+    pub to: usize,
+    /// Moment of inertia [kg·m²].
+    pub inertia: f64,
 }
 
 impl Plan {
@@ -76,10 +83,10 @@ impl Plan {
             spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
             side_imposed,
             shafts,
-            attached: std::array::from_fn(
-                |k| if k < ENDS { shafts.contains(&true) } else { requests.attached[k] > 0.0 },
-            ),
-            attached_inertia: requests.attached,
+            attached: std::array::from_fn(|k| match k {
+                0..ENDS => shafts.contains(&true).then_some(AttachedBody { to: k, inertia: 0.0 }),
+                _ => requests.attached[k],
+            }),
             has_pins: requests.pins,
             contact: scene.gear_contact,
         };
@@ -150,7 +157,7 @@ impl Plan {
             groups: self.group_count,
             members: self.groups.map(|g| g.members),
             has_pins: self.has_pins,
-            attached: self.attached,
+            attached: self.attached.map(|body| Some(body?.to)),
         }
     }
 
@@ -169,7 +176,7 @@ impl Plan {
     /// Degree of freedom of attached body `k`, or `None` if it does not move. The end of a half-shaft moves only if the
     /// shaft twists.
     pub fn attached(&self, k: usize) -> Option<usize> {
-        let moves = if k < ENDS { self.shafts[k] } else { self.attached[k] };
+        let moves = if k < ENDS { self.shafts[k] } else { self.attached[k].is_some() };
         moves.then(|| self.layout().body(k))
     }
 

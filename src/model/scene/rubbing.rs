@@ -1,8 +1,8 @@
 //! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes.
 //!
 //! The slip of a pair is a sum of positions. Its rate is the speed of the body minus that of its base, so friction pushes
-//! the body back and the base forward. A new kind of pair is a kind with its numbers here, and its rows in
-//! [`Plan::rubbing`].
+//! the body back and the base forward. A new kind of pair is a line in each function of [`RubbingKind`], and its bodies
+//! in [`Plan::rubbing`].
 
 use std::ops::Range;
 
@@ -19,20 +19,37 @@ pub enum RubbingKind {
     Wheel,
 }
 
-/// Largest number of pairs: side gears, groups of planets, wheels.
-pub const PAIRS: usize = RubbingKind::Wheel.numbers().end;
+/// Largest number of pairs.
+pub const PAIRS: usize = RubbingKind::ALL[RubbingKind::ALL.len() - 1].numbers().end;
 
 impl RubbingKind {
     /// All kinds, in the order of their numbers.
     pub const ALL: [Self; 3] = [Self::Side, Self::Planet, Self::Wheel];
 
+    /// Largest number of pairs of this kind.
+    const fn count(self) -> usize {
+        match self {
+            Self::Side | Self::Wheel => 2,
+            Self::Planet => MAX_GROUPS,
+        }
+    }
+
+    /// True if all pairs of this kind have the same friction. Others have a command or a damping each.
+    pub const fn is_alike(self) -> bool {
+        match self {
+            Self::Side | Self::Planet => true,
+            Self::Wheel => false,
+        }
+    }
+
     /// Numbers of the pairs of this kind.
     pub const fn numbers(self) -> Range<usize> {
-        match self {
-            Self::Side => 0..2,
-            Self::Planet => 2..2 + MAX_GROUPS,
-            Self::Wheel => 2 + MAX_GROUPS..4 + MAX_GROUPS,
+        let (mut start, mut k) = (0, 0);
+        while k < self as usize {
+            start += Self::ALL[k].count();
+            k += 1;
         }
+        start..start + self.count()
     }
 
     /// Number of pair `k` of this kind: a side, or a group of planets.
@@ -41,9 +58,12 @@ impl RubbingKind {
     }
 
     /// Kind of the pair with this number, and the side or the group of planets to which it belongs.
-    pub fn of(number: usize) -> (Self, usize) {
-        let kind = Self::ALL.into_iter().find(|kind| kind.numbers().contains(&number)).unwrap_or(Self::Side);
-        (kind, number - kind.numbers().start)
+    pub const fn of(number: usize) -> (Self, usize) {
+        let mut k = 0;
+        while number >= Self::ALL[k].numbers().end {
+            k += 1;
+        }
+        (Self::ALL[k], number - Self::ALL[k].numbers().start)
     }
 }
 

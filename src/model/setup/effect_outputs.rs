@@ -1,10 +1,31 @@
-//! Heats and readings of the effects, and their positions in the ledger.
+//! Heats, readings and bodies of the effects, and their positions among those of all effects.
 
-use crate::model::effect_kinds::{Changes, Heat, Reading};
-use crate::model::effects::EFFECTS;
+use crate::model::effect_kinds::{Attached, Changes, Heat, Reading};
+use crate::model::effects::{EFFECTS, EffectEntry};
+use crate::model::scene::ATTACHED_COUNT;
 
 /// Index of the heat of contact damping, which belongs to no effect.
 pub const CONTACT_HEAT: usize = 0;
+
+/// Attached bodies of all effects, in the order of their degrees of freedom.
+pub const ATTACHED: [&Attached; ATTACHED_COUNT] = {
+    let (mut all, mut count, mut i) = ([&Attached::NONE; ATTACHED_COUNT], 0, 0);
+    while i < EFFECTS.len() {
+        let mut k = 0;
+        while k < EFFECTS[i].bodies.len() {
+            all[count] = &EFFECTS[i].bodies[k];
+            (count, k) = (count + 1, k + 1);
+        }
+        i += 1;
+    }
+    assert!(count == ATTACHED_COUNT, "ATTACHED_COUNT is the number of bodies that all effects declare");
+    all
+};
+
+/// Index of the first body of an effect among all attached bodies.
+pub fn body_index(effect: &EffectEntry) -> usize {
+    EFFECTS.iter().take_while(|entry| entry.name != effect.name).map(|entry| entry.bodies.len()).sum()
+}
 
 /// Number of heats in the ledger: contact, then one for each heat output of the effects.
 pub const HEATS: usize = {

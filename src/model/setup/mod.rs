@@ -6,6 +6,6 @@ mod parameters;
 pub mod scene_effects;
 pub mod validation;
 
-pub use effect_outputs::{CONTACT_HEAT, HEATS, STEP_READINGS};
+pub use effect_outputs::{ATTACHED, CONTACT_HEAT, HEATS, STEP_READINGS};
 pub use parameters::Parameters;
 pub use scene_effects::SceneEffects;

@@ -92,6 +92,7 @@ impl Parameters {
             teeth: None,
             on: false,
             heat_index: 0,
+            body_index: 0,
         };
         SceneEffects { effects: &self.effects, parameters: &self.specs, setting }
     }

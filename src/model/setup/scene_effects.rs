@@ -1,6 +1,6 @@
 //! Effects of a scene: checks, requirements and actions of all effects that are on.
 
-use super::effect_outputs::heat_index;
+use super::effect_outputs::{body_index, heat_index};
 use crate::model::effect_kinds::{
     BUILT, BodyEffect, Changes, Effect, FlankFriction, Instant, RubbingSurface, Setting, ToothEffects,
 };
@@ -27,7 +27,11 @@ impl<'a> SceneEffects<'a> {
             .into_iter()
             .filter(|(entry, on, _)| BUILT && (*on || entry.may_act_unswitched))
             .map(move |(entry, on, effect)| {
-                (entry, Setting { on, heat_index: heat_index(entry.heat), ..setting }, effect)
+                (
+                    entry,
+                    Setting { on, heat_index: heat_index(entry.heat), body_index: body_index(entry), ..setting },
+                    effect,
+                )
             })
     }
 
@@ -80,7 +84,7 @@ impl<'a> SceneEffects<'a> {
                 individual: all.individual || request.individual,
                 pins: all.pins || request.pins,
                 shafts: [0, 1].map(|s| all.shafts[s] || request.shafts[s]),
-                attached: std::array::from_fn(|k| all.attached[k] + request.attached[k]),
+                attached: std::array::from_fn(|k| all.attached[k].or(request.attached[k])),
             }
         })
     }
