@@ -12,8 +12,9 @@ use crate::model::scene::layout::LEFT;
 use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
-/// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and half-shaft ends.
-pub const IDEAL_SIZE: usize = PLANET + 1 + ATTACHED_COUNT;
+/// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and attached bodies. It is even, for
+/// vectors of two numbers.
+pub const IDEAL_SIZE: usize = (PLANET + 1 + ATTACHED_COUNT).next_multiple_of(2);
 
 /// Number of motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;

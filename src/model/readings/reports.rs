@@ -1,7 +1,6 @@
 //! Warnings that a simulation reports once during a run: a law used outside its published range, a stress above the
 //! strength, a p·v above its limit.
 
-use crate::declaration::SIDES;
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
@@ -10,7 +9,7 @@ use crate::model::effects::EFFECTS;
 use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::run::{Simulation, effort, six_digits};
-use crate::model::scene::{MAX_PLANETS, Method, RubbingKind};
+use crate::model::scene::{MAX_PLANETS, Method};
 use crate::numeric::PI;
 use crate::problem::{Problem, distinct_texts};
 
@@ -185,16 +184,12 @@ impl Simulation {
             });
         });
         let (place, pair, pv) = worst?;
-        let what = match RubbingKind::of(pair) {
-            (RubbingKind::Side, s) => format!("the {} side gear{place}", SIDES[s]),
-            (RubbingKind::Planet, g) => format!("planet[{}]{place}", model.ideal.plan.group(g).planet + 1),
-            (RubbingKind::Wheel, s) => format!("the {} wheel{place}", SIDES[s]),
-        };
+        let body = model.ideal.plan.rubbing_body(pair);
         let [pv, limit] = distinct_texts([pv, limit].map(|of| W_PER_MM2.show(of)), 3);
         let time = state.time();
         Some(problem!(
             variable,
-            "p v of {what} is {pv} W/mm2, above the limit of {limit} W/mm2, at t = {time:.6} s; reported once"
+            "p v of {body}{place} is {pv} W/mm2, above the limit of {limit} W/mm2, at t = {time:.6} s; reported once"
         ))
     }
 

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use super::{CARRIER, MAX_GROUPS, Plan};
+use crate::declaration::SIDES;
 
 /// Kind of pairs that rub on each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -115,5 +116,14 @@ impl Plan {
             add(RubbingPair::new(number, (planet, None), &[(planet, 1.0)], self.group(g).members));
         }
         pairs
+    }
+
+    /// Name of the body of the pair with this `number` in messages.
+    pub fn rubbing_body(&self, number: usize) -> String {
+        match RubbingKind::of(number) {
+            (RubbingKind::Side, s) => format!("the {} side gear", SIDES[s]),
+            (RubbingKind::Planet, g) => format!("planet[{}]", self.group(g).planet + 1),
+            (RubbingKind::Wheel, s) => format!("the {} wheel", SIDES[s]),
+        }
     }
 }
