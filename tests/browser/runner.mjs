@@ -1,14 +1,13 @@
 // Runs scenes in node with the programs of the page: node runner.mjs WEB LIBRARY.wasm SCENES.json OUT.json
 //
-// WEB is the folder with library.js and run.js. SCENES contains {name: {scene, references}} as the page sends them to its worker. OUT
+// WEB is the folder with library.js. SCENES contains {name: {scene, references}} as the page sends them to its worker. OUT
 // receives {name: rows}. Each number is written as 16 hexadecimal digits.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const [web, file, scenes, out] = process.argv.slice(2);
-const from = (name) => import(pathToFileURL(join(web, name)));
-const [{ Library }, { Run }] = await Promise.all([from("library.js"), from("run.js")]);
+const { Library, Run } = await import(pathToFileURL(join(web, "library.js")));
 const compiled = await WebAssembly.compile(readFileSync(file));
 
 const view = new DataView(new ArrayBuffer(8));

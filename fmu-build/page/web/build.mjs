@@ -30,7 +30,7 @@ const workers = {
 
 async function main([library, data, out]) {
   if (!out) throw new Error("usage: node build.mjs LIBRARY.wasm.xz DATA.json OUT.html");
-  const { outputFiles } = await build({ ...COMMON, entryPoints: [join(HERE, "main.js")], plugins: [workers] });
+  const { outputFiles } = await build({ ...COMMON, entryPoints: [join(HERE, "page.js")], plugins: [workers] });
   const licences = PACKAGES.map((name) => {
     const { version, license, author } = JSON.parse(own(`node_modules/${name}/package.json`));
     const file = `node_modules/${name}/LICENSE`;

@@ -1,15 +1,18 @@
-// Tests of contact lines and of the contact pattern: node --test.
+// Tests of contact lines, of the contact pattern, of rolling planets, and of the pressures that colour scales leave out:
+// node --test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
-import { Assembly } from "./assembly.js";
-import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
+import { rolls } from "./colouring.js";
+import { along, COLUMNS, contactOf, isInSeam, largestPressure, Pattern, ROWS } from "./contact.js";
+import { Assembly } from "./differential.js";
+import { Record } from "./record.js";
 
 // 10 and 16 teeth at 90 degrees: tan(pitch) = 10/16
 const PITCH = Math.atan2(10, 16);
 const ALPHA = 0.4;
 const assembly = new Assembly({
-  planetTeeth: 10, sideTeeth: 16, planets: 2, pressureAngle: ALPHA, planet: { pitch: PITCH, outer: 45, mean: 38, inner: 31 }, side: {},
+  planetTeeth: 10, sideTeeth: 16, planets: 2, pressureAngle: ALPHA, planet: { pitch: PITCH, outer: 45, mean: 38, inner: 31 },
 });
 const near = (value, expected) => assert.ok(Math.abs(value - expected) < 1e-12, `${value} is not ${expected}`);
 
@@ -61,4 +64,56 @@ test("a new tooth in contact adds no pressure at positions that no tooth touched
   pattern.add([{ tooth: 0, height: -0.002, pressures: [1, 1, 1] }]);
   pattern.add([{ tooth: 1, height: 0.002, pressures: [1, 1, 1] }]);
   assert.equal(pattern.largest[Math.floor(ROWS / 2) * COLUMNS], 0);
+});
+
+const TURN = (2 * Math.PI) / 10; // of a planet by one tooth
+
+function record(names, rows) {
+  const made = new Record(names);
+  made.append(Float64Array.from(rows.flat()));
+  return made;
+}
+
+function rolling(angles) {
+  const made = record(["planet[1].spin_angle"], angles.map((angle, i) => [i, angle]));
+  return angles.map((_, i) => {
+    made.seek(i);
+    return rolls(made, 2, TURN / 2);
+  });
+}
+
+test("planets roll after they have turned half a pitch, but not while they stand still or rock within a pitch", () => {
+  assert.deepEqual(rolling([0, 0.4 * TURN, 0.6 * TURN, 0.8 * TURN]).slice(2), [true, true]);
+  assert.equal(rolling([0, 0.4 * TURN, 0.4 * TURN])[1], false);
+  assert.ok(rolling([0, 0.4, -0.4, 0.4, -0.4].map((share) => share * TURN)).every((each) => !each));
+  assert.equal(rolling([0, 2 * TURN, 2 * TURN, 2 * TURN])[3], false);
+});
+
+const VALUES = {
+  "geometry.planet_teeth": 10, "geometry.side_teeth": 16, "geometry.module": 4.5e-3, "geometry.face_width": 20e-3,
+  "geometry.pressure_angle": Math.PI / 9, "material.young_modulus": 2.07e11, "material.poisson_ratio": 0.25,
+};
+const setup = { value: (name) => VALUES[name] };
+
+test("the radius at the pitch point follows from two involutes and gives Hertz's pressure of the study", () => {
+  const { modulus, face, radius } = contactOf(setup);
+  // one pair at the pitch point transmits 16 144 N at the mean cone
+  const pressure = Math.sqrt((16144 * modulus) / (Math.PI * face * radius));
+  assert.ok(Math.abs(pressure / 2384.6e6 - 1) < 1e-4, `${pressure}`);
+});
+
+test("a scale ends at the largest pressure outside the seam, in which the radius is below a quarter", () => {
+  const contact = contactOf(setup);
+  const pressure = (force, share) => Math.sqrt((force * contact.modulus) / (Math.PI * contact.face * contact.radius * share));
+  for (const [share, is] of [[1, false], [0.26, false], [0.24, true]]) {
+    for (const sign of [1, -1]) assert.equal(isInSeam(contact, { force: 5e3 * sign, pressures: [0, pressure(5e3, share), 0] }), is);
+  }
+  const parts = ["tooth", "force", "height", "toe_pressure", "middle_pressure", "heel_pressure"];
+  const names = [1, 2, 3].flatMap((k) => parts.map((part) => `mesh.pair[${k}].${part}`));
+  const pair = (force, share) => [0, force, 0, pressure(force, share), pressure(force, share), pressure(force, share)];
+  const none = [-1, 0, 0, 0, 0, 0];
+  const rows = [[0, ...pair(1e4, 1), ...pair(3e3, 0.01), ...none], [1, ...pair(8e3, 0.5), ...none, ...none]];
+  assert.ok(Math.abs(largestPressure(record(names, rows), setup) / pressure(8e3, 0.5) - 1) < 1e-12);
+  // if all contact is in the seam, its pressure is used
+  assert.ok(largestPressure(record(names, [[0, ...pair(3e3, 0.01), ...none, ...none]]), setup) > 0);
 });

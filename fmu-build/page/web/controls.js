@@ -1,17 +1,16 @@
 // Parameters and inputs in groups, and effects as switches, generated from the table of variables.
-import { element } from "./element.js";
-import { inUnit, range, readable, unitText } from "./table.js";
-import { readValue } from "./value.js";
-import { isThere } from "./wanted.js";
+import { element } from "./frame.js";
+import { isThere } from "./record.js";
+import { inUnit, range, readable, readValue, unitText, words } from "./table.js";
 
 const EFFECTS = "effects";
 const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
 
 export class Controls {
-  // `changed(name)` is called after a value of the set-up was changed.
-  constructor(host, table, setup, changed) {
-    Object.assign(this, { host, table, setup, changed, rows: new Map(), groups: [] });
-    const groups = [...table.groups()];
+  // `changed()` is called after a value of the set-up was changed.
+  constructor(host, setup, changed) {
+    Object.assign(this, { host, setup, changed, table: setup.table, rows: new Map(), groups: [], searched: "" });
+    const groups = [...this.table.groups()];
     const place = ([group]) => (FIRST.includes(group) ? FIRST.indexOf(group) : FIRST.length);
     groups.sort((a, b) => place(a) - place(b));
     for (const [group, variables] of groups) this.group(group, variables);
@@ -21,7 +20,7 @@ export class Controls {
     const count = element("span", { className: "count" });
     const body = element("div", { className: name === EFFECTS ? "switches" : "fields" });
     const own = variables.map((variable) => this.row(variable, body));
-    const summary = element("summary", {}, name.replaceAll("_", " "), count);
+    const summary = element("summary", {}, words(name), count);
     const details = element("details", { open: name === EFFECTS }, summary, body);
     this.groups.push({ details, count, rows: own });
     this.host.append(details);
@@ -47,7 +46,7 @@ export class Controls {
     input.addEventListener("change", () => this.take(variable, input));
     back.addEventListener("click", () => {
       this.setup.reset(name);
-      this.done(name);
+      this.done();
       input.focus();
     });
     const row = { variable, frame, input, warning, fault, unit, what };
@@ -88,12 +87,12 @@ export class Controls {
       const same = this.text(variable, this.setup.valueInScene(name)) === this.text(variable, value);
       this.setup.set(name, same ? this.setup.valueInScene(name) : value);
     }
-    this.done(name);
+    this.done();
   }
 
-  done(name) {
+  done() {
     this.show();
-    this.changed(name);
+    this.changed();
   }
 
   // Shows the values of the set-up.
@@ -108,7 +107,7 @@ export class Controls {
       fault.hidden = true;
       input.removeAttribute("aria-invalid");
     }
-    this.filter(this.searched ?? "");
+    this.filter(this.searched);
     this.count();
   }
 
@@ -117,8 +116,8 @@ export class Controls {
     for (const { count, rows } of this.groups) {
       const own = rows.filter(({ variable }) => this.setup.isOwn(variable.name)).length;
       const warned = rows.filter(({ warning }) => warning.textContent !== "").length;
-      const words = [own > 0 && `${own} changed`, warned > 0 && (warned > 1 ? `${warned} warnings` : "1 warning")];
-      count.textContent = words.filter(Boolean).join(", ");
+      const counts = [own > 0 && `${own} changed`, warned > 0 && (warned > 1 ? `${warned} warnings` : "1 warning")];
+      count.textContent = counts.filter(Boolean).join(", ");
     }
   }
 
@@ -145,14 +144,14 @@ export class Controls {
   filter(text) {
     this.searched = text;
     const planets = this.setup.value("geometry.planet_count");
-    const words = text.toLowerCase().replaceAll("_", " ").split(/[\s.]+/).filter(Boolean);
+    const wanted = text.toLowerCase().replaceAll("_", " ").split(/[\s.]+/).filter(Boolean);
     for (const { details, rows } of this.groups) {
       const fits = rows.filter(({ frame, variable }) => {
-        frame.hidden = !words.every((word) => frame.dataset.words.includes(word)) || !isThere(variable.name, planets);
+        frame.hidden = !wanted.every((word) => frame.dataset.words.includes(word)) || !isThere(variable.name, planets);
         return !frame.hidden;
       });
       details.hidden = fits.length === 0;
-      if (words.length > 0) details.open = true;
+      if (wanted.length > 0) details.open = true;
     }
   }
 }

@@ -1,18 +1,154 @@
-// The differential in the scene: gears from the library's surfaces, their housing, arrows and light at the meshes.
-import { BufferAttribute, BufferGeometry, Group, Mesh, Vector3 } from "three";
-import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import { Arrow } from "./arrow.js";
-import { ContactLines } from "./contact_lines.js";
-import { Housing } from "./housing.js";
-import { paint } from "./paint.js";
-import { hasPairs, pairs } from "./pairs.js";
-import { Glow } from "./steel.js";
+// The differential in the scene: gears from the library's surfaces at their positions, arrows, and light at the meshes.
+import {
+  BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3,
+} from "three";
+import { hasPairs, pairs } from "./contact.js";
+import { creased, Housing } from "./housing.js";
+import { Glow, paint } from "./steel.js";
+import { clamp } from "./table.js";
 
-const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
 const SIDES = [["left", 1], ["right", -1]];
+const MOST = 3; // contact lines
+const ROUND = 20;
 const ARROW = "#ff3b2f";
 const GEAR = 0.36; // roughness
 const OWN = { planet: "#d99a35", side: "#4d7cb8", grey: "#8b929b" };
+const [X, Y] = [new Vector3(1, 0, 0), new Vector3(0, 1, 0)];
+
+const aboutX = (angle) => new Matrix4().makeRotationX(angle);
+const aboutZ = (angle) => new Matrix4().makeRotationZ(angle);
+const axes = (x, y, z) => new Matrix4().makeBasis(new Vector3(...x), new Vector3(...y), new Vector3(...z));
+
+// Columns: axes of a gear's own frame (z from apex to heel, tooth 0 at x) in the assembly.
+const LEFT = axes([0, 1, 0], [0, 0, 1], [1, 0, 0]);
+const RIGHT = axes([0, 1, 0], [0, 0, -1], [-1, 0, 0]);
+const PLANET = axes([1, 0, 0], [0, 0, -1], [0, 1, 0]);
+
+// Positions of the gears: x is the carrier's axis, the left side gear points along +x, and planet i along y turned
+// about x.
+export class Assembly {
+  // Teeth and planets are counts; `planet` are the planets' cones, and the pressure angle is in rad.
+  constructor({ planetTeeth, sideTeeth, planets, pressureAngle, planet }) {
+    Object.assign(this, { planetTeeth, sideTeeth, planets, pressureAngle, cones: planet });
+    this.half = Math.PI / sideTeeth;
+    // a planet with an odd number of teeth has a gap opposite the tooth that faces left
+    this.rightGap = planetTeeth % 2 === 0 ? this.half : 0;
+  }
+
+  azimuth(planet) {
+    return (2 * Math.PI * planet) / this.planets;
+  }
+
+  // Side gears have a gap at planet 1. Each planet has a tooth in the middle of the gap, or half a pitch from it.
+  left(angle) {
+    return aboutX(angle).multiply(LEFT).multiply(aboutZ(this.half));
+  }
+
+  right(angle) {
+    return aboutX(angle).multiply(RIGHT).multiply(aboutZ(this.rightGap));
+  }
+
+  planet(planet, carrier, spin) {
+    const phase = (Math.floor((2 * this.sideTeeth * planet) / this.planets) % 2) / 2;
+    const turned = spin + (phase * 2 * Math.PI) / this.planetTeeth;
+    return aboutX(carrier + this.azimuth(planet)).multiply(PLANET).multiply(aboutZ(-turned));
+  }
+
+  // Axes of the mesh of a planet with the left (+1) or right (−1) side gear: along its pitch line, forward, and away
+  // from the planet.
+  axes(planet, side, carrier) {
+    const outward = Y.clone().applyAxisAngle(X, carrier + this.azimuth(planet));
+    const axis = X.clone().multiplyScalar(side);
+    const [sine, cosine] = [Math.sin(this.cones.pitch), Math.cos(this.cones.pitch)];
+    const line = outward.clone().multiplyScalar(cosine).addScaledVector(axis, sine);
+    const apart = axis.clone().multiplyScalar(cosine).addScaledVector(outward, -sine);
+    return { outward, line, apart, forward: X.clone().cross(outward) };
+  }
+
+  // Pitch line of a mesh, and direction of the force on the side gear if the planet pushes it forward (+1) or back
+  // (−1).
+  mesh(planet, side, carrier, sense) {
+    const { outward, line, apart, forward } = this.axes(planet, side, carrier);
+    const force = forward.multiplyScalar(sense * Math.cos(this.pressureAngle));
+    force.addScaledVector(apart, Math.sin(this.pressureAngle));
+    return { outward, line, force };
+  }
+
+  // Direction of the contact line in a mesh. The great circle of action runs through the pitch line toward the force;
+  // the result is its point at the polar angle `polar` from the planet's axis.
+  contact(planet, side, carrier, sense, polar) {
+    const { outward, line, force } = this.mesh(planet, side, carrier, sense);
+    // cos(polar) = cos(s) (line·outward) + sin(s) (force·outward) with the arc s from the pitch line
+    const [along, across] = [line.dot(outward), force.dot(outward)];
+    const most = Math.hypot(along, across);
+    const middle = Math.atan2(across, along);
+    const apart = Math.acos(clamp(Math.cos(polar) / most, -1, 1));
+    // contact is outside the planet's base circle, which the great circle touches in the middle
+    const arc = middle + apart;
+    return line.multiplyScalar(Math.cos(arc)).addScaledVector(force, Math.sin(arc));
+  }
+}
+
+// Parts that show what is inside the gears, and are therefore drawn over everything. They point along y.
+const onTop = (options) => new MeshBasicMaterial({ ...options, toneMapped: false, depthTest: false, transparent: true });
+const pointing = (geometry) => geometry.translate(0, 0.5, 0);
+
+class Arrow extends Group {
+  constructor() {
+    super();
+    const material = onTop({ color: ARROW, opacity: 0.92 });
+    this.body = new Mesh(pointing(new CylinderGeometry(1, 1, 1, ROUND)), material);
+    this.head = new Mesh(pointing(new ConeGeometry(1, 1, ROUND)), material);
+    for (const part of [this.body, this.head]) part.renderOrder = 10;
+    this.add(this.body, this.head);
+  }
+
+  // Points from its position along `direction`; lengths in mm, with the maximum radius `thick`.
+  draw(direction, length, thick) {
+    const head = Math.min(4 * thick, 0.5 * length);
+    const radius = Math.min(thick, 0.12 * length);
+    this.quaternion.setFromUnitVectors(Y, direction);
+    this.body.scale.set(radius, length - head, radius);
+    this.head.scale.set(2 * radius, head, 2 * radius);
+    this.head.position.y = length - head;
+  }
+}
+
+// Contact lines of tooth pairs, coloured by pressure from toe to heel.
+class ContactLines extends Group {
+  constructor() {
+    super();
+    for (let i = 0; i < MOST; i += 1) {
+      const geometry = pointing(new CylinderGeometry(1, 1, 1, 10, 2));
+      geometry.setAttribute("color", new BufferAttribute(new Float32Array(geometry.attributes.position.array.length), 3));
+      const line = new Mesh(geometry, onTop({ vertexColors: true }));
+      line.renderOrder = 8;
+      this.add(line);
+    }
+  }
+
+  // `lines`: [{direction, colours: [toe, middle, heel]}] from the inner to the outer cone distance; lengths in mm.
+  show(lines, { inner, outer }, thick) {
+    this.children.forEach((mesh, i) => {
+      mesh.visible = i < lines.length;
+      if (!mesh.visible) return;
+      const { direction, colours } = lines[i];
+      mesh.quaternion.setFromUnitVectors(Y, direction);
+      mesh.position.copy(direction).multiplyScalar(inner);
+      mesh.scale.set(thick, outer - inner, thick);
+      this.colour(mesh.geometry, colours);
+    });
+  }
+
+  colour({ attributes: { position, color } }, colours) {
+    const own = new Color();
+    for (let k = 0; k < position.count; k += 1) {
+      own.copy(colours[Math.round(2 * position.getY(k))]);
+      color.setXYZ(k, own.r, own.g, own.b);
+    }
+    color.needsUpdate = true;
+  }
+}
 
 export class Differential {
   constructor() {
@@ -28,16 +164,16 @@ export class Differential {
     this.contactLines = new ContactLines();
     this.contactLines.visible = false;
     // one object of each kind of material, so that their programs can be compiled before there are gears
-    this.group.add(fixed(new BufferGeometry(), this.side), new Arrow(ARROW));
+    this.group.add(fixed(new BufferGeometry(), this.side), new Arrow());
   }
 
-  // Replaces the gears: surfaces of planet and side gear, and their assembly.
-  build([planet, side], assembly) {
+  // Replaces the gears: surfaces of planet and side gear, and the geometry that determines their positions.
+  build([planet, side], geometry) {
     for (const gear of this.gears ?? []) gear.geometry.dispose();
-    this.housing?.dispose();
-    for (const pointer of this.arrows?.flat() ?? []) pointer.dispose();
+    for (const group of [...(this.housing?.groups ?? []), ...(this.arrows ?? []).flat()]) group.traverse(dispose);
     this.group.clear();
     this.still.clear();
+    const assembly = new Assembly({ ...geometry, planet: planet.cones });
     this.assembly = assembly;
     const [planetShape, sideShape] = [shape(planet), shape(side)];
     this.reach = Math.max(farthest(planet), farthest(side));
@@ -49,7 +185,7 @@ export class Differential {
       reach: this.reach, back: highest(side), planetBack: highest(planet), planets: assembly.planets,
       azimuth: (i) => assembly.azimuth(i), metal: (colour, roughness) => this.glow.material(colour, roughness),
     });
-    this.arrows = this.planets.map(() => SIDES.map(() => new Arrow(ARROW)));
+    this.arrows = this.planets.map(() => SIDES.map(() => new Arrow()));
     this.glow.width.value = 0.11 * this.reach;
     this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat(), this.contactLines);
     this.still.add(this.housing.shell);
@@ -58,8 +194,8 @@ export class Differential {
   }
 
   // Draws the time of the last call of `record.seek`. `largest` is the force of an arrow of full length [N]; `colours`
-  // come from colouring.js. The scene is turned by `held` relative to the carrier; `pressed(pressure)` is the colour of
-  // a pressure [Pa].
+  // come from a mode in colouring.js. The scene is turned by `held` relative to the carrier; `pressed(pressure)` is the
+  // colour of a pressure [Pa].
   pose(record, largest, colours, held, pressed) {
     if (!this.gears) return;
     const { assembly } = this;
@@ -137,7 +273,12 @@ function shape({ vertices, triangles }) {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(vertices, 3));
   geometry.setIndex(new BufferAttribute(triangles, 1));
-  return toCreasedNormals(geometry, CREASE);
+  return creased(geometry);
+}
+
+function dispose({ geometry, material }) {
+  geometry?.dispose();
+  material?.dispose();
 }
 
 const triples = (numbers, of) => {

@@ -1,13 +1,16 @@
 // Panel next to the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
-import { gradient, shade } from "./scale.js";
-import { hasPairs, hasTeeth, pairNames, pairs } from "./pairs.js";
-import { along, COLUMNS, Pattern, ROWS } from "./pattern.js";
-import { colour } from "./panel.js";
-import { contactOf, isInSeam } from "./seam.js";
-import { readable, shown } from "./table.js";
+import { gradient, shade } from "./colouring.js";
+import {
+  along, COLUMNS, CONTACT, contactOf, FORCE, hasPairs, hasTeeth, isInSeam, pairColumns, pairs, Pattern, ROWS,
+} from "./contact.js";
+import { colour } from "./frame.js";
+import { readable } from "./table.js";
 
 const FLANKS = [[1, "drive flank"], [-1, "coast flank"]];
 const ROOM = { left: 38, right: 12, top: 16, bottom: 18 }; // pixels around a flank
+
+const onFlank = (present, sign) => present.filter(({ force }) => Math.sign(force) === sign);
+const inMPa = (pressure) => readable(pressure / 1e6, 3);
 
 export class Flank {
   // `host` contains elements by data-flank: text, scale, and the canvases drive and coast.
@@ -21,15 +24,15 @@ export class Flank {
     this.host.hidden = !isShown;
   }
 
-  shape({ cones }) {
+  shape(cones) {
     this.cones = cones;
     this.forget();
   }
 
   begin(record, setup) {
     this.record = record;
-    this.contact = setup.value("scene.gear_contact");
-    this.hasTeeth = hasTeeth(setup, this.table);
+    this.contact = this.table.shown(CONTACT, setup.value(CONTACT));
+    this.hasTeeth = hasTeeth(setup);
     this.elastic = contactOf(setup);
     this.forget();
   }
@@ -48,11 +51,10 @@ export class Flank {
   at(time, most) {
     if (this.host.hidden || !this.cones) return;
     this.scale = most;
-    const literal = shown(this.table.find("scene.gear_contact"), this.contact);
     const hasTeeth = this.hasTeeth && hasPairs(this.record, true);
     for (const canvas of this.canvases) canvas.hidden = !hasTeeth;
     if (!hasTeeth) {
-      this.say([`No teeth are in contact: scene.gear_contact is ${literal}, a joint without tooth pairs. `
+      this.say([`No teeth are in contact: ${CONTACT} is ${this.contact}, a joint without tooth pairs. `
         + "Set it to tooth to see the contact pattern."]);
       return;
     }
@@ -60,29 +62,28 @@ export class Flank {
     if (this.done > 0 && times[this.done - 1] > time) this.forget();
     let until = this.done;
     while (until < times.length && times[until] <= time) until += 1;
-    const columns = Object.fromEntries(pairNames(true).map((name) => [name, this.record.column(name)]));
+    const columns = pairColumns(this.record);
     for (let i = this.done; i < until; i += 1) this.add(pairs((name) => columns[name][i]));
     this.done = until;
     const present = pairs((name) => this.record.point(name));
     // an untouched flank is hidden
     this.canvases[1].hidden = this.patterns[1].most === 0;
-    FLANKS.forEach(([sign], i) => this.draw(i, present.filter(({ force }) => Math.sign(force) === sign)));
+    FLANKS.forEach(([sign], i) => this.draw(i, onFlank(present, sign)));
     this.describe(present);
   }
 
   add(present) {
     const sound = present.filter((pair) => !isInSeam(this.elastic, pair));
     this.largest = Math.max(this.largest, ...sound.flatMap(({ pressures }) => pressures));
-    FLANKS.forEach(([sign], i) => this.patterns[i].add(present.filter(({ force }) => Math.sign(force) === sign)));
+    FLANKS.forEach(([sign], i) => this.patterns[i].add(onFlank(present, sign)));
   }
 
   describe(present) {
-    const pressure = (value) => readable(value / 1e6, 3);
-    const force = this.table.find("planet[1].left_normal_force");
-    const lines = present.map(({ tooth, force: own, height, pressures }) => `Tooth ${tooth}: ${shown(force, Math.abs(own), 3)} at `
-      + `${readable(1e3 * height, 2)} mm; ${pressures.map(pressure).join(", ")} MPa at toe, middle, heel`);
+    const lines = present.map(({ tooth, force, height, pressures }) =>
+      `Tooth ${tooth}: ${this.table.shown(FORCE, Math.abs(force), 3)} at ${readable(1e3 * height, 2)} mm; `
+      + `${pressures.map(inMPa).join(", ")} MPa at toe, middle, heel`);
     if (lines.length === 0) lines.push("No pair is in contact now.");
-    lines.push(`Largest so far, without the seam at the foot, ${pressure(this.largest)} MPa`);
+    lines.push(`Largest so far, without the seam at the foot, ${inMPa(this.largest)} MPa`);
     this.say(lines);
   }
 
@@ -92,7 +93,7 @@ export class Flank {
     if (host.textContent !== text) host.textContent = text;
     this.part("scale").hidden = this.canvases[0].hidden;
     this.part("scale").style.setProperty("--scale", gradient());
-    this.part("most").textContent = `${readable(this.scale / 1e6, 3)} MPa, the most of this run without the seam`;
+    this.part("most").textContent = `${inMPa(this.scale)} MPa, the most of this run without the seam`;
   }
 
   draw(i, present) {

@@ -1,15 +1,14 @@
 // Parts around the gears, for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches,
 // half-shafts.
-import {
-  BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2,
-} from "three";
+import { BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2 } from "three";
 import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import { paint } from "./paint.js";
+import { paint } from "./steel.js";
 
 const WALL = 5; // mm
 const AIR = 3; // mm between moving parts and the case
 const ROUND = 48;
 const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
+const MARK = "#e0a030"; // colour of marks that make a rotation visible
 
 // Names of parts as in colouring.js, with the colours of their metal.
 const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
@@ -25,13 +24,16 @@ export class Housing {
     this.shafts = [1, -1].map((side) => shaft(side, reach, back, metals, metal));
     const [radius, half] = [reach + AIR, back + AIR];
     const profile = section(radius, half, shaftRadius(reach) + 2);
-    this.shell.add(lathe(profile, metals.case), ...cuts(profile, metal));
+    metals.case.roughness = 0.6;
+    const wall = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI).rotateZ(-Math.PI / 2), metals.case);
+    this.shell.add(wall, ...cuts(profile, metal));
     this.flange = flange(radius, half, metal);
     this.carrier.add(this.flange);
     for (let i = 0; i < planets; i += 1) {
       const [length, inner] = [radius + WALL + 3, 0.16 * reach];
       const axle = new Group();
-      axle.add(cylinder(inner, length, metals.pins), ring(inner, 2.4 * inner, planetBack, 0.7 * AIR, metals.washers));
+      const pin = new Mesh(new CylinderGeometry(inner, inner, length, ROUND).translate(0, length / 2, 0), metals.pins);
+      axle.add(pin, ring(inner, 2.4 * inner, planetBack, 0.7 * AIR, metals.washers));
       axle.rotation.x = azimuth(i);
       this.carrier.add(axle);
     }
@@ -75,13 +77,12 @@ export class Housing {
     this.shafts[1].rotation.x = right;
   }
 
-  dispose() {
-    for (const group of [this.shell, this.carrier, ...this.shafts]) group.traverse((part) => {
-      part.geometry?.dispose();
-      part.material?.dispose();
-    });
+  get groups() {
+    return [this.shell, this.carrier, ...this.shafts];
   }
 }
+
+export const creased = (geometry) => toCreasedNormals(geometry, CREASE);
 
 const shaftRadius = (reach) => 0.27 * reach;
 
@@ -103,13 +104,6 @@ function section(radius, half, hub) {
   return [...inner, ...outer.reverse(), inner[0]];
 }
 
-function lathe(profile, material) {
-  const mesh = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI), material);
-  material.roughness = 0.6;
-  mesh.geometry.rotateZ(-Math.PI / 2);
-  return mesh;
-}
-
 // Faces of the cut, painted as on cut-away models.
 function cuts(profile, metal) {
   return [1, -1].map((side) => {
@@ -123,48 +117,46 @@ function cuts(profile, metal) {
 // Flange for the ring gear, with bolts that make the carrier's rotation visible.
 function flange(radius, half, metal) {
   const group = new Group();
-  const [inner, outer, place] = [0.62 * radius, radius + WALL + 3, half + WALL + 3];
-  const outline = [[inner, -3], [outer, -3], [outer, 3], [inner, 3], [inner, -3]].map(([r, x]) => new Vector2(r, x));
-  const ring = new Mesh(toCreasedNormals(new LatheGeometry(outline, 2 * ROUND).rotateZ(-Math.PI / 2), CREASE), metal("#78818d"));
-  ring.position.x = place;
-  group.add(ring);
-  for (let k = 0; k < 10; k += 1) {
-    const angle = (2 * Math.PI * k) / 10;
-    const bolt = new Mesh(new CylinderGeometry(2.6, 2.6, 12, 6).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
-    bolt.position.set(place, (outer - 5) * Math.cos(angle), (outer - 5) * Math.sin(angle));
-    group.add(bolt);
-  }
+  const [outer, place] = [radius + WALL + 3, half + WALL + 3];
+  const plate = ring(0.62 * radius, outer, place - 3, 6, metal("#78818d"), 2 * ROUND);
+  plate.rotation.z = -Math.PI / 2;
+  group.add(plate, ...bolts(10, 2.6, 12, 6, place, outer - 5, metal));
   return group;
 }
 
-function cylinder(radius, length, material) {
-  return new Mesh(new CylinderGeometry(radius, radius, length, ROUND).translate(0, length / 2, 0), material);
+// Disc along x with its middle at `place`.
+function disc(radius, thick, place, material, round = ROUND) {
+  const mesh = new Mesh(new CylinderGeometry(radius, radius, thick, round).rotateZ(Math.PI / 2), material);
+  mesh.position.x = place;
+  return mesh;
+}
+
+// Circle of bolts around x; the first one is marked.
+function bolts(count, radius, length, round, place, far, metal) {
+  return Array.from({ length: count }, (_, k) => {
+    const angle = (2 * Math.PI * k) / count;
+    const bolt = disc(radius, length, place, metal(k === 0 ? MARK : "#c9ced6"), round);
+    bolt.position.y = far * Math.cos(angle);
+    bolt.position.z = far * Math.sin(angle);
+    return bolt;
+  });
 }
 
 // Flat ring about y, starting at `place`.
-function ring(inner, outer, place, thick, material) {
+function ring(inner, outer, place, thick, material, round = ROUND) {
   const [low, high] = [place, place + thick];
   const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
-  return new Mesh(toCreasedNormals(new LatheGeometry(outline, ROUND), CREASE), material);
+  return new Mesh(creased(new LatheGeometry(outline, round)), material);
 }
 
 function shaft(side, reach, back, metals, metal) {
   const group = new Group();
   const [begin, end, radius] = [0.62 * back, back + 0.75 * reach, shaftRadius(reach)];
-  const bar = new Mesh(new CylinderGeometry(radius, radius, end - begin, ROUND).rotateZ(Math.PI / 2), metals.shafts);
-  bar.position.x = (side * (begin + end)) / 2;
-  const plate = new Mesh(new CylinderGeometry(1.55 * radius, 1.55 * radius, 6, ROUND).rotateZ(Math.PI / 2), metals.brakes);
-  plate.position.x = side * end;
-  group.add(bar, plate);
-  for (let k = 0; k < 5; k += 1) {
-    const angle = (2 * Math.PI * k) / 5;
-    const bolt = new Mesh(new CylinderGeometry(2, 2, 14, 12).rotateZ(Math.PI / 2), metal(k === 0 ? "#e0a030" : "#c9ced6"));
-    bolt.position.set(side * end, 1.25 * radius * Math.cos(angle), 1.25 * radius * Math.sin(angle));
-    group.add(bolt);
-  }
+  const bar = disc(radius, end - begin, (side * (begin + end)) / 2, metals.shafts);
+  const plate = disc(1.55 * radius, 6, side * end, metals.brakes);
   // a stripe makes the shaft's rotation visible
-  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal("#e0a030", 0.6));
+  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal(MARK, 0.6));
   stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
-  group.add(stripe);
+  group.add(bar, plate, ...bolts(5, 2, 14, 12, side * end, 1.25 * radius, metal), stripe);
   return group;
 }

@@ -1,10 +1,13 @@
-// The library in WebAssembly: an instance with the functions of FMI 2.0, and surfaces of gears. Values are in SI.
+// The library in WebAssembly: an instance with the functions of FMI 2.0, surfaces of gears, and runs of scenes. Values are
+// in SI.
 
-const BYTES = { Real: 8, Integer: 4, Boolean: 4 };
+const KINDS = ["Real", "Integer", "Boolean"];
 const ERROR = 2; // fmi2Discard and worse
 const CONES = ["pitch", "tip", "root", "base", "outer", "mean", "inner"]; // angles in rad, distances in mm
 // parts of a message that only hosts use: the failed call before the message, and calls for recovery after it
 const CALLS = /^fmi2\w+: (?:initialisation failed:\s*)?|; continue with fmi2\w+ or fmi2\w+$/g;
+// numbers of a row of a schedule before those of the tables
+const OWN = 6;
 
 // Error with the library's messages about a refusal.
 export class Refused extends Error {}
@@ -25,13 +28,20 @@ export class Library {
     this.rooms = new Map();
   }
 
+  // Calls `use` with the address and the size of temporary memory of the library, and returns the result.
+  lent(bytes, use) {
+    const place = this.exports.page_allocate(bytes);
+    const result = use(place, bytes);
+    this.exports.page_free(place, bytes);
+    return result;
+  }
+
   // Messages since the last call: [{status, text}].
   said() {
-    const room = 65536;
-    const place = this.exports.page_allocate(room);
-    const length = this.exports.page_messages(place, room);
-    const text = new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, place, length));
-    this.exports.page_free(place, room);
+    const text = this.lent(65536, (place, room) => {
+      const length = this.exports.page_messages(place, room);
+      return new TextDecoder().decode(new Uint8Array(this.exports.memory.buffer, place, length));
+    });
     return text.split("\n").filter(Boolean).map((line) => ({ status: Number(line[0]), text: line.slice(2) }));
   }
 
@@ -41,54 +51,46 @@ export class Library {
     throw new Refused(errors.join("\n") || `${doing} failed with status ${status}`);
   }
 
-  // Room for `count` numbers and references of a kind in the library's memory.
-  room(kind, count) {
+  // Writes references and values of a kind to the library's memory: [{reference, value}].
+  written(kind, assignments) {
+    const count = assignments.length;
     const known = this.rooms.get(kind);
-    if (known && known.count >= count) return known;
-    if (known) {
+    if (known && known.count < count) {
       this.exports.page_free(known.references, 4 * known.count);
       this.exports.page_free(known.values, 8 * known.count);
     }
-    const made = { count, references: this.exports.page_allocate(4 * count), values: this.exports.page_allocate(8 * count) };
-    this.rooms.set(kind, made);
-    return made;
-  }
-
-  views(kind, room, count) {
+    const room = known?.count >= count ? known
+      : { count, references: this.exports.page_allocate(4 * count), values: this.exports.page_allocate(8 * count) };
+    this.rooms.set(kind, room);
     // new views each time, because the memory moves when it grows
     const { buffer } = this.exports.memory;
-    const values = kind === "Real" ? new Float64Array(buffer, room.values, count) : new Int32Array(buffer, room.values, count);
-    return { references: new Uint32Array(buffer, room.references, count), values };
+    const references = new Uint32Array(buffer, room.references, count);
+    const values = new (kind === "Real" ? Float64Array : Int32Array)(buffer, room.values, count);
+    assignments.forEach(({ reference, value }, i) => {
+      references[i] = reference;
+      values[i] = Number(value);
+    });
+    return room;
   }
 
   // Sets variables: [{kind, reference, value}], with one call for each kind.
   set(assignments) {
-    for (const kind of Object.keys(BYTES)) {
+    for (const kind of KINDS) {
       const own = assignments.filter((assignment) => assignment.kind === kind);
       if (own.length === 0) continue;
-      const room = this.room(kind, own.length);
-      const { references, values } = this.views(kind, room, own.length);
-      own.forEach((assignment, i) => {
-        references[i] = assignment.reference;
-        values[i] = Number(assignment.value);
-      });
-      this.check(this.exports[`fmi2Set${kind}`](this.component, room.references, own.length, room.values), `setting ${kind}`);
+      const { references, values } = this.written(kind, own);
+      this.check(this.exports[`fmi2Set${kind}`](this.component, references, own.length, values), `setting ${kind}`);
     }
   }
 
   // Sets the slopes of inputs per second: [{reference, value}].
   setSlopes(slopes) {
     const count = slopes.length;
-    const room = this.room("Real", count);
-    const orders = this.exports.page_allocate(4 * count);
-    const { references, values } = this.views("Real", room, count);
-    new Int32Array(this.exports.memory.buffer, orders, count).fill(1);
-    slopes.forEach(({ reference, value }, i) => {
-      references[i] = reference;
-      values[i] = value;
+    const { references, values } = this.written("Real", slopes);
+    const status = this.lent(4 * count, (orders) => {
+      new Int32Array(this.exports.memory.buffer, orders, count).fill(1);
+      return this.exports.fmi2SetRealInputDerivatives(this.component, references, count, orders, values);
     });
-    const status = this.exports.fmi2SetRealInputDerivatives(this.component, room.references, count, orders, room.values);
-    this.exports.page_free(orders, 4 * count);
     this.check(status, "setting slopes of inputs");
   }
 
@@ -124,16 +126,15 @@ export class Library {
 
   // Rows of a run's schedule with `width` numbers each; bd_answers.h describes question and rows.
   schedule(question, width) {
-    const from = this.exports.page_allocate(8 * question.length);
-    new Float64Array(this.exports.memory.buffer, from, question.length).set(question);
-    const count = this.exports.bd_schedule(from, question.length, from, 0);
-    const room = Math.max(count, 0) * width;
-    const to = this.exports.page_allocate(8 * room);
-    this.exports.bd_schedule(from, question.length, to, room);
-    const rows = new Float64Array(this.exports.memory.buffer, to, room).slice();
-    this.exports.page_free(from, 8 * question.length);
-    this.exports.page_free(to, 8 * room);
-    if (count < 1) throw new Refused("This run has more than 1e8 steps or jumps of inputs; end it earlier.");
+    const rows = this.lent(8 * question.length, (from) => {
+      new Float64Array(this.exports.memory.buffer, from, question.length).set(question);
+      const count = Math.max(this.exports.bd_schedule(from, question.length, from, 0), 0) * width;
+      return this.lent(8 * count, (to) => {
+        this.exports.bd_schedule(from, question.length, to, count);
+        return new Float64Array(this.exports.memory.buffer, to, count).slice();
+      });
+    });
+    if (rows.length === 0) throw new Refused("This run has more than 1e8 steps or jumps of inputs; end it earlier.");
     return rows;
   }
 
@@ -143,24 +144,20 @@ export class Library {
 
   // Surface of a gear (0 planet, 1 side gear) for assignments of all kinds, in mm; null if it cannot be built.
   gear(assignments, gear) {
-    const bytes = 16 * Math.max(assignments.length, 1);
-    const place = this.exports.page_allocate(bytes);
-    const view = new DataView(this.exports.memory.buffer);
-    assignments.forEach(({ reference, value }, i) => {
-      view.setUint32(place + 16 * i, reference, true);
-      view.setFloat64(place + 16 * i + 8, Number(value), true);
+    const surface = this.lent(16 * Math.max(assignments.length, 1), (place) => {
+      const view = new DataView(this.exports.memory.buffer);
+      assignments.forEach(({ reference, value }, i) => {
+        view.setUint32(place + 16 * i, reference, true);
+        view.setFloat64(place + 16 * i + 8, Number(value), true);
+      });
+      return this.exports.page_gear(place, assignments.length, gear);
     });
-    const surface = this.exports.page_gear(place, assignments.length, gear);
-    this.exports.page_free(place, bytes);
     if (!surface) return null;
-    const numbers = (kind, array) => {
-      const count = this.exports.page_allocate(4);
+    const numbers = (kind, array) => this.lent(4, (count) => {
       const first = this.exports.page_gear_numbers(surface, kind, count);
       const { buffer } = this.exports.memory;
-      const copy = new array(buffer, first, new Uint32Array(buffer, count, 1)[0]).slice();
-      this.exports.page_free(count, 4);
-      return copy;
-    };
+      return new array(buffer, first, new Uint32Array(buffer, count, 1)[0]).slice();
+    });
     const cones = numbers(2, Float64Array);
     const made = {
       vertices: numbers(0, Float32Array), triangles: numbers(1, Uint32Array),
@@ -168,5 +165,63 @@ export class Library {
     };
     this.exports.page_gear_free(surface);
     return made;
+  }
+}
+
+// Run of a scene, row by row of its record: it executes the schedule that the library computes.
+// `scene`: {stop, step, set, changes: [[time, assignments]], tables: [{reference, table: [times, values, period or
+// null]}], slopes}; `slopes` is true if tables are interpolated within steps.
+export class Run {
+  constructor(library, scene) {
+    const { stop, step, set, changes, tables, slopes } = scene;
+    // rule of the tables: linear within steps, or held
+    const rule = slopes ? 0 : 2;
+    const points = tables.flatMap(({ table: [times, values, period] }) => [times.length, period ?? 0, rule, ...times, ...values]);
+    const width = OWN + 2 * tables.length;
+    const rows = library.schedule([stop, step, changes.length, ...changes.map(([time]) => time), ...points], width);
+    Object.assign(this, { library, scene, rows, width, place: 0, changed: 0, begun: false, time: 0 });
+    library.start([...set, ...this.driven(OWN)], stop);
+  }
+
+  // Warnings about the schedule, as texts.
+  get warnings() {
+    const points = this.rows[0];
+    return points === 0 ? [] : [`the run ends a step at each of ${points} points of tables between its communication points, `
+      + "which makes it much longer; tables with fewer points make it shorter"];
+  }
+
+  get isOver() {
+    return this.place + this.width === this.rows.length && !this.begun;
+  }
+
+  // Advances to the next row of the record: to the next communication point, or to an earlier jump of inputs. A jump has
+  // a second row, with the values after it, to which the run advances without a step.
+  advance() {
+    for (;;) {
+      if (!this.begun) {
+        this.place += this.width;
+        this.begun = this.set();
+        if (this.begun) return;
+      }
+      this.begun = false;
+      const [begin, size, end, , , recorded] = this.rows.subarray(this.place);
+      this.library.step(begin, size);
+      this.time = end;
+      if (recorded) return;
+    }
+  }
+
+  // Sets the values for a step. Returns true if they jump.
+  set() {
+    const [, , , due, jumps] = this.rows.subarray(this.place);
+    for (; this.changed < due; this.changed += 1) this.library.set(this.scene.changes[this.changed][1]);
+    this.library.set(this.driven(OWN));
+    if (this.scene.slopes) this.library.setSlopes(this.driven(OWN + this.scene.tables.length));
+    return jumps !== 0;
+  }
+
+  // Numbers for the inputs that follow tables, starting at index `first` in the row.
+  driven(first) {
+    return this.scene.tables.map(({ reference }, i) => ({ kind: "Real", reference, value: this.rows[this.place + first + i] }));
   }
 }

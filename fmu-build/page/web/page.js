@@ -1,34 +1,23 @@
 // The page: the set-up is sent to the worker, its points are recorded, and the picture follows the player's time.
-import { bind } from "./bindings.js";
-import { TraceChoice } from "./choice.js";
-import { coloured, MODES } from "./colouring.js";
-import { largestPower } from "./colour_heat.js";
+import { largestPower, Legend, MODES, scaled } from "./colouring.js";
+import { hasPairs, hasTeeth, largestPressure } from "./contact.js";
 import { Controls } from "./controls.js";
 import { Flank } from "./flank.js";
-import { Legend } from "./legend.js";
-import { Notice } from "./notice.js";
-import { save } from "./csv.js";
-import { hasPairs, hasTeeth } from "./pairs.js";
-import { Player } from "./player.js";
-import { showFigures, showTransport, toothTime } from "./readings.js";
-import { Record } from "./record.js";
-import { scaled } from "./scale.js";
-import { largestPressure } from "./seam.js";
+import { $, Notice, Walk } from "./frame.js";
+import { bind } from "./operation.js";
+import { Player, showFigures, showTransport, toothTime } from "./player.js";
+import { forces, Record, recorded, save } from "./record.js";
 import { Setup } from "./setup.js";
-import { Shapes } from "./shapes.js";
-import { Simulation } from "./simulation.js";
+import { Shapes, Simulation } from "./simulation.js";
 import { readable, Table } from "./table.js";
-import { Traces } from "./traces.js";
+import { TraceChoice, Traces } from "./traces.js";
 import { PRESETS, View } from "./view.js";
-import { Walk } from "./walk.js";
-import { forces, wanted } from "./wanted.js";
 
-const $ = (id) => document.getElementById(id);
 const REFRESH = 100; // ms between two drawings of new points
 const ASIDE = { wide: [-0.19, 0], narrow: [0, -0.2] }; // shift of the picture as fractions of the window
 const NARROW = 820; // pixels
 
-export class Page {
+class Page {
   // `library` is the packed library of the page.
   constructor(data, library) {
     this.table = new Table(data);
@@ -48,9 +37,9 @@ export class Page {
       trap: ({ text }) => this.trapped(text),
       anew: () => this.shapes.forget(),
     });
-    this.shapes = new Shapes(this.table, (settings) => this.simulation.gears(settings), (surfaces, assembly) => {
-      this.view.build(surfaces, assembly);
-      this.flank.shape(assembly);
+    this.shapes = new Shapes(this.table, (settings) => this.simulation.gears(settings), (surfaces, geometry) => {
+      this.view.build(surfaces, geometry);
+      this.flank.shape(surfaces[0].cones);
       this.moved = true;
     });
     const labels = Object.fromEntries([...document.querySelectorAll("[data-label]")].map((label) => [label.dataset.label, label]));
@@ -64,7 +53,7 @@ export class Page {
       this.keep();
       this.simulate();
     });
-    this.controls = new Controls($("groups"), this.table, this.setup, () => this.changed());
+    this.controls = new Controls($("groups"), this.setup, () => this.changed());
     this.walk = new Walk($("walk"), (step) => this.walkTo(step), () => this.makeRoom());
     bind(this);
     this.restore();
@@ -112,8 +101,7 @@ export class Page {
   }
 
   get names() {
-    const mode = MODES[this.setup.colour];
-    return wanted(this.table, this.setup, mode.needs(this.table), this.setup.view === "flank");
+    return recorded(this.setup, MODES[this.setup.colour].needs, this.setup.view === "flank");
   }
 
   simulate() {
@@ -315,7 +303,7 @@ export class Page {
     this.moved = false;
     this.held = this.view.hold;
     record.seek(player.time);
-    const colours = coloured(setup.colour, { table, setup, record, most, mostHeat, hasPairs: hasTeeth(setup, table) && hasPairs(record) });
+    const colours = MODES[setup.colour].colours({ setup, record, most, mostHeat, hasPairs: hasTeeth(setup) && hasPairs(record) });
     this.view.pose(record, most, colours, (pressure) => scaled(pressure / this.mostPressure));
     if (record.count === 0) return;
     this.legend.show(setup.colour, colours.legend);
@@ -324,3 +312,20 @@ export class Page {
     showFigures(record, table);
   }
 }
+
+// Packed contents of the page, in base64: data in gzip, and the library in xz, which needs half as much space.
+function packed(id) {
+  const text = $(id).textContent.trim();
+  return Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+}
+
+async function start() {
+  const data = new Blob([packed("data")]).stream().pipeThrough(new DecompressionStream("gzip"));
+  // the library is still packed: the worker unpacks it while the page is built
+  window.page = new Page(await new Response(data).json(), packed("library")); // for scripts and tests
+}
+
+start().catch((error) => {
+  const textContent = `This browser cannot run the page: ${error.message}`;
+  Object.assign($("message"), { hidden: false, className: "bad", textContent });
+});

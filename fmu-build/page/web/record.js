@@ -1,8 +1,39 @@
-// Points of a run: growing columns of numbers, interpolated linearly at any time.
+// Record of a run: which outputs it contains, its points, and a file of them.
+import { pairNames } from "./contact.js";
+import { element } from "./frame.js";
+import { clamp } from "./table.js";
 
+const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
+const SIDES = ["left", "right"];
+
+export const planetNames = (count) => Array.from({ length: count }, (_, i) => `planet[${i + 1}]`);
+
+// True if a gear set of `count` planets has the variable: false for variables of further planets.
+export const isThere = (name, count) => !(Number(/^planet\[(\d+)\]/.exec(name)?.[1]) > count);
+
+export const heats = (table) => table.outputs().map(({ name }) => name).filter((name) => name.startsWith("heat."));
+
+const planets = (setup) => planetNames(setup.value("geometry.planet_count"));
+
+export const forces = (setup) => planets(setup).flatMap((planet) => SIDES.map((side) => `${planet}.${side}_normal_force`));
+
+// Outputs that a run records at each point: only those for the picture, the values, the traces and the colours.
+// `colours` are the outputs for the colour mode; `withPressures` adds the pressures of tooth pairs.
+export function recorded(setup, colours, withPressures) {
+  const { table } = setup;
+  const sides = SIDES.flatMap((side) => [`${side}.angle`, `${side}.speed`, `${side}.twist`, `${side}.tangential_force`]);
+  const spins = planets(setup).map((planet) => `${planet}.spin_angle`);
+  const names = [...MOVING, ...sides, ...spins, ...forces(setup), ...heats(table), ...setup.shown(),
+    ...pairNames(withPressures), ...colours];
+  return [...new Set(names)].filter((name) => table.find(name));
+}
+
+// Position of a time between two others, from 0 to 1; 0 if these are equal.
+export const between = (time, from, to) => (to > from ? clamp((time - from) / (to - from), 0, 1) : 0);
+
+// Growing columns of numbers, interpolated linearly at any time.
 export class Record {
   constructor(names) {
-    this.names = names;
     this.place = new Map(names.map((name, i) => [name, i + 1]));
     this.count = 0;
     this.columns = Array.from({ length: names.length + 1 }, () => new Float64Array(1024));
@@ -31,7 +62,7 @@ export class Record {
   }
 
   get end() {
-    return this.count === 0 ? 0 : this.columns[0][this.count - 1];
+    return this.times.at(-1) ?? 0;
   }
 
   has(name) {
@@ -52,10 +83,7 @@ export class Record {
       if (times[middle] <= time) low = middle;
       else high = middle;
     }
-    const width = times[high] - times[low];
-    this.low = low;
-    this.high = high;
-    this.share = width > 0 ? Math.min(Math.max((time - times[low]) / width, 0), 1) : 0;
+    Object.assign(this, { low, high, share: between(time, times[low], times[high]) });
   }
 
   value(name) {
@@ -82,4 +110,14 @@ export class Record {
   largest(name) {
     return this.has(name) ? this.column(name).reduce((most, value) => Math.max(most, Math.abs(value)), 0) : 0;
   }
+}
+
+// Offers columns of a record as a download for a table or a script, with the columns of the command `run` in SI.
+export function save(file, record, names) {
+  const columns = [record.times, ...names.map((name) => record.column(name))];
+  const rows = Array.from(record.times, (_, i) => columns.map((column) => column[i]).join(","));
+  const text = `${[["time", ...names].join(","), ...rows].join("\n")}\n`;
+  const address = URL.createObjectURL(new Blob([text], { type: "text/csv" }));
+  element("a", { href: address, download: file }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
 }

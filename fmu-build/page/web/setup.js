@@ -1,8 +1,7 @@
 // The simulated set-up and its display: a scene, changed values, view and colours. The fragment of the page's address
 // contains all of it.
 import { MODES } from "./colouring.js";
-import { readable, SPEEDS } from "./table.js";
-import { readValueInSI } from "./value.js";
+import { isSettable, readable, readValueInSI, SPEEDS } from "./table.js";
 import { PRESETS } from "./view.js";
 
 const DURATION = "stop_time";
@@ -83,11 +82,8 @@ export class Setup {
       step: this.scene.step,
       set: this.settings(),
       changes: this.scene.changes.map(([time, values]) => [time, this.assignments(left(values))]),
-      tables: this.scene.tables
-        .filter(({ name }) => !this.own.has(name))
-        .map(({ name, times, values, period }) => {
-          return { reference: this.table.find(name).reference, table: [times, values, period] };
-        }),
+      tables: this.scene.tables.filter(({ name }) => !this.own.has(name)).map(({ name, times, values, period }) => (
+        { reference: this.table.find(name).reference, table: [times, values, period] })),
       slopes: this.scene.slopes,
     };
   }
@@ -120,10 +116,7 @@ export class Setup {
     const [odd, faults] = [[], []];
     this.choose(this.table.scene(words.get("scene")) ? words.get("scene") : FIRST);
     Object.assign(this, PLAIN);
-    for (const [word, text] of words) {
-      if (this.take(word, text, faults)) continue;
-      odd.push(`${word}=${text}`);
-    }
+    for (const [word, text] of words) if (!this.take(word, text, faults)) odd.push(`${word}=${text}`);
     return { odd, faults };
   }
 
@@ -143,7 +136,7 @@ export class Setup {
       return names.length > 0 && names.every(isOutput);
     }
     const variable = this.table.find(word);
-    if (!variable || !["parameter", "input"].includes(variable.causality)) return false;
+    if (!variable || !isSettable(variable)) return false;
     const { value, fault } = readValueInSI(variable, text);
     if (fault) faults.push({ name: word, text: fault });
     else this.set(word, value);

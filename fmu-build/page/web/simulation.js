@@ -1,9 +1,14 @@
-// Interface to the worker: one run at a time, the latest request takes precedence, and a failed or hanging worker is
-// replaced.
+// Requests to the worker: runs of set-ups, and surfaces of gears.
 import program from "worker:worker.js";
 
 const PATIENCE = 1000; // ms for which an obsolete run may occupy the worker
+// geometry that determines the positions of gears
+const GEOMETRY = {
+  planetTeeth: "planet_teeth", sideTeeth: "side_teeth", planets: "planet_count", pressureAngle: "pressure_angle",
+};
 
+// Interface to the worker: one run at a time, the latest request takes precedence, and a failed or hanging worker is
+// replaced.
 export class Simulation {
   // `packed`: the packed library of the page. `on`: functions gears, started, points, over, refused and trap, each for
   // a message of the worker, and `anew`, called when a worker replaces another one.
@@ -35,8 +40,8 @@ export class Simulation {
       this.fall(message.text);
       return;
     }
-    const isOld = message.number !== undefined && message.number !== this.number;
-    if (isOld) return;
+    // answers to an old run are discarded
+    if (message.number !== undefined && message.number !== this.number) return;
     if (message.number === this.number) {
       clearTimeout(this.watch);
       this.isBusy = ["taken", "started", "points"].includes(message.kind);
@@ -72,5 +77,54 @@ export class Simulation {
 
   gears(settings) {
     this.worker.postMessage({ kind: "gears", settings });
+  }
+}
+
+// Gears of the picture: new surfaces after a change of geometry, or those of the start values if none can be built.
+export class Shapes {
+  // `ask(settings)` requests surfaces from the worker; `built(surfaces, geometry)` receives them with the geometry of
+  // their request.
+  constructor(table, ask, built) {
+    Object.assign(this, { table, ask, built, key: null, waiting: [] });
+  }
+
+  // Requests the gears of a set-up, unless they were requested last.
+  want(setup) {
+    const settings = setup.settings();
+    const isGeometry = ({ reference }) => this.table.variables[reference].name.startsWith("geometry.");
+    const key = JSON.stringify(settings.filter(isGeometry));
+    if (key === this.key) return;
+    this.key = key;
+    this.request(settings, (name) => setup.value(name));
+  }
+
+  // The worker answers in the order of the requests.
+  take({ surfaces }) {
+    const geometry = this.waiting.shift();
+    if (surfaces.includes(null)) {
+      this.standIn();
+      return;
+    }
+    this.shown = true;
+    this.built(surfaces, geometry);
+  }
+
+  // Requests gears of the start values once, if there are none yet.
+  standIn() {
+    if (this.shown || this.isStandIn) return;
+    this.isStandIn = true;
+    this.request([], (name) => this.table.find(name).start);
+  }
+
+  // After the loss of a worker, outstanding answers never come, so the next set-up requests the gears again.
+  forget() {
+    this.key = null;
+    this.waiting = [];
+  }
+
+  request(settings, value) {
+    // values at the time of the request: the set-up may change before the answer arrives
+    this.waiting.push(Object.fromEntries(Object.entries(GEOMETRY).map(([key, name]) => [key, value(`geometry.${name}`)])));
+    this.ask(settings);
   }
 }

@@ -1,19 +1,28 @@
-// Table of variables: names, units, ranges and start values come from the library's model description.
+// Table of variables, and their values as text. Names, units, ranges and start values come from the library's model
+// description.
 
 const NAMES = /[\w.[\]]+(?=:)/g;
+const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity, "-infinity": -Infinity };
+const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+const INTEGERS = [-(2 ** 31), 2 ** 31 - 1];
 
 // Units for displayed speeds, with their values for 1 rad/s.
 export const SPEEDS = { "deg/s": 180 / Math.PI, "rad/s": 1, rpm: 30 / Math.PI };
 
 export class Table {
-  constructor({ variables, scenes, prices, version }) {
-    Object.assign(this, { variables, scenes, version });
+  constructor({ variables, scenes, prices }) {
+    Object.assign(this, { variables, scenes });
     this.byName = new Map(variables.map((variable) => [variable.name, variable]));
     this.prices = new Map(prices.map(({ effect, factor }) => [effect, factor]));
   }
 
   find(name) {
     return this.byName.get(name);
+  }
+
+  // SI value as text with the displayed unit of a variable.
+  shown(name, value, digits) {
+    return shown(this.find(name), value, digits);
   }
 
   // Changes the displayed unit of speeds.
@@ -28,14 +37,7 @@ export class Table {
 
   // Variables that a reader may set, grouped by the part of the name before the dot.
   groups() {
-    const groups = new Map();
-    for (const variable of this.variables) {
-      if (variable.causality !== "parameter" && variable.causality !== "input") continue;
-      const group = variable.name.split(".")[0];
-      if (!groups.has(group)) groups.set(group, []);
-      groups.get(group).push(variable);
-    }
-    return groups;
+    return grouped(this.variables.filter(isSettable), ({ name }) => name.split(".")[0]);
   }
 
   // Outputs that can be drawn over time.
@@ -57,6 +59,18 @@ export class Table {
   }
 }
 
+// True for the variables that a reader may set.
+export const isSettable = ({ causality }) => ["parameter", "input"].includes(causality);
+
+// Map of lists of items by key.
+export function grouped(items, keyOf) {
+  const groups = new Map();
+  for (const item of items) groups.set(keyOf(item), [...(groups.get(keyOf(item)) ?? []), item]);
+  return groups;
+}
+
+export const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
+
 // Formats a number for readers: `digits` significant digits, a real minus sign, and an exponent only if necessary.
 export function readable(value, digits = 5) {
   if (!Number.isFinite(value)) return "–";
@@ -76,12 +90,10 @@ export function unitText(unit) {
   return read.replace(/([a-z)])2/g, "$1²");
 }
 
-// Conversion of an SI value to the variable's displayed unit, and back.
+// Conversion of an SI value to the variable's displayed unit.
 export const inUnit = ({ factor, offset }, value) => factor * value + offset;
-export const inSI = ({ factor, offset }, number) => (number - offset) / factor;
 
-// SI value as text with its displayed unit.
-export function shown(variable, value, digits = 5) {
+function shown(variable, value, digits = 5) {
   if (variable.kind === "Boolean") return value ? "on" : "off";
   if (variable.kind === "Enumeration") return variable.literals.find((literal) => literal.value === value)?.name ?? "?";
   const unit = unitText(variable.shown);
@@ -94,3 +106,32 @@ export function range(variable) {
   const end = (value) => readable(inUnit(variable, value), 4);
   return `${end(variable.min)} to ${shown({ ...variable, kind: "Real" }, variable.max, 4)}`;
 }
+
+// Parses a text in the variable's displayed unit, from a field or the address. Returns {value} in SI or {fault}. Numbers
+// of the right kind are left to the library, including NaN and values out of range, because its messages are better than
+// a second list of rules.
+export function readValue(variable, text) {
+  const { name, kind, literals, factor, offset } = variable;
+  const plain = text.trim().replace("−", "-").replace(",", ".");
+  if (kind === "Boolean") {
+    if (plain === "true" || plain === "false") return { value: plain === "true" };
+    return { fault: `${name}: “${text}” is neither true nor false` };
+  }
+  if (kind === "Enumeration") {
+    const literal = literals.find((each) => each.name === plain || String(each.value) === plain);
+    if (literal) return { value: literal.value };
+    return { fault: `${name}: “${text}” is not one of ${literals.map((each) => each.name).join(", ")}` };
+  }
+  const number = NUMBER.test(plain) ? Number(plain) : SPECIAL[plain.toLowerCase()];
+  const unit = unitText(variable.shown);
+  const sort = kind === "Integer" ? "a whole number" : `a number${unit && ` in ${unit}`}`;
+  const takes = `it takes ${sort}${range(variable) && `, ${range(variable)}`}`;
+  if (number === undefined) return { fault: `${name}: “${text}” is not a number; ${takes}` };
+  if (kind === "Integer" && !(Number.isInteger(number) && number >= INTEGERS[0] && number <= INTEGERS[1])) {
+    return { fault: `${name}: ${text} is not a whole number of 32 bits; ${takes}` };
+  }
+  return { value: (number - offset) / factor };
+}
+
+// Parses a text in SI, as in a link.
+export const readValueInSI = (variable, text) => readValue({ ...variable, shown: variable.unit ?? "1", factor: 1, offset: 0 }, text);

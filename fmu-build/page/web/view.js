@@ -2,7 +2,8 @@
 import { ACESFilmicToneMapping, DirectionalLight, HemisphereLight, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Differential } from "./differential.js";
-import { studio } from "./studio.js";
+import { studio } from "./steel.js";
+import { clamp } from "./table.js";
 
 const MARGIN = 44; // minimum distance of a label's middle from the window's edge in pixels
 const ANGLE = 26; // vertical angle of view in degrees
@@ -54,10 +55,11 @@ export class View {
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
   }
 
-  build(surfaces, assembly) {
+  // Replaces the gears, as `Differential.build` does.
+  build(surfaces, geometry) {
     const first = !this.differential.gears;
     const before = this.differential.reach;
-    this.differential.build(surfaces, assembly);
+    this.differential.build(surfaces, geometry);
     if (first || Math.abs(before / this.differential.reach - 1) > 0.05 || PRESETS[this.preset].at) this.look(this.preset);
     this.stale = true;
   }
@@ -151,7 +153,7 @@ export class View {
       const place = places[name]?.project(this.camera);
       element.hidden = !place || Math.abs(place.x) > 1.2 || Math.abs(place.y) > 0.95;
       if (!element.hidden) {
-        const beside = Math.min(Math.max((place.x + 1) / 2 * clientWidth, MARGIN), clientWidth - MARGIN);
+        const beside = clamp((place.x + 1) / 2 * clientWidth, MARGIN, clientWidth - MARGIN);
         const [x, y] = [beside, (1 - place.y) / 2 * clientHeight];
         element.style.transform = `translate(${x}px, ${y}px) translate(-50%, -50%)`;
       }

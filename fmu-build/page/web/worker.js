@@ -1,11 +1,9 @@
 // The worker: it owns the library, runs scenes and computes surfaces of gears. It answers every request with messages.
 import { XzReadableStream } from "xz-decompress";
-import { Library, Refused } from "./library.js";
-import { Run } from "./run.js";
+import { Library, Refused, Run } from "./library.js";
 
 const BATCH = 30; // ms of simulation between two messages
 const MOST = 500; // maximum number of points in a message
-
 const WARM = 700; // maximum warm-up before the first run in ms
 const FASTER = 6; // speed-up of a run by optimised compilation
 

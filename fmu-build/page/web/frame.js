@@ -1,6 +1,36 @@
-// Guided walk: five set-ups with explanations.
+// Frame around the picture: elements and colours of the document, messages, and the guided walk.
 
-export const STEPS = [
+const SHOWN = 6000; // ms for remarks
+
+export const $ = (id) => document.getElementById(id);
+
+// Creates an element of the document with properties and children.
+export function element(tag, properties = {}, ...children) {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+}
+
+// Colour of the present theme, from the style sheet.
+export const colour = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+
+// Line of text over the picture: problems until they are solved, other remarks for a few seconds.
+export class Notice {
+  constructor(host) {
+    this.host = host;
+  }
+
+  say(text, bad = false) {
+    this.host.textContent = text;
+    this.host.hidden = text === "";
+    this.host.classList.toggle("bad", bad);
+    clearTimeout(this.silence);
+    if (!bad) this.silence = setTimeout(() => { this.host.hidden = true; }, SHOWN);
+  }
+}
+
+// Guided walk: five set-ups with explanations.
+const STEPS = [
   {
     title: "Straight ahead",
     fragment: "scene=study_straight&show=carrier.speed+left.speed+left.normal_force+right.normal_force",

@@ -4,8 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { Setup } from "./setup.js";
-import { Table, inUnit } from "./table.js";
-import { readValue, readValueInSI } from "./value.js";
+import { inUnit, readValue, readValueInSI, Table } from "./table.js";
 
 const table = new Table(JSON.parse(readFileSync(process.env.DATA, "utf8")));
 const settable = table.variables.filter(({ causality }) => ["parameter", "input"].includes(causality));

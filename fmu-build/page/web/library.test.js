@@ -1,7 +1,7 @@
 // Runs execute their schedules, with a library that only records the calls: npm test.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Run } from "./run.js";
+import { Run } from "./library.js";
 
 const SCENE = {
   stop: 1, step: 0.5, set: [{ reference: 7, value: 3 }], changes: [[0, ["a"]], [0.2, ["b"]], [0.2, ["c"]]],
