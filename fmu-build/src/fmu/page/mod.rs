@@ -13,7 +13,7 @@ use clap::Args;
 
 use crate::fmu::toolchains::{self, Compiler, WASM_TARGET};
 use crate::fmu::wasm::{QUICK, WasmCrate};
-use crate::tools::files::{copy_folder, make_whole, write_whole};
+use crate::tools::files::{copy_folder, make_whole, remove_folder, write_whole};
 use crate::tools::lock::Lock;
 use crate::tools::paths;
 use crate::tools::progress::Progress;
@@ -76,10 +76,12 @@ fn library(tools: &Compiler, quick: bool) -> Result<PathBuf> {
     library.compiled(tools, "the library for browsers cannot be built")
 }
 
-/// Bundles the page with `library`. The sources are copied, so that nothing is written to their folder.
+/// Bundles the page with `library`. The sources are copied, so that nothing is written to their folder. An earlier copy is
+/// removed first, because its tests may need files that no longer exist.
 fn bundle(library: &Path) -> Result<PathBuf> {
     let folder = paths::page();
     let web = folder.join("web");
+    remove_folder(&web)?;
     copy_folder(&paths::workspace().join("fmu-build").join("page").join("web"), &web, "node_modules")?;
     let packed = packed(library, &folder)?;
     let data = folder.join("data.json");
