@@ -2,24 +2,22 @@
 
 import re
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .extras import matplotlib
 from .fmu import Fmu
-from .readable import time_scale
+from .panel import Mark, Panel, layered, picture, time_axis
+from .readable import wrapped
 from .values import DifferentialError, FileName
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-# (unit, kind): [(name, values in this unit)]
-Panels: TypeAlias = dict[tuple[str, str], list[tuple[str, np.ndarray]]]
 
 # heights of a panel and of everything else, inches
 PANEL, REST = 2.3, 1.2
+# letters of a line of a panel's label
+LETTERS = 20
 
 
 def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file: FileName | None = None) -> "Figure":
@@ -27,58 +25,36 @@ def plot(fmu: Fmu, record: np.ndarray, title: str = "", caption: str = "", file:
 
     Writes `file` (PNG, SVG or PDF) if it is given. Returns the matplotlib figure. It does not belong to pyplot, so it need not be
     closed."""
-    matplotlib("plot")
-    from . import style
-
-    names = tuple(name for name in getattr(record, "dtype", np.dtype(float)).names or () if name != "time")
+    names = [name for name in getattr(record, "dtype", np.dtype(float)).names or () if name != "time"]
     if not names or "time" not in record.dtype.names:
         raise DifferentialError("the record needs a structured array with the time and named outputs, such as `run` returns")
-    panels = by_unit(fmu, record, names)
-    with style.styled():
-        figure, axes = style.panels(len(panels), 1, PANEL * len(panels) + REST, sharex=True, squeeze=False)
-        axes = axes[:, 0]
-        times, label = shown_times(record["time"])
-        for panel, ((unit, kind), curves) in zip(axes, panels.items()):
-            draw_panel(panel, times, unit, kind, curves)
-        axes[-1].set_xlabel(label)
-        figure.align_ylabels(axes)
-        if title:
-            figure.suptitle(title, fontweight="bold")
-        figure.supxlabel(caption or _caption(record), fontsize=style.SMALL, color=style.TEXT)
-        if file is not None:
-            style.save(figure, file)
-    return figure
+    rows, time = over_time(fmu, record, names), record["time"]
+    caption = caption or f"{len(np.unique(time))} communication points from {time[0]:g} s to {time[-1]:g} s; one panel for each unit"
+    return picture(rows, caption, file, PANEL * len(rows) + REST, title=title)
 
 
-def by_unit(fmu: Fmu, record: np.ndarray, names: Iterable[str]) -> Panels:
-    """Outputs of a record as curves, grouped into panels with one unit and kind."""
-    panels: Panels = {}
+def over_time(fmu: Fmu, record: np.ndarray, names: Iterable[str], held: bool = False) -> list[list[Panel]]:
+    """Panels of outputs over time below each other, one for each unit and kind. Values that are `held` between communication points are
+    drawn as steps."""
+    time, groups = record["time"], {}
     for name in names:
         variable = fmu.variable(name)
         unit, values = variable.shown(record[name].astype(float))
-        panels.setdefault((unit, variable.kind), []).append((name, values))
-    return panels
+        groups.setdefault((unit, variable.kind), {})[name] = time, values
+    axis = time_axis(float(time[-1] - time[0]))
+    return [[Panel(axis, _quantity(curves, unit), [*layered(curves, "held" if held else kind, 1.2), *_whole_ticks(kind)], legend="right",
+                   xmargin=0.0, ylim=_range(np.concatenate([values for _, values in curves.values()])))]
+            for (unit, kind), curves in groups.items()]
 
 
-def draw_panel(panel: "Axes", times: np.ndarray, unit: str, kind: str, curves: list[tuple[str, np.ndarray]]) -> None:
-    """Draws the curves of a panel, with a legend next to it."""
-    for index, (name, values) in enumerate(curves):
-        # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
-        panel.plot(times, values, label=name, linewidth=1.2 + 1.6 * (len(curves) - 1 - index) / len(curves),
-                   drawstyle="default" if kind == "Real" else "steps-post")
-    panel.set_ylabel(_quantity([name for name, _ in curves], unit))
-    if times[-1] > times[0]:
-        panel.set_xlim(times[0], times[-1])
-    panel.ticklabel_format(axis="y", useOffset=False)
-    if kind != "Real":
-        panel.locator_params(axis="y", integer=True)
-    panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, fontsize=9)
+def _whole_ticks(kind):
+    return [] if kind == "Real" else [Mark("locator_params", axis="y", integer=True)]
 
 
-def shown_times(times: np.ndarray) -> tuple[np.ndarray, str]:
-    """Times [s] in the unit that suits their span, and the label of their axis."""
-    factor, unit = time_scale(float(times[-1] - times[0]))
-    return factor * times, f"time, {unit}"
+def _range(values):
+    """Limits of a constant curve, which is drawn in a wide range, so that its rounding errors do not look like noise."""
+    size = np.max(np.abs(values), initial=0.0)
+    return values.mean() + size * np.array([-0.05, 0.05]) if size > 0.0 and np.ptp(values) <= 1e-7 * size else (None, None)
 
 
 def _quantity(names, unit):
@@ -88,8 +64,4 @@ def _quantity(names, unit):
         if len(set(words)) > 1 or words[0] in ("left", "right"):
             break
         shared.insert(0, words[0])
-    return ", ".join(filter(None, [" ".join(shared), unit.replace(".", "·")])) or "values without unit"
-
-
-def _caption(record):
-    return f"{len(np.unique(record['time']))} communication points from {record['time'][0]:g} s to {record['time'][-1]:g} s; one panel for each unit"
+    return wrapped(", ".join(filter(None, [" ".join(shared), unit.replace(".", "·")])) or "values without unit", LETTERS)

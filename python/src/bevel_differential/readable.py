@@ -5,7 +5,14 @@ import textwrap
 import numpy as np
 
 # printed forms of units of the interface
-UNITS = {"N.m": "N·m", "m/s2": "m/s²"}
+UNITS = {"N.m.s": "N·m·s", "N.m": "N·m", "kg.m2": "kg·m²", "m/s2": "m/s²"}
+
+
+def printed(text):
+    """Text with printed forms of units."""
+    for unit, form in UNITS.items():
+        text = text.replace(unit, form)
+    return text
 
 
 def spaced(value):

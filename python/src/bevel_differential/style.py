@@ -11,7 +11,8 @@ from pathlib import Path
 
 from . import extras
 from .output_file import checked
-from .readable import plain
+from .panel import BLUE, BROWN, CYCLE, FAINT, GREEN, GREY, INK, OCHRE, PALE_BLUE, PALE_GREY, RED, SMALL, TEXT, VIOLET  # noqa: F401
+from .readable import plain, printed
 from .values import DifferentialError
 from .writing import write_whole
 
@@ -23,26 +24,22 @@ from matplotlib.figure import Figure  # noqa: E402
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter  # noqa: E402
 from PIL import Image  # noqa: E402
 
-BLUE, RED, GREEN, OCHRE, VIOLET, BROWN = "#1f6fb4", "#d1495b", "#4f8a5b", "#b7791f", "#7b5ea7", "#8a5a44"
-PALE_BLUE, GREY, PALE_GREY = "#9bbfe0", "#6b7280", "#dddddd"
-# black for theory, text, and secondary text
-INK, TEXT, FAINT = "#111111", "#333333", "#666666"
-# colours of successive curves
-CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d98cb3"]
 MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
 # width of a picture, inches: one width for all, so that letters have one size on a page
 WIDTH = 13.0
 DPI = 130
+# ratio of the ends of a short logarithmic axis
+SHORT = 30.0
 COLOURS = 256
 # caption: characters per inch of width, height of a line in inches, font size
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
-SMALL = 10
 
 STYLE = {
-    "font.size": 11.5, "axes.titlesize": 12.5, "axes.titleweight": "bold", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
+    "font.size": 11.5, "axes.titlesize": 12.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
     "axes.prop_cycle": cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
-    "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False, "lines.linewidth": 1.7,
-    "figure.facecolor": "white", "savefig.dpi": DPI,
+    "axes.spines.top": False, "axes.spines.right": False, "legend.framealpha": 0.8, "legend.edgecolor": "white", "lines.linewidth": 1.7,
+    "figure.facecolor": "white", "savefig.dpi": DPI, "figure.titlesize": 12.5, "figure.titleweight": "bold",
+    "axes.formatter.useoffset": False,
 }
 
 
@@ -70,7 +67,7 @@ def panels(rows, columns, height, **options):
 def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
     """Adds a caption in lines below the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
     # a number and its unit stay on one line
-    text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", text)
+    text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", printed(text))
     lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
     share = 0.99 - height - above / picture.get_figheight()
@@ -80,8 +77,9 @@ def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
 
 
 def plain_decades(axis):
-    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000."""
-    axis.set_major_locator(LogLocator(numticks=12))
+    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000. A short axis has 2 and 5 between them."""
+    low, high = axis.get_view_interval()
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < SHORT * low else (1.0,), numticks=12))
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
     axis.set_minor_formatter(NullFormatter())
 

@@ -14,6 +14,7 @@ import numpy as np
 from ..losses import inputs
 from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
+from ..panel import CYCLE, GREY, INK, PALE_BLUE, RED, Axis, Mark, Panel, curve, picture, sentence
 from ..records import write
 from ..report import words
 from ..scene import Scene
@@ -147,49 +148,29 @@ def _conclusion(rows, given, of_torque, of_slip):
 
 
 def _draw_ramps(scene, out, rows, of_torque, conclusion):
-    from .. import style
+    looks = ((PALE_BLUE, 7.0, "-"), (RED, 2.8, "-"), (INK, 1.4, "--"))
 
-    with style.styled():
-        figure, (differences, ratios) = style.panels(1, 2, 5.4)
-        lines = ((style.PALE_BLUE, 7.0, "-"), (style.RED, 2.8, "-"), (style.INK, 1.4, "--"))
-        for (ratio, own), (colour, width, dashes) in zip(_by_ratio(rows), lines):
-            torques, label = [of_torque.values(row[1]) for row in own], f"{ramp(ratio)}: coast ratio {ratio:g}"
-            look = {"label": label, "color": colour, "linewidth": width, "linestyle": dashes}
-            differences.plot(torques, [of_torque.values(row[4]) for row in own], **look)
-            ratios.plot(torques, [np.nan if row[5] is None else row[5] for row in own], **look)
-        for panel, label in ((differences, f"torque of slower wheel − faster wheel, {of_torque.unit}"),
-                             (ratios, "torque bias ratio T_high/T_low")):
-            panel.set(xlabel=f"{of_torque.label} (coast < 0 < drive)", ylabel=label)
-            panel.axvline(0.0, color=style.GREY, linewidth=0.8)
-        differences.set_ylim(bottom=0.0)
-        ratios.set_ylim(bottom=1.0)
-        differences.legend(loc="upper center", frameon=True, framealpha=1.0, edgecolor="white")
-        figure.suptitle(f"{scene.name}, differentiating", fontweight="bold", fontsize=12.5)
-        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
-        style.save(figure, out.with_suffix(".png"))
+    def panel(label, column, **look):
+        curves = [curve(*zip(*((row[1], row[column]) for row in own)), f"{ramp(ratio)}: coast ratio {ratio:g}", colour, form, linewidth=width)
+                  for (ratio, own), (colour, width, form) in zip(_by_ratio(rows), looks)]
+        return Panel(Axis(f"{of_torque.label} (coast < 0 < drive)", of_torque.values), label,
+                     [*curves, Mark("axvline", 0.0, color=GREY, linewidth=0.8)], **look)
+
+    picture([[panel(of_torque.named("torque of slower wheel − faster wheel"), 4, legend="upper center", ylim=(0.0, None)),
+              panel("torque bias ratio T_high/T_low", 5, legend="", ylim=(1.0, None))]],
+            sentence(conclusion), out.with_suffix(".png"), 5.4, title=f"{scene.name}, differentiating")
 
 
 def _draw_curves(scene, out, rows, given, of_torque, of_slip, conclusion):
-    from .. import style
-
-    with style.styled():
-        figure, panel = style.panels(1, 1, 5.6)
-        for curve, colour in zip(given, style.CYCLE):
-            own = [(slip, torque) for name, slip, torque in rows if name == curve.name]
-            # the last curve covers the one before in parts
-            panel.plot([of_slip.values(slip) for slip, _ in own], [of_torque.values(torque) for _, torque in own], color=colour,
-                       linewidth=1.7 if curve.holds else 3.5, label=curve.name)
-        points = sorted({point for curve in given for point in curve.points})
-        if points:
-            panel.plot([of_slip.values(slip) for slip, _ in points], [of_torque.values(torque) for _, torque in points], "o",
-                       color=style.INK, fillstyle="none", markersize=9, linestyle="none", label="given points", clip_on=False)
-        panel.set(xlabel=f"slip relative to the carrier, {of_slip.unit}", ylabel=f"torque of a clutch pack, {of_torque.unit}",
-                  title=f"{scene.name}, differentiating")
-        panel.set_xlim(left=0.0)
-        panel.set_ylim(bottom=0.0)
-        panel.legend()
-        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
-        style.save(figure, out.with_suffix(".png"))
+    # the last curve covers the one before in parts
+    marks = [curve(*zip(*(row[1:] for row in rows if row[0] == each.name)), each.name, colour, linewidth=1.7 if each.holds else 3.5)
+             for each, colour in zip(given, CYCLE)]
+    points = {point for each in given for point in each.points}
+    if points:
+        marks.append(curve(*zip(*points), "given points", INK, "o", fillstyle="none", markersize=9, clip_on=False))
+    panel = Panel(of_slip.named("slip relative to the carrier"), of_torque.named("torque of a clutch pack"), marks, xlim=(0.0, None),
+                  ylim=(0.0, None))
+    picture([[panel]], sentence(conclusion), out.with_suffix(".png"), 5.6, title=f"{scene.name}, differentiating")
 
 
 def _by_ratio(rows):

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
+from ..panel import Axis, Panel, curve, picture, sentence
 from ..scene import Scene
 
 # friction that rises with speed, as with a fresh oil that has a friction modifier
@@ -35,9 +36,8 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
             f"{last}a slip of {slips.text(slip, 3)} between the wheels; friction that rises keeps it below "
             f"{slips.text(swings[1][count:].max(), 2)} after the start")
     _written(scene, falling, out, conclusion, [
-        (f"side gear − wheel, {slips.unit}", {"falling friction": (time, slips.values(falling["left.speed"] - left)),
-                                              "rising friction": (time, slips.values(rising["left.speed"] - left))}),
-        (f"difference of wheels, {slips.unit}", {"run-up": (time, slips.values(left - right))})])
+        (slips.named("side gear − wheel"), {"falling friction": falling["left.speed"] - left, "rising friction": rising["left.speed"] - left}),
+        (slips.named("difference of wheels"), {"run-up": left - right})])
     return conclusion
 
 
@@ -51,8 +51,8 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     first, last = (float(np.interp(at, time, effect)) for at in (HAIRPIN, time[-1] - LAP + HAIRPIN))
     conclusion = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
             f"up to {warmth.text(record['temperature.clutch'].max(), 3)}: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
-    _written(scene, record, out, conclusion, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("clutch", "oil", "case"))),
-                                ("locking effect, %", {"LE": (time, effect)})])
+    _written(scene, record, out, conclusion, [(warmth.named("temperature"), _temperatures(record, "clutch", "oil", "case")),
+                                               (Axis("locking effect, %"), {"LE": effect})])
     return conclusion
 
 
@@ -64,8 +64,8 @@ def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     conclusion = (f"the loss is {loss[0]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
             f"{half:.0f} s, in which the oil warms up from {warmth.text(record['temperature.oil'][0], 3)} to "
             f"{warmth.text(float(np.interp(half, time, record['temperature.oil'])), 3)}")
-    _written(scene, record, out, conclusion, [(f"temperature, {warmth.unit}", _temperatures(warmth, record, ("oil", "gears", "case"))),
-                                ("power loss, W", {"loss": (time, loss)})])
+    _written(scene, record, out, conclusion, [(warmth.named("temperature"), _temperatures(record, "oil", "gears", "case")),
+                                               (Axis("power loss, W"), {"loss": loss})])
     return conclusion
 
 
@@ -73,24 +73,13 @@ def _ratio(effect):
     return (100.0 + effect) / (100.0 - effect)
 
 
-def _temperatures(warmth, record, nodes):
-    return {node: (record["time"], warmth.values(record[f"temperature.{node}"])) for node in nodes}
+def _temperatures(record, *nodes):
+    return {node: record[f"temperature.{node}"] for node in nodes}
 
 
-def _written(scene: Scene, record: np.ndarray, out: Path, conclusion: str,
-             panels: Sequence[tuple[str, Mapping[str, tuple[np.ndarray, np.ndarray]]]]) -> None:
-    from .. import style
-
+def _written(scene: Scene, record: np.ndarray, out: Path, conclusion: str, panels: Sequence[tuple[Axis, Mapping[str, np.ndarray]]]) -> None:
     scene.to_csv(record, out.with_suffix(".csv"))
-    with style.styled():
-        figure, axes = style.panels(len(panels), 1, 6.4, sharex=True)
-        for panel, (label, curves) in zip(axes, panels):
-            for name, (time, values) in curves.items():
-                panel.plot(time, values, label=name, linewidth=1.2)
-            panel.set_ylabel(label)
-            panel.margins(x=0.0)
-            panel.legend()
-        axes[0].set_title(scene.name)
-        axes[-1].set_xlabel("time, s")
-        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
-        style.save(figure, out.with_suffix(".png"))
+    time = Axis("time, s")
+    rows = [[Panel(time, axis, [curve(record["time"], values, name, linewidth=1.2) for name, values in curves.items()], xmargin=0.0)]
+            for axis, curves in panels]
+    picture(rows, sentence(conclusion), out.with_suffix(".png"), 6.4, title=scene.name)

@@ -12,6 +12,7 @@ from ..losses import inputs
 from ..losses.axes import axes
 from ..losses.point import FIGURES, PointTask, benched
 from ..losses.tables import bias as ratio_of
+from ..panel import CYCLE, Panel, curve, picture, sentence
 from ..records import write
 from ..scene import Scene
 from ..values import DifferentialError, Number
@@ -89,21 +90,13 @@ def _range(rows, torque):
 
 
 def _written(scene, out, rows, conclusion, doing, column):
-    from .. import style
-
     of_torque, _, _, warmth = axes(scene)
     write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
-    with style.styled():
-        figure, panel = style.panels(1, 1, 5.6)
-        for temperature, colour in zip(TEMPERATURES, style.CYCLE):
-            for sign, dashes in ((1.0, "-"), (-1.0, "--")):
-                curve = [row for row in rows if row[2] == temperature and row[1] * sign > 0.0]
-                panel.plot([of_torque.values(row[0]) for row in curve],
-                           [np.nan if row[column] is None else row[column] for row in curve], dashes, marker="o", color=colour,
-                           label=f"{warmth.text(temperature)}, {'left' if sign > 0.0 else 'right'} wheel faster")
-        panel.set(xlabel=of_torque.label, ylabel=("torque bias ratio T_high/T_low", "locking effect, %")[column - 5],
-                 title=f"{scene.name}, {doing}")
-        panel.legend()
-        style.caption(figure, f"{conclusion[0].upper()}{conclusion[1:]}.")
-        style.save(figure, out.with_suffix(".png"))
+    curves = []
+    for temperature, colour in zip(TEMPERATURES, CYCLE):
+        for sign, side, form in ((1.0, "left", "o-"), (-1.0, "right", "o--")):
+            torques, values = zip(*((row[0], row[column]) for row in rows if row[2] == temperature and row[1] * sign > 0.0))
+            curves.append(curve(torques, values, f"{warmth.text(temperature)}, {side} wheel faster", colour, form))
+    panel = Panel(of_torque, ("torque bias ratio T_high/T_low", "locking effect, %")[column - 5], curves)
+    picture([[panel]], sentence(conclusion), out.with_suffix(".png"), 5.6, title=f"{scene.name}, {doing}")
     return conclusion

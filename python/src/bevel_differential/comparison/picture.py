@@ -4,9 +4,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from .. import style
+from ..panel import Panel, layered, picture, time_axis
 from ..points import at_times
-from ..readable import time_scale
 from ..report import words
 from ..values import FileName
 
@@ -19,8 +18,6 @@ if TYPE_CHECKING:
 PANEL, REST = 2.2, 1.5
 # more panels than this are drawn in two columns
 ONE_COLUMN = 4
-# characters of the caption per inch: names are wider than words
-DENSITY = 11.0
 DASHES = ("-", "--", "-.", ":")
 # differences below this fraction of an output's size are invisible
 UNSEEN = 1e-3
@@ -30,40 +27,19 @@ NAMED = 3
 
 def draw(found: "Comparison", file: FileName | None) -> "Figure":
     """Draws the comparison, and writes `file` if it is given."""
-    outputs = found.outputs
-    columns = 1 if len(outputs) <= ONE_COLUMN else 2
-    rows = -(-len(outputs) // columns)
-    with style.styled():
-        figure, axes = style.panels(rows, columns, PANEL * rows + REST, sharex=True, squeeze=False)
-        panels, (factor, unit) = axes.ravel(), time_scale(found.end)
-        for panel, output in zip(panels, outputs):
-            _draw(panel, found, output, factor)
-        # unused panels at the end
-        for panel in panels[len(outputs):]:
-            panel.remove()
-        for index in range(max(0, len(outputs) - columns), len(outputs)):
-            panels[index].tick_params(labelbottom=True)
-            if index >= columns * (rows - 1):
-                panels[index].set_xlabel(f"time, {unit}")
-        figure.align_ylabels(panels[:len(outputs)])
-        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside upper center", ncols=len(found.names))
-        style.caption(figure, _caption(found), density=DENSITY)
-        if file is not None:
-            style.save(figure, file)
-    return figure
+    columns = 1 if len(found.outputs) <= ONE_COLUMN else 2
+    time = time_axis(found.end)
+    panels = [_panel(found, output, time) for output in found.outputs]
+    # unused panels at the end
+    panels += [None] * (-len(panels) % columns)
+    rows = [panels[index:index + columns] for index in range(0, len(panels), columns)]
+    return picture(rows, _caption(found), file, PANEL * len(rows) + REST, legend="upper center")
 
 
-def _draw(panel, found, output, factor):
+def _panel(found, output, time):
     unit, curves = found.shown(output)
-    kind = found.fmu.variable(output).kind
-    for index, (name, values) in enumerate(curves.items()):
-        # the first curve is the widest, so that it remains visible below equal curves; integers keep their value until the next one
-        panel.plot(factor * found.records[name]["time"], values, DASHES[index % len(DASHES)], label=name,
-                   linewidth=1.3 + 2.0 * (len(curves) - 1 - index) / len(curves), drawstyle="default" if kind == "Real" else "steps-post")
-    panel.set_title(output, loc="left", fontsize=style.SMALL)
-    panel.set_ylabel(words.unit_text(unit))
-    panel.ticklabel_format(axis="y", useOffset=False)
-    panel.margins(x=0.0)
+    curves = {name: (found.records[name]["time"], values) for name, values in curves.items()}
+    return Panel(time, words.unit_text(unit), layered(curves, found.fmu.variable(output).kind, 1.3, DASHES), output, legend="", xmargin=0.0)
 
 
 def _caption(found):

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..extras import matplotlib
 from ..fmu import Fmu
+from ..panel import BLUE, GREY, RED, Axis, Mark, Panel, curve, picture
 from ..readable import in_words, wrapped
 from ..values import DifferentialError, FileName
 from ..want import Want
@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
 # maximum number of columns and rows of the matrix, and of panels of the front
 MOST_COLUMNS, MOST_ROWS, MOST_FRONTS = 6, 6, 3
-# height of a row of the matrix, of the front and of the legend, inches
-ROW, FRONT, LEGEND = 1.9, 3.6, 0.35
+# height of a row of the matrix, and of the front, inches
+ROW, FRONT = 1.9, 3.6
 # letters of a line of a label of the matrix and of the front
 NARROW, WIDE = 22, 44
 
@@ -27,34 +27,20 @@ NARROW, WIDE = 22, 44
 def draw(result: SweepResult, fmu: Fmu, file: FileName, objectives: Sequence["Objective"] = ()) -> Path:
     """Draws all designs that ran into `file`; returns its path. The front needs two or more `objectives`, which are quantities of the
     sweep."""
-    matplotlib("plot")
-    from .. import style
-
     designs = _Designs(result, fmu)
     across, up = list(result.metadata["vary"])[:MOST_COLUMNS], list(result.metadata["figures"])[:MOST_ROWS]
     # of one objective, the front would be a single design
-    best = front(designs.costs(objectives)) if len(objectives) > 1 else np.zeros(len(designs.feasible), bool)
-    heights = [ROW * len(up), FRONT][:1 + (len(objectives) > 1)]
-    with style.styled():
-        figure = style.figure(sum(heights) + 1.6)
-        grid = figure.add_gridspec(len(heights), 1, height_ratios=heights)
-        panels = grid[0].subgridspec(len(up), len(across)).subplots(squeeze=False, sharex="col", sharey="row")
-        for row, y in zip(panels, up):
-            for panel, x in zip(row, across):
-                designs.scatter(panel, x, y, best, style)
-            row[0].set_ylabel(designs.label(y, NARROW))
-        for panel, x in zip(panels[-1], across):
-            panel.set_xlabel(designs.label(x, NARROW))
-        if len(objectives) > 1:
-            first, *others = objectives
-            fronts = grid[1].subgridspec(1, min(len(others), MOST_FRONTS)).subplots(squeeze=False)[0]
-            for index, (panel, other) in enumerate(zip(fronts, others)):
-                designs.scatter(panel, str(first.want), str(other.want), best, style)
-                panel.set(xlabel=_aim(designs, first), ylabel=_aim(designs, other), title="" if index else "Pareto front")
-        handles, labels = panels[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.0))
-        style.caption(figure, _caption(designs, across, up, objectives, best), LEGEND)
-        style.save(figure, file)
+    has_front = len(objectives) > 1
+    best = front(designs.costs(objectives)) if has_front else np.zeros(len(designs.feasible), bool)
+    columns, rows = ([Axis(designs.label(name, NARROW)) for name in names] for names in (across, up))
+    blocks = [[[Panel(of_x, of_y, designs.marks(x, y, best), legend="") for x, of_x in zip(across, columns)]
+               for y, of_y in zip(up, rows)]]
+    if has_front:
+        first, *others = objectives
+        blocks.append([[Panel(_aim(designs, first), _aim(designs, other), designs.marks(str(first.want), str(other.want), best),
+                              "" if index else "Pareto front", legend="") for index, other in enumerate(others[:MOST_FRONTS])]])
+    heights = [ROW * len(up), FRONT][:len(blocks)]
+    picture(blocks, _caption(designs, across, up, objectives, best), file, sum(heights) + 1.6, legend="upper center", height_ratios=heights)
     return Path(file)
 
 
@@ -91,31 +77,27 @@ class _Designs:
     def label(self, name, width):
         """Name of a column in words, with its unit."""
         unit = self.quantities[name].shown(0.0)[0] if self.quantities[name].kind == "Real" else ""
-        return wrapped(f"{in_words(name)}{f', {unit}' if unit else ''}".replace("N.m", "N·m"), width)
+        return wrapped(f"{in_words(name)}{f', {unit}' if unit else ''}", width)
 
-    def scatter(self, panel, x, y, best, style):
-        """Draws each design as a mark: those that miss conditions below the others, those of the front on top."""
-        at = [self._values(panel, name, axis) for name, axis in ((x, "x"), (y, "y"))]
-        kinds = [(~self.feasible, "misses conditions", {"marker": "x", "color": style.GREY, "ms": 4.0}),
-                 (self.feasible & ~best, "meets all conditions" if self.result.metadata["conditions"] else "design",
-                  {"marker": "o", "color": style.BLUE, "ms": 3.5}),
-                 (best, "on the Pareto front", {"marker": "o", "color": style.RED, "ms": 5.5})]
-        for chosen, label, look in kinds:
-            if chosen.any():
-                panel.plot(*(values[chosen] for values in at), linestyle="", label=label, **look)
-        panel.margins(0.08)
+    def marks(self, x, y, best):
+        """Marks of all designs: those that miss conditions below the others, those of the front on top."""
+        (across, x_ticks), (up, y_ticks) = self._values(x, "x"), self._values(y, "y")
+        kinds = [(~self.feasible, "misses conditions", GREY, "x", 4.0),
+                 (self.feasible & ~best, "meets all conditions" if self.result.metadata["conditions"] else "design", BLUE, "o", 3.5),
+                 (best, "on the Pareto front", RED, "o", 5.5)]
+        return [*(curve(across[chosen], up[chosen], label, colour, form, ms=size) for chosen, label, colour, form, size in kinds if chosen.any()),
+                *x_ticks, *y_ticks, Mark("margins", 0.08)]
 
-    def _values(self, panel, name, axis):
-        """Values of a column as numbers; choices are numbered, and their names are ticks."""
+    def _values(self, name, axis):
+        """Values of a column as numbers, and ticks with the names of choices, which are numbered."""
         quantity, values = self.quantities[name], self.columns[name]
         if quantity.kind == "Real":
-            return quantity.shown(np.array([np.nan if value is None else value for value in values], float))[1]
+            return quantity.shown(np.array(values, float))[1], []
         written = [quantity.written(value) if quantity.literals else str(value) for value in values]
         if quantity.kind == "Integer" and not quantity.literals:
-            return np.array(values, float)
-        names = list(dict.fromkeys(sorted(written)))
-        getattr(panel, f"set_{axis}ticks")(range(len(names)), names)
-        return np.array([names.index(each) for each in written], float)
+            return np.array(values, float), []
+        names = sorted(set(written))
+        return np.array([names.index(each) for each in written], float), [Mark(f"set_{axis}ticks", range(len(names)), names)]
 
 
 def _aim(designs, objective):

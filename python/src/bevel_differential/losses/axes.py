@@ -5,6 +5,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..fmu import Fmu
+from ..panel import Axis as PanelAxis
 from ..report import words
 from ..scene import Scene
 from . import VARIABLES
@@ -28,6 +29,10 @@ class Axis:
         unit, _ = self._variable.in_files(0.0, self._preferred)
         self.unit = words.unit_text(unit).replace("degC", "°C")
         self.label = f"{NAMES[axis]}, {self.unit}"
+
+    def named(self, name: str) -> PanelAxis:
+        """Axis of another quantity in the same unit."""
+        return PanelAxis(f"{name}, {self.unit}", self.values)
 
     def values(self, values: _Values) -> _Values:
         """SI `values`, converted to the unit of the axis."""

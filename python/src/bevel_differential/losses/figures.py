@@ -4,8 +4,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..report import svg_style, words
+from ..panel import Axis, Mark, Panel, curve, scaled_axis, shades
+from ..report import words
 from ..report.blocks import Picture
+from ..report.svg_style import BLUE, CYCLE, GREY, RED, TEXT_COLOUR, picture
 from . import MeasuredMap
 from .axes import SLIP_AXIS, SPEED_AXIS, TEMPERATURE_AXIS, TORQUE_AXIS, axes as axes_of
 from .cuts import POINTS, along, some
@@ -53,6 +55,11 @@ def temperatures(result: MeasuredMap) -> np.ndarray:
     return np.zeros(1, int) if alike(result) else some(result.lines[TEMPERATURE_AXIS], TEMPERATURES)
 
 
+def _looks(result):
+    """Displayed temperatures: their positions, colours and texts."""
+    return [(warmth, colour, label(result, warmth)) for warmth, colour in zip(temperatures(result), CYCLE)]
+
+
 def loss_map(result: MeasuredMap) -> Picture | None:
     """Loss over torque and speed at each temperature; None if torque or speed has a single value."""
     if min(len(result.lines[TORQUE_AXIS]), len(result.lines[SPEED_AXIS])) < 2:
@@ -63,11 +70,12 @@ def loss_map(result: MeasuredMap) -> Picture | None:
             "Without a difference nothing is lost: the scene has no drag.")
     most = [f"{words.quantity(float(loss.max()), 'W')} at {label(result, index)}"
             for index, loss in zip(temperatures(result), sheets[0][1])]
-    return Picture("loss_map", _loss_map(result, sheets),
+    _, speed, *_ = axes_of(result.scene)
+    return picture("loss_map", [_loss_panels(result, speed, *sheet) for sheet in sheets],
                    "Power loss over carrier torque and speed, a panel for each oil temperature, with lines "
                    f"of equal loss. {'Upper row: at' if len(sheets) > 1 else 'At'} a difference of {top}; at most "
                    f"{words.listed(most)}. {rest} Where lines are level, the loss does not depend on the speed; "
-                   "where they are upright, not on the torque.")
+                   "where they are upright, not on the torque.", 3.1 * len(sheets) + 0.4)
 
 
 def _sheets(result) -> Iterator[tuple[str, list[np.ndarray]]]:
@@ -88,30 +96,22 @@ def _grid(result):
     return (np.linspace(result.lines[axis][0], result.lines[axis][-1], POINTS) for axis in (TORQUE_AXIS, SPEED_AXIS))
 
 
-@svg_style.drawn("loss_map")
-def _loss_map(picture, result, sheets):
-    from matplotlib.colors import LinearSegmentedColormap, to_rgba
+def _loss_panels(result, of_speed, title, losses):
+    of_torque = axes_of(result.scene)[TORQUE_AXIS]
+    torque, speed = (axis.values(grid) for axis, grid in zip((of_torque, of_speed), _grid(result)))
+    up, power = Axis(f"{title}\n{of_torque.label}"), scaled_axis("power loss", "W", losses)
+    losses = [power.values(loss.T) for loss in losses]
+    low, top = float(np.min(losses)), float(np.max(losses))
+    for loss, (warmth, *_, text) in zip(losses, _looks(result)):
+        yield Panel(of_speed, up, [
+            Mark("imshow", loss, extent=(speed[0], speed[-1], torque[0], torque[-1]), origin="lower", aspect="auto", interpolation="bilinear",
+                 cmap=shades((RED, 0.03), (RED, 0.75)), vmin=low, vmax=top, bar={"label": power.label} if warmth == temperatures(result)[-1] else None),
+            Mark(_contours, speed, torque, loss, _round_levels(low, top))], text, grid="")
 
-    colours = LinearSegmentedColormap.from_list("loss", [to_rgba(svg_style.RED, 0.03), to_rgba(svg_style.RED, 0.75)])
-    picture.set_figheight(3.1 * len(sheets) + 0.4)
-    of_torque, of_speed, *_ = axes_of(result.scene)
-    shown, torque, speed = temperatures(result), *(axis.values(grid) for axis, grid in zip((of_torque, of_speed), _grid(result)))
-    rows = picture.subplots(len(sheets), len(shown), sharex=True, sharey=True, squeeze=False)
-    for row, (title, losses) in zip(rows, sheets):
-        factor, kilo = svg_style.unit_prefix(losses)
-        low, top = (float(end(losses)) / factor for end in (np.min, np.max))
-        for panel, index, loss in zip(row, shown, losses):
-            drawn = panel.imshow(loss.T / factor, extent=(speed[0], speed[-1], torque[0], torque[-1]), origin="lower", aspect="auto",
-                                 interpolation="bilinear", cmap=colours, vmin=low, vmax=top)
-            curves = panel.contour(speed, torque, loss.T / factor, levels=_round_levels(low, top), colors=svg_style.TEXT_COLOUR,
-                                   linewidths=0.8)
-            panel.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_positions(curves, speed, torque))
-            panel.set_title(label(result, index))
-            panel.grid(False)
-        row[0].set_ylabel(f"{title}\n{of_torque.label}")
-        picture.colorbar(drawn, ax=row, pad=0.01, aspect=25).set_label(f"power loss, {kilo}W")
-    for panel in rows[-1]:
-        panel.set_xlabel(of_speed.label)
+
+def _contours(axes, speed, torque, loss, levels):
+    curves = axes.contour(speed, torque, loss, levels=levels, colors=TEXT_COLOUR, linewidths=0.8)
+    axes.clabel(curves, fontsize=8.0, fmt=words.number, manual=_label_positions(curves, speed, torque))
 
 
 def _round_levels(low, top):
@@ -140,12 +140,17 @@ def over_difference(result: MeasuredMap) -> Picture:
     first, last = (result.slipping[0][at[0], at[1], index, -1, :2] for index in (0, -1))
     of_torque, _, of_slip, _ = axes_of(result.scene)
     falls = [abs(float(left - right)) for left, right in (first, last)]
-    return Picture("over_difference", _over_difference(result),
+    varied = SPEED_AXIS if len(result.lines[TORQUE_AXIS]) == 1 else TORQUE_AXIS
+    shown = some(result.lines[varied], PANELS)
+    across = Axis(of_slip.label.replace(" (", "\n("), of_slip.values)
+    columns = [_over_difference(result, [index if axis == varied else k for axis, k in enumerate(at)], across, index == shown[0], index == shown[-1])
+               for index in shown]
+    return picture("over_difference", zip(*columns),
                    "Above: power loss; circles are the loss without a difference. Below: T_left − T_right, which locks the wheels; the "
                    "bar at 0 is the interval in which the differential stays stuck. A torque that falls with the difference may judder: "
                    f"with the left wheel faster it is {of_torque.text(falls[0])} at {of_slip.text(slip[0])} and "
                    f"{of_torque.text(falls[1])} at {of_slip.text(slip[-1])} ({_point(result)}, "
-                   f"{warmth_text(result, result.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.")
+                   f"{warmth_text(result, result.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.", 5.4)
 
 
 def _level(result, axis):
@@ -160,35 +165,26 @@ def _point(result):
     return f"{of_torque.text(torque)} and {of_speed.text(speed)}"
 
 
-@svg_style.drawn("over_difference", 5.4)
-def _over_difference(picture, result):
-    varied = SPEED_AXIS if len(result.lines[TORQUE_AXIS]) == 1 else TORQUE_AXIS
-    shown = some(result.lines[varied], PANELS)
-    rows = picture.subplots(2, len(shown), sharex=True, squeeze=False)
-    of_torque, of_speed, of_slip, _ = axes_of(result.scene)
-    for index, (loss, locking) in zip(shown, rows.T):
-        at = [_level(result, axis) for axis in range(4)]
-        at[varied] = index
-        for number, warmth in enumerate(temperatures(result)):
-            at[TEMPERATURE_AXIS], colour = warmth, svg_style.CYCLE[number]
-            name = label(result, warmth)
-            for sign, values in zip(SIGNS, result.slipping):
-                slip, figures = along(result, SLIP_AXIS, [line[k] for line, k in zip(result.lines, at)], sign)
-                dots = values[at[0], at[1], :, at[3]]
-                for panel, curve, marks in ((loss, figures[:, 2], dots[:, 2]),
-                                            (locking, *(of_torque.values(each[:, 0] - each[:, 1]) for each in (figures, dots)))):
-                    panel.plot(sign * of_slip.values(slip), curve, color=colour, label=name if sign > 0.0 else None)
-                    panel.plot(sign * of_slip.values(result.lines[SLIP_AXIS]), marks, ".", color=colour, ms=4)
-            stuck = result.stuck[at[0], at[1], 0, at[3]]
-            loss.plot(0.0, stuck[2], "o", mfc="none", color=colour)
-            total = stuck[0] + stuck[1]
-            locking.plot([0.0, 0.0], of_torque.values(2.0 * stuck[3:5] - total), "_-", color=colour, lw=4.0 - 0.8 * number, solid_capstyle="butt")
-        torque, speed = (result.lines[axis][at[axis]] for axis in (TORQUE_AXIS, SPEED_AXIS))
-        loss.set_title(f"{of_torque.text(torque)}, {of_speed.text(speed)}")
-        locking.set_xlabel(of_slip.label.replace(" (", "\n("))
-    rows[0][0].set_ylabel("power loss, W")
-    rows[1][0].set_ylabel(f"T_left − T_right, {of_torque.unit}")
-    rows[0][-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+def _over_difference(result, at, across, is_first, is_last):
+    """Panels of loss and locking torque at the lines `at` of torque and speed."""
+    of_torque, of_speed, *_ = axes_of(result.scene)
+    losses, lockings = [], []
+    for number, (warmth, colour, text) in enumerate(_looks(result)):
+        at[TEMPERATURE_AXIS] = warmth
+        for sign, values in zip(SIGNS, result.slipping):
+            lines = along(result, SLIP_AXIS, [line[k] for line, k in zip(result.lines, at)], sign)
+            dots = result.lines[SLIP_AXIS], values[at[0], at[1], :, at[3]]
+            for (slip, figures), name, form in ((lines, text if sign > 0.0 else None, "-"), (dots, None, ".")):
+                losses.append(curve(sign * slip, figures[:, 2], name, colour, form, ms=4))
+                lockings.append(curve(sign * slip, figures[:, 0] - figures[:, 1], None, colour, form, ms=4))
+        stuck = result.stuck[at[0], at[1], 0, at[3]]
+        losses.append(curve(0.0, stuck[2], None, colour, "o", mfc="none"))
+        lockings.append(curve([0.0, 0.0], 2.0 * stuck[3:5] - stuck[0] - stuck[1], None, colour, "_-", lw=4.0 - 0.8 * number, solid_capstyle="butt"))
+    torque, speed = (result.lines[axis][at[axis]] for axis in (TORQUE_AXIS, SPEED_AXIS))
+    locking = of_torque.named("T_left − T_right")
+    return (Panel(across, "power loss, W" if is_first else "", losses, f"{of_torque.text(torque)}, {of_speed.text(speed)}",
+                  legend="right" if is_last else ""),
+            Panel(across, locking if is_first else Axis("", locking.values), lockings))
 
 
 def ratio(result: MeasuredMap) -> Picture:
@@ -201,46 +197,38 @@ def ratio(result: MeasuredMap) -> Picture:
                                  for k in range(len(result.lines[TORQUE_AXIS])) for warmth in temperatures(result)) if np.isfinite(one)]
         ends.append(f"{side} {words.number(min(found))} to {words.number(max(found))}" if found else
                     f"{side} none, as the torques oppose each other")
-    return Picture("ratio", _drawn_ratio(result),
+    return picture("ratio", [_ratio_panels(result)],
                    f"Torque bias ratio T_high/T_low at {of_speed.text(speed)}. Solid: at the "
                    f"largest difference, {of_slip.text(slip[-1])} ({'; '.join(ends)}); dashed: at the smallest, "
                    f"{of_slip.text(slip[0])}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
-                   "ends, the torques of the wheels oppose each other or one vanishes, and there is no ratio.")
+                   "ends, the torques of the wheels oppose each other or one vanishes, and there is no ratio.", 3.8)
 
 
 def _ratio(torques):
     return bias(*torques)[0] or np.nan
 
 
-@svg_style.drawn("ratio", 3.8)
-def _drawn_ratio(picture, result):
-    panels = picture.subplots(1, 2, sharey=True)
+def _ratio_panels(result):
     speed, torque, of_torque = _level(result, SPEED_AXIS), result.lines[TORQUE_AXIS], axes_of(result.scene)[TORQUE_AXIS]
-    seen = []
-    for panel, sign, values, side, loose in zip(panels, SIGNS, result.slipping, SIDES, (3, 4)):
-        for number, warmth in enumerate(temperatures(result)):
-            colour, name = svg_style.CYCLE[number], label(result, warmth)
-            for slip, style in ((-1, "-"), (0, "--")):
+    sides, seen = [], []
+    for sign, values, loose in zip(SIGNS, result.slipping, (3, 4)):
+        marks = []
+        for warmth, colour, text in _looks(result):
+            for slip, form in ((-1, "-"), (0, "--")):
                 fixed = [torque[0], result.lines[SPEED_AXIS][speed], result.lines[SLIP_AXIS][slip], result.lines[TEMPERATURE_AXIS][warmth]]
                 at, figures = along(result, TORQUE_AXIS, fixed, sign)
-                panel.plot(of_torque.values(at), [_ratio(each[:2]) for each in figures], style, color=colour, label=name if slip else None)
                 dots = [_ratio(each) for each in values[:, speed, slip, warmth, :2]]
-                panel.plot(of_torque.values(torque), dots, ".", color=colour, ms=4)
+                marks += [curve(at, [_ratio(each[:2]) for each in figures], text if slip else None, colour, form),
+                          curve(torque, dots, None, colour, ".", ms=4)]
                 seen += dots
-            stuck = result.stuck[:, speed, 0, warmth]
-            dots = [_ratio((each[loose], each[0] + each[1] - each[loose])) for each in stuck]
-            panel.plot(of_torque.values(torque), dots, "x:", color=colour, ms=4, lw=1.0)
+            dots = [_ratio((each[loose], each[0] + each[1] - each[loose])) for each in result.stuck[:, speed, 0, warmth]]
+            marks.append(curve(torque, dots, None, colour, "x:", ms=4, lw=1.0))
             seen += dots
-        panel.set(title=side, xlabel=of_torque.label)
-    if np.any(np.isfinite(seen)) and np.nanmax(seen) > DECADE * np.nanmin(seen):
-        from matplotlib.ticker import LogLocator, NullFormatter
-
-        panels[0].set_yscale("log")
-        panels[0].yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        panels[0].yaxis.set_major_formatter(lambda value, _: words.number(value))
-        panels[0].yaxis.set_minor_formatter(NullFormatter())
-    panels[0].set_ylabel("torque bias ratio T_high/T_low")
-    panels[1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        sides.append(marks)
+    is_wide = np.any(np.isfinite(seen)) and np.nanmax(seen) > DECADE * np.nanmin(seen)
+    axis = Axis("torque bias ratio T_high/T_low")
+    return [Panel(of_torque, axis, marks, side, legend=legend, yscale="log" if is_wide else "linear")
+            for marks, side, legend in zip(sides, SIDES, ("", "right"))]
 
 
 def stuck(result: MeasuredMap) -> Picture:
@@ -249,57 +237,41 @@ def stuck(result: MeasuredMap) -> Picture:
     of_torque, _, of_slip, _ = axes_of(result.scene)
     ends = [f"{words.number(of_torque.values(low))} to {of_torque.text(high)} at {label(result, warmth)}"
             for warmth in temperatures(result) for low, high in [result.stuck[at[0], at[1], 0, warmth, 3:5]]]
-    return Picture("stuck", _drawn_stuck(result),
+    return picture("stuck", [_stuck_panels(result)],
                    f"Shaded: differences of the wheels' torques at which both wheels keep the same speed. At {_point(result)} the left "
                    f"torque is then {words.listed(ends)}. Below the band the left wheel breaks loose ahead, above it the right wheel. "
                    f"Lines: T_left − T_right at a slip of {of_slip.text(result.lines[SLIP_AXIS][0])}; a line within the band: "
-                   "less torque holds this slip than starts it.")
+                   "less torque holds this slip than starts it.", 3.6, legend="upper center")
 
 
-@svg_style.drawn("stuck", 3.6)
-def _drawn_stuck(picture, result):
+def _stuck_panels(result):
     axis = SPEED_AXIS if len(result.lines[TORQUE_AXIS]) == 1 < len(result.lines[SPEED_AXIS]) else TORQUE_AXIS
-    of_torque, of_axis = axes_of(result.scene)[TORQUE_AXIS], axes_of(result.scene)[axis]
-    over, shown = of_axis.values(result.lines[axis]), temperatures(result)
-    panels = picture.subplots(1, len(shown), sharey=True, squeeze=False)[0]
-    for panel, warmth in zip(panels, shown):
+    of_axis, locking = axes_of(result.scene)[axis], axes_of(result.scene)[TORQUE_AXIS].named("T_left − T_right")
+    over = result.lines[axis]
+    for warmth, _, text in _looks(result):
         at = [slice(None) if index == axis else _level(result, index) for index in (TORQUE_AXIS, SPEED_AXIS)]
         left, right, _, *ends = result.stuck[(*at, 0, warmth)].T
-        low, high = (of_torque.values(2.0 * end - left - right) for end in ends)
-        panel.fill_between(over, low, high, color=svg_style.GREY, alpha=0.3, lw=0, label="stuck")
-        panel.vlines(over, low, high, color=svg_style.GREY, lw=0.8)
-        for values, colour, side in zip(result.slipping, (svg_style.BLUE, svg_style.RED), SIDES):
-            slipping = values[(*at, 0, warmth)]
-            panel.plot(over, of_torque.values(slipping[:, 0] - slipping[:, 1]), ".-", color=colour, ms=5, label=side)
-        panel.set(title=label(result, warmth), xlabel=of_axis.label)
-    panels[0].set_ylabel(f"T_left − T_right, {of_torque.unit}")
-    handles, labels = panels[0].get_legend_handles_labels()
-    picture.legend(handles, labels, loc="outside upper center", ncols=len(labels))
+        low, high = (2.0 * end - left - right for end in ends)
+        slipping = [values[(*at, 0, warmth)] for values in result.slipping]
+        yield Panel(of_axis, locking, [
+            Mark("fill_between", over, low, high, color=GREY, alpha=0.3, lw=0, label="stuck"), Mark("vlines", over, low, high, color=GREY, lw=0.8),
+            *(curve(over, values[:, 0] - values[:, 1], side, colour, ".-", ms=5) for values, colour, side in zip(slipping, (BLUE, RED), SIDES))],
+            text, legend="")
 
 
 def error(result: MeasuredMap) -> Picture:
     """Distribution of the error at the unseen points, and the error over the difference of speeds."""
     worst = result.errors.max(axis=1)
     index, half = int(np.argmax(worst)), float(np.median(worst))
-    return Picture("error", _error(result),
+    of_slip = axes_of(result.scene)[SLIP_AXIS]
+    shares = [Mark("step", np.sort(column), 100.0 * np.arange(1, len(column) + 1) / len(column), where="post", label=name)
+              for column, name in zip(result.errors.T, ("left torque", "right torque", "loss"))]
+    return picture("error", [[
+        Panel(f"error over {result.bound}", "share of the points, %", [*shares, Mark("axvline", 1.0, color=RED, ls="--")], legend="upper left",
+              xscale="log"),
+        Panel(of_slip, "largest error over the bound", [curve(result.unseen[:, SLIP_AXIS], worst, None, BLUE, "."),
+                                                        Mark("axhline", 1.0, color=RED, ls="--")], ylim=(0.0, None))]],
                    f"Errors at {len(result.unseen)} random points that were not used for the map, over the bound; beyond the red line they "
                    f"are larger than it. Left: share of the points whose error is at most this large; half have "
                    f"{words.number(half, 2)} or less. Right: the largest error of each point over its difference of speeds; the worst, "
-                   f"{words.number(float(worst[index]), 2)}, is at {axes_of(result.scene)[SLIP_AXIS].text(result.unseen[index, SLIP_AXIS], 3)}.")
-
-
-@svg_style.drawn("error", 3.4)
-def _error(picture, result):
-    from .. import style
-
-    share, where = picture.subplots(1, 2)
-    for column, name in zip(result.errors.T, ("left torque", "right torque", "loss")):
-        share.step(np.sort(column), 100.0 * np.arange(1, len(column) + 1) / len(column), where="post", label=name)
-    share.axvline(1.0, color=svg_style.RED, ls="--")
-    share.set(xscale="log", xlabel=f"error over {str(result.bound).replace('.m', '·m')}", ylabel="share of the points, %")
-    style.plain_decades(share.xaxis)
-    share.legend(loc="upper left")
-    of_slip = axes_of(result.scene)[SLIP_AXIS]
-    where.plot(of_slip.values(result.unseen[:, SLIP_AXIS]), result.errors.max(axis=1), ".", color=svg_style.BLUE)
-    where.axhline(1.0, color=svg_style.RED, ls="--")
-    where.set(ylim=(0.0, None), xlabel=of_slip.label, ylabel="largest error over the bound")
+                   f"{words.number(float(worst[index]), 2)}, is at {of_slip.text(result.unseen[index, SLIP_AXIS], 3)}.", 3.4)

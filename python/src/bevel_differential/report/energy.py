@@ -2,11 +2,12 @@
 
 import numpy as np
 
-from ..plot import shown_times
-from . import svg_style, words
-from .blocks import Picture, Section
+from ..panel import Mark, Panel, curve, scaled_axis
+from . import words
+from .blocks import Section
 from .head import energy_balance
 from .simulated import Simulated
+from .svg_style import BLUE, CYCLE, GREEN, GREY, RED, VIOLET, picture
 
 # bias ratios with lines
 RATIOS = (1.5, 2.0, 3.0, 5.0)
@@ -22,36 +23,34 @@ def section(run: Simulated) -> Section:
         found.say("The half-shafts carry no torque at any time, so that there is no bias.")
     else:
         left, right = (run.shown(f"{side}.shaft_torque") for side in ("left", "right"))
-        found.add(Picture("bias", _draw_bias(run, left, right), _bias_caption(run, left, right)))
+        found.add(picture("bias", [_bias_panels(run, left, right)], _bias_caption(run, left, right), width_ratios=[1.4, 1]))
     if max(np.max(np.abs(run.series(name))) for name in ("power.in", "power.out")) < NONE and not _heats(run):
         found.say("No power flows and no heat arises.")
     else:
-        found.add(Picture("power", _draw_power(run), _power_caption(run)))
+        rows = _power_panels(run)
+        found.add(picture("power", rows, _power_caption(run), 1.6 * len(rows) + 0.8, height_ratios=[1.3, 1, 1][:len(rows)]))
     return found
 
 
-@svg_style.drawn("bias", 4.0)
-def _draw_bias(picture, run, left, right):
-    traces, plane = picture.subplots(1, 2, width_ratios=[1.4, 1])
-    unit = words.unit_text(run.unit("left.shaft_torque"))
-    times, label = shown_times(run.time)
-    traces.plot(times, left, color=svg_style.BLUE, label="left half-shaft", lw=2.2)
-    traces.plot(times, right, color=svg_style.RED, label="right half-shaft")
-    traces.set(xlabel=label, ylabel=f"torque, {unit}", title="over time")
-    traces.legend(loc="best")
+def _bias_panels(run, left, right):
+    unit = run.unit("left.shaft_torque")
     reach = 1.08 * max(float(np.max(np.abs(left))), float(np.max(np.abs(right))))
     low = -reach if min(left.min(), right.min()) < -0.02 * reach else -0.04 * reach
+    return [Panel(run.time_axis, f"torque, {unit}", [curve(run.time, left, "left half-shaft", BLUE, lw=2.2),
+                                                     curve(run.time, right, "right half-shaft", RED)], "over time"),
+            Panel(f"left torque, {unit}", f"right torque, {unit}",
+                  [*_ratios(low, reach), curve(left, right, None, VIOLET, ".-", ms=3, lw=0.8), curve(left[-1], right[-1], None, VIOLET, "o")],
+                  "right against left torque", xlim=(low, reach), ylim=(low, reach), aspect="equal")]
+
+
+def _ratios(low, reach):
+    """Lines of equal ratio, with their ratios."""
     for ratio in (1.0, *RATIOS):
         for slope in {ratio, 1.0 / ratio}:
             ends = np.array([max(low, low / slope), min(reach, reach / slope)])
-            plane.plot(ends, slope * ends, color=svg_style.GREY, lw=1.0 if ratio == 1.0 else 0.6, ls="-" if ratio == 1.0 else "--")
-            at = min(reach, reach / slope) * 0.96
-            plane.text(at, slope * at, words.number(ratio), color=svg_style.GREY, fontsize=8, ha="right", va="bottom")
-    plane.plot(left, right, color=svg_style.VIOLET, marker=".", ms=3, lw=0.8)
-    plane.plot(left[-1], right[-1], "o", color=svg_style.VIOLET, ms=6)
-    plane.set(xlabel=f"left torque, {unit}", ylabel=f"right torque, {unit}", title="right against left torque", xlim=(low, reach),
-              ylim=(low, reach))
-    plane.set_aspect("equal")
+            yield curve(ends, slope * ends, None, GREY, "-" if ratio == 1.0 else "--", lw=1.0 if ratio == 1.0 else 0.6)
+            at = 0.96 * ends[1]
+            yield Mark("text", at, slope * at, words.number(ratio), color=GREY, fontsize=8, ha="right", va="bottom")
 
 
 def _bias_caption(run, left, right):
@@ -73,27 +72,19 @@ def _heats(run):
     return [name for name in names if abs(run.record[name][-1]) > NO_HEAT]
 
 
-@svg_style.drawn("power")
-def _draw_power(picture, run):
-    heats = _heats(run)
-    picture.set_figheight(5.6 if heats else 4.0)
-    panels = picture.subplots(3 if heats else 2, 1, sharex=True, height_ratios=[1.3, 1, 1] if heats else [1.3, 1])
-    scale, unit = svg_style.unit_prefix([run.series(name) for name in ("power.in", "power.out")])
-    times, time_label = shown_times(run.time)
-    for name, colour, label in (("power.in", svg_style.BLUE, "in"), ("power.out", svg_style.GREEN, "out to the wheels"),
-                                ("power.loss", svg_style.RED, "loss")):
-        panels[0].plot(times, run.series(name) / scale, color=colour, label=label, lw=2.2 if name == "power.in" else 1.3)
-    panels[0].set(ylabel=f"power, {unit}W")
+def _power_panels(run):
+    time, heats = run.time_axis, _heats(run)
+    panels = [Panel(time, scaled_axis("power", "W", [run.series(name) for name in ("power.in", "power.out")]),
+                    [curve(run.time, run.series(name), label, colour, lw=width)
+                     for name, label, colour, width in (("power.in", "in", BLUE, 2.2), ("power.out", "out to the wheels", GREEN, 1.3),
+                                                        ("power.loss", "loss", RED, 1.3))], legend="right")]
     if heats:
         series = [np.maximum(run.series(name), 0.0) for name in heats]
-        panels[1].stackplot(times, *series, labels=[name.removeprefix("heat.").replace("_", " ") for name in heats],
-                            colors=svg_style.CYCLE[1:1 + len(heats)], alpha=0.75)
-        panels[1].set(ylabel="heat so far, J")
-    panels[-1].plot(times, run.series("solver.energy_residual"), color=svg_style.GREY, label="energy residual")
-    panels[-1].set(xlabel=time_label, ylabel="residual, J")
-    for panel in panels:
-        panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    picture.align_ylabels(panels)
+        labels = [name.removeprefix("heat.").replace("_", " ") for name in heats]
+        panels.append(Panel(time, "heat so far, J", [Mark("stackplot", run.time, *series, labels=labels, colors=CYCLE[1:], alpha=0.75)],
+                            legend="right"))
+    panels.append(Panel(time, "residual, J", [curve(run.time, run.series("solver.energy_residual"), "energy residual", GREY)], legend="right"))
+    return [[panel] for panel in panels]
 
 
 def _power_caption(run):

@@ -5,12 +5,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..plot import shown_times
+from ..panel import Axis, Mark, Panel, curve, scaled_axis
 from ..values import DifferentialError
 from ..want import COARSEST, figures, mean_over_time
-from . import svg_style, words
-from .blocks import Picture, Section
+from . import words
+from .blocks import Section
 from .simulated import Simulated
+from .svg_style import BLUE, GREEN, OCHRE, RED, picture
 
 # height of a panel, inches
 PANEL = 1.9
@@ -30,7 +31,8 @@ def section(run: Simulated) -> Section:
     alike = [i for i in planets if i > 1 and all(np.array_equal(run.series(_name(i, side)), run.series(_name(1, side)))
                                                  for side in SIDES)]
     drawn = [i for i in planets if i not in alike]
-    found.add(Picture("forces", _draw(run, drawn), _caption(run, drawn, alike)))
+    rows = _panels(run, drawn)
+    found.add(picture("forces", rows, _caption(run, drawn, alike), PANEL * len(rows) + 0.6))
     return found
 
 
@@ -38,20 +40,12 @@ def _name(planet, side):
     return f"planet[{planet}].{side}_normal_force"
 
 
-@svg_style.drawn("forces")
-def _draw(picture, run, planets):
-    picture.set_figheight(PANEL * 2 * len(planets) + 0.6)
-    scale, prefix = svg_style.unit_prefix([run.shown(_name(planet, side)) for planet in planets for side in SIDES])
-    axes = picture.subplots(2 * len(planets), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
-    times, label = shown_times(run.time)
-    for panel, (planet, side) in zip(axes, [(planet, side) for planet in planets for side in SIDES]):
-        force = run.shown(_name(planet, side))
-        for begin, end in bands(times, force):
-            panel.axvspan(begin, end, color=svg_style.OCHRE, alpha=0.25, lw=0)
-        panel.plot(times, force / scale, color=svg_style.BLUE if side == "left" else svg_style.RED)
-        panel.set(title=f"planet {planet} with the {side} side gear", ylabel=f"normal force, {prefix}{run.unit(_name(planet, side))}")
-    axes[0].set_xlim(times[0], times[-1])
-    axes[-1].set_xlabel(label)
+def _panels(run, planets):
+    meshes = [(planet, side, run.shown(_name(planet, side))) for planet in planets for side in SIDES]
+    time, axis = run.time_axis, scaled_axis("normal force", run.unit(_name(1, "left")), [force for *_, force in meshes])
+    return [[Panel(time, axis, [*(Mark("axvspan", begin, end, color=OCHRE, alpha=0.25, lw=0) for begin, end in bands(run.time, force)),
+                                curve(run.time, force, None, BLUE if side == "left" else RED)],
+                   f"planet {planet} with the {side} side gear", xmargin=0.0)] for planet, side, force in meshes]
 
 
 def _caption(run, drawn, alike):
@@ -97,10 +91,11 @@ def transmission_error(run: Simulated) -> Section:
         part = rolling(run.time, run.series(ANGLE), int(run.value("geometry.planet_teeth")))
         orders, sizes = spectrum(run, part)
     except DifferentialError as reason:
-        found.add(Picture("error", _draw_error(run, None, None, None), _over_time(run)))
+        found.add(picture("error", [_error_panels(run)], _over_time(run), 2.6))
         found.say(f"There are no orders of the mesh: {reason}.{' The run-up, which --quick leaves out, has them.' if run.has_pairs else ''}")
         return found
-    found.add(Picture("error", _draw_error(run, part, orders, sizes), f"{_over_time(run)} {_by_order(run, part, orders, sizes)}"))
+    found.add(picture("error", [_error_panels(run, part, orders, UM * sizes)], f"{_over_time(run)} {_by_order(run, part, orders, sizes)}", 3.0,
+                      width_ratios=[1.6, 1]))
     return found
 
 
@@ -135,23 +130,16 @@ def spectrum(run: Simulated, part: slice) -> tuple[np.ndarray, np.ndarray]:
     return orders, np.array(figures([f"mesh_order_{order}" for order in orders], run.time[part], values, phase))
 
 
-@svg_style.drawn("error")
-def _draw_error(picture, run, part, orders, sizes):
-    picture.set_figheight(2.6 if orders is None else 3.0)
-    panels = picture.subplots(1, 1 if orders is None else 2, squeeze=False, width_ratios=[1] if orders is None else [1.6, 1])[0]
-    times, label = shown_times(run.time)
-    panels[0].plot(times, UM * run.series(SIGNAL), color=svg_style.BLUE)
-    panels[0].set(xlabel=label, ylabel="transmission error, µm", title="planet 1 with the left side gear")
-    if orders is not None:
-        panels[0].axvspan(times[part][0], times[part][-1], color=svg_style.GREEN, alpha=0.12, lw=0)
-        panels[1].bar(orders, UM * sizes, color=svg_style.BLUE, width=0.5)
-        panels[1].set(xlabel="order of the mesh", ylabel="amplitude, µm", title="orders", xticks=orders)
+def _error_panels(run, part=None, orders=None, sizes=None):
+    marks = [curve(run.time, run.series(SIGNAL), None, BLUE)]
+    panels = [Panel(run.time_axis, Axis("transmission error, µm", lambda error: UM * error), marks, "planet 1 with the left side gear")]
+    if part is not None:
+        marks.append(Mark("axvspan", *run.time[part][[0, -1]], color=GREEN, alpha=0.12, lw=0))
         # a logarithmic axis within a decade has no round numbers for its labels
-        if sizes.max() > 10.0 * sizes.min():
-            from .. import style
-
-            panels[1].set(yscale="log", ylim=(UM * max(sizes.min(), 1e-4 * sizes.max()) * 0.5, UM * sizes.max() * 2.0))
-            style.plain_decades(panels[1].yaxis)
+        look = {"yscale": "log", "ylim": (max(sizes.min(), 1e-4 * sizes.max()) * 0.5, sizes.max() * 2.0)} if sizes.max() > 10.0 * sizes.min() else {}
+        panels.append(Panel("order of the mesh", "amplitude, µm", [Mark("bar", orders, sizes, color=BLUE, width=0.5)], "orders", xticks=orders,
+                            **look))
+    return panels
 
 
 def _over_time(run):

@@ -4,10 +4,10 @@ import math
 from dataclasses import replace
 
 from ..pair import Pair
-from . import words
-from .blocks import Picture, Section, Table
-from .drawings import draw_section, draw_teeth
+from . import drawings, words
+from .blocks import Section, Table
 from .simulated import Simulated
+from .svg_style import picture
 
 GEARS = ("planet", "side")
 # face width over outer cone distance of cut gears, at most
@@ -18,8 +18,8 @@ def section(run: Simulated) -> Section:
     """Section with both drawings and the table."""
     pair = pair_of(run)
     found = Section("gears", "The gears")
-    found.add(Picture("section", draw_section(pair), _section_caption(pair)))
-    found.add(Picture("teeth", draw_teeth(run, pair), _teeth_caption(run, pair)))
+    found.add(picture("section", [[drawings.section(pair)]], _section_caption(pair), 6.0),
+              picture("teeth", [[drawings.teeth(run, pair)]], _teeth_caption(run, pair), 4.3))
     found.add(_table(run, pair))
     return found
 

@@ -6,11 +6,13 @@ import numpy as np
 
 from ..extras import version
 from ..fmu import Fmu
+from ..plot import over_time
 from ..scene import Scene
 from ..want import mean_over_time
-from . import strength, svg_style, words
-from .blocks import Picture, Section, Table, Text
+from . import strength, words
+from .blocks import Section, Table, Text
 from .simulated import Simulated
+from .svg_style import picture
 
 # largest error of the energy balance, as a fraction of the throughput
 BALANCED = 1e-4
@@ -140,11 +142,6 @@ def _inputs(run, names):
         values = run.shown(name)
         changes.append(f"{name} between {words.number(values.min())} and {words.quantity(values.max(), run.unit(name))}, "
                        f"{words.number(values[-1])} at the end")
-    return Picture("inputs", _draw(run, names), f"Inputs that change: {'; '.join(changes)}. All others are constant.")
-
-
-@svg_style.drawn("inputs")
-def _draw(picture, run, names):
     # the FMU holds inputs between communication points
-    for panel in svg_style.over_time(picture, run, names, PANEL, held=True):
-        panel.set_ylabel(panel.get_ylabel().replace(", ", ",\n"))
+    rows = over_time(run.scene.fmu, run.record, names, held=True)
+    return picture("inputs", rows, f"Inputs that change: {'; '.join(changes)}. All others are constant.", PANEL * len(rows) + 0.6)

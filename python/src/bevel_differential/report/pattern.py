@@ -6,10 +6,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..pair import Pair
-from . import svg_style, words
-from .blocks import Picture, Section
+from ..panel import Axis, Mark, Panel, curve, scaled_axis
+from . import words
+from .blocks import Section
 from .gears import pair_of
 from .simulated import Simulated
+from .svg_style import BLUE, GREY, picture
 
 PAIRS = 3
 ENDS = ("toe", "middle", "heel")
@@ -91,7 +93,7 @@ def section(run: Simulated) -> Section:
         found.say("No tooth of planet 1 touched the left side gear at any communication point.")
         return found
     caption = " ".join(_caption(name, contacts, run.time[-1]) for name, contacts in loaded) + _reading(pair, loaded)
-    found.add(Picture("pattern", _draw(run, pair, loaded), caption))
+    found.add(picture("pattern", _panels(run, pair, loaded), caption, 3.5 * len(loaded), width_ratios=[2.6, 1]))
     return found
 
 
@@ -115,41 +117,35 @@ def envelope(contacts: Contacts, heights: np.ndarray, shares: np.ndarray, longes
     return largest
 
 
-@svg_style.drawn("pattern")
-def _draw(picture, run, pair: Pair, loaded):
+def _panels(run, pair: Pair, loaded):
     planet = pair.gears[0]
     mean = 0.5 * (pair.inner_cone + pair.outer_cone)
     root, tip = mean * (planet.root - planet.pitch), mean * (planet.tip - planet.pitch)
     heights, shares = np.linspace(root, tip, ROWS), np.linspace(0.0, 1.0, COLUMNS)
     cones = pair.inner_cone + shares * pair.face_width
-    largest = [envelope(contacts, heights, shares, 1.5 * run.scene.step) for _, contacts in loaded]
+    # all lengths of a tooth grow with the distance from the apex
+    toe, heel = ends = cones[[0, -1]]
+    growth = ends / mean
+    outline = [*(curve(ends, height * growth, None, GREY, form, lw=1.2) for height, form in ((root, "-"), (tip, "-"), (0.0, "--"))),
+               *(curve([end] * 2, np.array([root, tip]) * end / mean, None, GREY, lw=1.2) for end in ends),
+               *(Mark("text", heel + 0.3 / MM, height * growth[1], name, color=GREY, fontsize=8, va=align)
+                 for height, name, align in ((0.0, "pitch line", "center"), (tip, "tip", "center"), (root, "root", "bottom")))]
     top = max(contacts.most() for _, contacts in loaded) / MPA
-    picture.set_figheight(3.5 * len(loaded))
-    panels = picture.subplots(len(loaded), 2, squeeze=False, width_ratios=[2.6, 1])
-    for (flank, loads), (name, contacts), pressure in zip(panels, loaded, largest):
-        # all lengths of a tooth grow with the distance from the apex
-        height = MM * np.outer(heights, cones / mean)
-        mesh = flank.pcolormesh(np.broadcast_to(MM * cones, height.shape), height, np.ma.masked_less(pressure / MPA, 0.02 * top),
-                                cmap="plasma", vmin=0.0, vmax=top, shading="gouraud", rasterized=True)
-        ends = MM * cones[[0, -1]]
-        for height, dash in ((root, "-"), (tip, "-"), (0.0, "--")):
-            flank.plot(ends, MM * height * cones[[0, -1]] / mean, color=svg_style.GREY, ls=dash, lw=1.2)
-        for end in (0, -1):
-            flank.plot([MM * cones[end]] * 2, MM * np.array([root, tip]) * cones[end] / mean, color=svg_style.GREY, lw=1.2)
-        flank.text(ends[1] + 0.3, 0.0, "pitch line", color=svg_style.GREY, fontsize=8, va="center")
-        flank.text(ends[1] + 0.3, MM * tip * cones[-1] / mean, "tip", color=svg_style.GREY, fontsize=8, va="center")
-        flank.text(ends[1] + 0.3, MM * root * cones[-1] / mean, "root", color=svg_style.GREY, fontsize=8, va="bottom")
-        flank.set(title=f"{name} flanks of planet 1", xlabel="toe ← cone distance, mm → heel", ylabel="height, mm",
-                  xlim=(ends[0] - 1.0, ends[1] + 3.0), ylim=(MM * root * cones[-1] / mean - EDGE, MM * tip * cones[-1] / mean + EDGE))
-        flank.set_aspect("equal")
-        flank.grid(False)
-        bar = picture.colorbar(mesh, ax=flank, pad=0.01, aspect=25, extend="max" if pressure.max() / MPA > top else "neither")
-        bar.set_label("largest pressure, MPa")
-        scale, unit = svg_style.unit_prefix([contacts.force])
-        loads.plot(contacts.force / scale, MM * contacts.height, ".", color=svg_style.BLUE, ms=4)
-        loads.set(title="load of one pair", xlabel=f"force, {unit}N", ylabel="height at the mean cone distance, "
-                                                                             "mm", ylim=(MM * root - EDGE, MM * tip + EDGE))
-        loads.set_xlim(0.0, 1.08 * float(contacts.force.max()) / scale)
+    for name, contacts in loaded:
+        pressure = envelope(contacts, heights, shares, 1.5 * run.scene.step) / MPA
+        height = np.outer(heights, cones / mean)
+        flank = Mark("pcolormesh", np.broadcast_to(cones, height.shape), height, np.ma.masked_less(pressure, 0.02 * top), cmap="plasma",
+                     vmin=0.0, vmax=top, shading="gouraud", rasterized=True,
+                     bar={"label": "largest pressure, MPa", "extend": "max" if pressure.max() > top else "neither"})
+        yield [Panel(Axis("toe ← cone distance, mm → heel", _mm), Axis("height, mm", _mm), [flank, *outline], f"{name} flanks of planet 1", grid="",
+                     xlim=(MM * toe - 1.0, MM * heel + 3.0), ylim=(MM * root * growth[1] - EDGE, MM * tip * growth[1] + EDGE), aspect="equal"),
+               Panel(scaled_axis("force", "N", [contacts.force]), Axis("height at the mean cone distance, mm", _mm),
+                     [curve(contacts.force, contacts.height, None, BLUE, ".", ms=4)], "load of one pair", xlim=(0.0, None),
+                     ylim=(MM * root - EDGE, MM * tip + EDGE))]
+
+
+def _mm(lengths):
+    return MM * lengths
 
 
 def _caption(name, contacts, end):

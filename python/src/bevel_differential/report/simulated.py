@@ -6,6 +6,7 @@ from typing import Self
 
 import numpy as np
 
+from ..panel import Axis, time_axis
 from ..points import at_times
 from ..scene import Scene
 from ..values import DifferentialError, Number
@@ -99,6 +100,11 @@ class Simulated:
     def time(self) -> np.ndarray:
         """Times of the rows, s: communication points, and jumps of inputs twice."""
         return self.record["time"]
+
+    @property
+    def time_axis(self) -> Axis:
+        """Axis of times of the run."""
+        return time_axis(float(self.time[-1] - self.time[0]))
 
     def mean(self, name: str) -> float:
         """Mean of an output over time, SI."""

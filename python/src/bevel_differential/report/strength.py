@@ -6,15 +6,16 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..plot import shown_times
-from . import svg_style, words
-from .blocks import Picture, Section, Table
+from ..panel import Axis, Mark, Panel, curve
+from . import words
+from .blocks import Section, Table
 from .simulated import Simulated
+from .svg_style import BLUE, OCHRE, RED, picture
 
 MPA = 1e6
-LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", svg_style.BLUE),
-          "stress.root_planet_max": ("roots of the planets", svg_style.OCHRE),
-          "stress.root_side_max": ("roots of the side gears", svg_style.RED)}
+LABELS = {"stress.contact_rated": ("flanks: rated contact pressure", BLUE),
+          "stress.root_planet_max": ("roots of the planets", OCHRE),
+          "stress.root_side_max": ("roots of the side gears", RED)}
 RATED = (("safety.root_min", "safety factor of the roots S_F, smallest so far"),
          ("safety.flank_min", "safety factor of the flanks S_H, smallest so far"),
          ("damage.planet", "Miner sum of the roots, worst tooth of the planets"), ("damage.side", "Miner sum of the roots, worst tooth of the side gears"),
@@ -67,7 +68,9 @@ def section(run: Simulated) -> Section:
     if all(np.max(limited.stress) <= 0.0 for limited in stresses):
         found.say("No tooth was loaded at any communication point, so that there is no stress to show.")
     else:
-        found.add(Picture("stress", _draw(run, stresses), _caption(run, stresses)))
+        time = run.time_axis
+        panels = [_panel(run, time, stresses[:1], "contact"), _panel(run, time, stresses[1:], "bending")]
+        found.add(picture("stress", [[panel] for panel in panels], _caption(run, stresses)))
     rows = [(name, what, words.number(float(run.record[name][-1]))) for name, what in RATED]
     factor = words.number(float(run.value("strength.application_factor")))
     found.add(Table(("output", "meaning", "at the end"), rows,
@@ -79,21 +82,15 @@ def section(run: Simulated) -> Section:
     return found
 
 
-@svg_style.drawn("stress", 4.0)
-def _draw(picture, run, stresses: tuple[Limited, ...]):
-    upper, lower = picture.subplots(2, 1, sharex=True)
-    times, time_label = shown_times(run.time)
-    for panel, rows, title in ((upper, stresses[:1], "contact"), (lower, stresses[1:], "bending")):
-        top = 0.0
-        for limited in rows:
-            label, colour = LABELS[limited.output]
-            panel.plot(times, limited.stress / MPA, color=colour, label=label)
-            top = max(top, float(np.max(limited.stress)) / MPA, float(np.max(limited.limit)) / MPA)
-            # the limit at a point describes the step that ends there
-            panel.step(times, limited.limit / MPA, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")
-        panel.set(ylabel="stress, MPa", title=title, ylim=(0.0, 1.12 * top))
-        panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
-    lower.set_xlabel(time_label)
+def _panel(run, time, stresses: tuple[Limited, ...], title):
+    marks = []
+    for limited in stresses:
+        label, colour = LABELS[limited.output]
+        # the limit at a point describes the step that ends there
+        marks += [curve(run.time, limited.stress, label, colour),
+                  Mark("step", run.time, limited.limit, where="pre", color=colour, ls="--", lw=1.1, label=f"its limit {_limit(limited)}")]
+    top = max(float(np.max([limited.stress, limited.limit])) for limited in stresses) / MPA
+    return Panel(time, Axis("stress, MPa", lambda stress: stress / MPA), marks, title, legend="right", ylim=(0.0, 1.12 * top))
 
 
 def _limit(limited):

@@ -2,12 +2,14 @@
 
 import numpy as np
 
+from ..plot import over_time
 from ..want import Statistic, Want
 from ..want import figures as figures_of
 from ..want import mean_over_time
-from . import svg_style, words
-from .blocks import Picture, Section, Table
+from . import words
+from .blocks import Section, Table
 from .simulated import SPEEDS, TORQUES, Simulated
+from .svg_style import picture
 
 # height of a panel, inches
 PANEL = 1.55
@@ -25,21 +27,9 @@ def section(run: Simulated) -> Section:
     found = Section("traces", "Traces")
     for name, outputs, caption in (("outputs", run.scene.outputs, _ranges), ("speeds", SPEEDS, _speeds),
                                    ("torques", TORQUES, _torques)):
-        found.add(Picture(name, svg_style.drawn(name)(_draw)(run, outputs), caption(run)))
+        rows = over_time(run.scene.fmu, run.drawn, outputs)
+        found.add(picture(name, rows, caption(run), (1.6 * PANEL if len(rows) == 1 else PANEL * len(rows)) + 0.6))
     return found
-
-
-def _draw(picture, run, names):
-    """Draws outputs over time. A constant curve gets a wider range, so that its rounding errors are not drawn as noise."""
-    axes = svg_style.over_time(picture, run, names, PANEL)
-    if len(axes) == 1:
-        picture.set_figheight(1.6 * PANEL + 0.6)
-    for panel in axes:
-        values = np.concatenate([line.get_ydata() for line in panel.lines])
-        size = np.max(np.abs(values), initial=0.0)
-        if size > 0.0 and np.ptp(values) <= 1e-7 * size:
-            panel.set_ylim(values.mean() - 0.05 * size, values.mean() + 0.05 * size)
-    picture.align_ylabels(axes)
 
 
 def _ranges(run):

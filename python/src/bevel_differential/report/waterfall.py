@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..answers import Progress
+from ..panel import Axis, Mark, Panel, curve
 from ..progress import silent
 from ..values import DifferentialError
-from . import svg_style, words
-from .blocks import Picture, Section, Table
+from . import words
+from .blocks import Section, Table
 from .runup import ANGLE, FASTEST, MULTIPLES, RING, SIGNAL, SLOWEST, RunUp, run_up, theory
 from .simulated import Simulated, reason_of
+from .svg_style import BLUE, GREEN, RED, picture
 
 # turns of a planet in a window: spectral lines are 1/8 of an order apart
 WINDOW = 8
@@ -78,7 +80,8 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
         found.say(f"The run-up failed: {reason_of(reason)}.")
         return found
     found.say(_how(up))
-    found.add(Picture("waterfall", _draw(run, spectra, expected), _caption(run, up, spectra, expected)))
+    found.add(picture("waterfall", [[panel] for panel in _panels(run, spectra, expected)], _caption(run, up, spectra, expected), 5.2,
+                      height_ratios=[2.4, 1]))
     found.add(_table(run, spectra, expected))
     return found
 
@@ -100,34 +103,22 @@ def _drives(up):
         f"{imposed} The planets then turn in step, so that mesh orders in which they are out of phase cancel.")
 
 
-@svg_style.drawn("waterfall", 5.2)
-def _draw(picture, run, spectra: Waterfall, expected):
+def _panels(run, spectra: Waterfall, expected):
     from matplotlib.colors import LogNorm
 
-    from .. import style
-
-    sizes = UM * spectra.amplitudes
-    top = float(sizes.max())
-    upper, lower = picture.subplots(2, 1, sharex=True, height_ratios=[2.4, 1])
-    edges = np.append(spectra.orders, spectra.orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
-    mesh = upper.pcolormesh(edges, _edges(spectra.speeds * RPM), np.maximum(sizes, 1e-12), cmap="magma_r",
-                            norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True)
-    upper.set(ylabel="carrier speed, rpm")
-    upper.grid(False)
-    bar = picture.colorbar(mesh, ax=upper, pad=0.01, aspect=30, extend="min")
-    bar.set_label("amplitude, µm")
-    mean = UM * spectra.mean
-    lower.semilogy(spectra.orders, mean, color=svg_style.BLUE)
-    style.plain_decades(lower.yaxis)
-    style.plain_decades(bar.ax.yaxis)
-    teeth = float(run.value("geometry.planet_teeth"))
-    marks = upper.secondary_xaxis("top")
-    marks.set_xticks(list(expected.values()), [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}"
-                                               for name, order in expected.items()], fontsize=8.5)
-    for name, order in expected.items():
-        lower.axvline(order, color=svg_style.GREEN if name.startswith(RING) else svg_style.RED, lw=0.9, ls="--")
-    lower.set(xlabel="order: periods per turn of a planet", ylabel="rms over speeds, µm", xlim=(0.0, spectra.orders[-1]),
-              ylim=(10.0 ** -(DECADES + 0.5) * mean.max(), 2.0 * mean.max()))
+    orders, teeth = spectra.orders, float(run.value("geometry.planet_teeth"))
+    top, highest = UM * float(spectra.amplitudes.max()), UM * spectra.mean.max()
+    edges = np.append(orders, orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
+    names = [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}" for name, order in expected.items()]
+    axis = Axis("order: periods per turn of a planet")
+    yield Panel(axis, Axis("carrier speed, rpm", lambda speed: speed * RPM), [
+        Mark("pcolormesh", edges, _edges(spectra.speeds), np.maximum(UM * spectra.amplitudes, 1e-12), cmap="magma_r",
+             norm=LogNorm(10.0 ** -DECADES * top, top), rasterized=True, bar={"label": "amplitude, µm", "extend": "min"}),
+        Mark(lambda axes: axes.secondary_xaxis("top").set_xticks(list(expected.values()), names, fontsize=8.5))], grid="")
+    yield Panel(axis, Axis("rms over speeds, µm", lambda size: UM * size), [
+        curve(orders, spectra.mean, None, BLUE),
+        *(Mark("axvline", order, color=GREEN if name.startswith(RING) else RED, lw=0.9, ls="--") for name, order in expected.items())],
+        yscale="log", xlim=(0.0, orders[-1]), ylim=(10.0 ** -(DECADES + 0.5) * highest, 2.0 * highest))
 
 
 def _edges(centres):

@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..answers import Progress
+from ..panel import Axis, Mark, Panel, shades
 from ..progress import silent
 from ..values import DifferentialError, Number
 from ..want import mean_over_time
-from . import svg_style, words
-from .blocks import Picture, Section, Table
+from . import words
+from .blocks import Section, Table
 from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
+from .svg_style import BLUE, GREY, RED, picture
 from .traces import main_outputs
 
 # effects that describe what is installed, broken or driven. They are part of the question, not of the accuracy of the answer. A test
@@ -66,7 +68,8 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
         tried.append(attempt(run, name.removeprefix(PREFIX), {name: True}))
     tried.append(together(run, [name for name, one in zip(there, tried[1:]) if not one.refused]))
     if any(one.changes for one in tried if one.name != CONTROL):
-        found.add(Picture("worth", _draw(tried), _caption(tried)))
+        rows = [one for one in tried if not one.refused]
+        found.add(picture("worth", [_panels(rows)], _caption(tried), 0.34 * len(rows[0].mean) + 1.9))
     found.add(_table(run, tried))
     found.say("The command accuracy finds the effects that a quantity needs for a given accuracy: "
               "bevel-differential accuracy NAME --want OUTPUT:STATISTIC --within 1%.")
@@ -130,31 +133,22 @@ def _named(run, switches, off):
         "teeth strike again and again, changes of this size by an effect mean nothing.")
 
 
-@svg_style.drawn("worth")
-def _draw(picture, tried):
-    rows = [one for one in tried if not one.refused]
-    outputs = list(rows[0].mean)
-    from matplotlib.colors import LinearSegmentedColormap, to_rgba
-
-    # transparent in the middle, so that the page's colour shows
-    scale = [to_rgba(svg_style.BLUE, 0.7), to_rgba(svg_style.GREY, 0.0), to_rgba(svg_style.RED, 0.7)]
-    colours = LinearSegmentedColormap.from_list("change", scale)
-    picture.set_figheight(0.34 * len(outputs) + 1.9)
-    panels = picture.subplots(1, 2, sharey=True)
-    tables = (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows]))
+def _panels(rows):
+    outputs = Axis("")
+    names = list(rows[0].mean)
     labels = ["together" if one.name.startswith(TOGETHER) else re.sub("[_ ]", " ", one.name) for one in rows]
-    for panel, (title, table) in zip(panels, tables):
-        values = 100.0 * np.array([[changes[name] for changes in table] for name in outputs])
+    # transparent in the middle, so that the page's colour shows
+    colours = shades((BLUE, 0.7), (GREY, 0.0), (RED, 0.7))
+    for title, table in (("mean", [one.mean for one in rows]), ("peak to peak", [one.swing for one in rows])):
+        values = 100.0 * np.array([[changes[name] for changes in table] for name in names])
         reach = max(1.0, float(np.percentile(np.abs(values), 95.0)))
-        panel.imshow(values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto")
-        for (row, column), value in np.ndenumerate(values):
-            panel.text(column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
-        panel.set_xticks(range(len(rows)), labels, fontsize=8, rotation=35, ha="right", rotation_mode="anchor")
-        panel.set_yticks(range(len(outputs)), outputs, fontsize=8)
-        panel.set_title(f"change of the {title}, %")
-        panel.grid(False)
-        panel.tick_params(length=0)
-        panel.spines[:].set_visible(False)
+        yield Panel("", outputs, [
+            Mark("imshow", values, cmap=colours, vmin=-reach, vmax=reach, aspect="auto"),
+            *(Mark("text", column, row, _cell(value, rows[column].nothing), ha="center", va="center", fontsize=8)
+              for (row, column), value in np.ndenumerate(values)),
+            Mark("set_xticks", range(len(rows)), labels, fontsize=8, rotation=35, ha="right", rotation_mode="anchor"),
+            Mark("set_yticks", range(len(names)), names, fontsize=8), Mark("tick_params", length=0), Mark("set_frame_on", False)],
+            f"change of the {title}, %", grid="")
 
 
 def _cell(percent, nothing):

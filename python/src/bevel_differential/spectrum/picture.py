@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..extras import matplotlib
+from ..panel import BLUE, OCHRE, Axis, Mark, Panel, curve as drawn_curve, picture
 from ..readable import plain
 from ..values import FileName
 from .slow import SnCurve
@@ -18,20 +18,12 @@ MOST_BARS, LEAST_SHARE = 15, 1e-3
 
 def draw(result: Any, file: FileName) -> Path:
     """Draws a `SpectrumResult` into `file`; returns its path."""
-    matplotlib("plot")
-    from .. import style
-
-    with style.styled():
-        figure, (bars, spectrum) = style.panels(1, 2, 6.0)
-        _draw_events(bars, result, style.BLUE)
-        _draw_spectrum(spectrum, result, (style.BLUE, style.OCHRE))
-        style.caption(figure, _caption(result))
-        style.save(figure, file)
+    picture([[_events(result), _spectrum(result)]], _caption(result), file, 6.0)
     return Path(file)
 
 
-def _draw_events(axes, result, colour):
-    """Draws bars of the damage by event, the worst event at the top, and the cumulative damage."""
+def _events(result):
+    """Bars of the damage by event, the worst event at the top, and the cumulative damage."""
     table = result.table()
     named = max(1, min(MOST_BARS, np.count_nonzero(table["share"] >= LEAST_SHARE)))
     names, shares = list(table["event"][:named]), 100.0 * table["share"][:named]
@@ -39,38 +31,30 @@ def _draw_events(axes, result, colour):
         names.append(f"{len(table) - named} others")
         shares = np.append(shares, 100.0 * table["share"][named:].sum())
     heights = np.arange(len(names))
-    axes.barh(heights, shares, color=colour, label="of the event")
-    axes.plot(np.cumsum(shares), heights, "o-", color="black", markersize=3, linewidth=1, label="cumulative")
-    axes.set_yticks(heights, names)
-    axes.invert_yaxis()
-    axes.set_xlim(0.0, 105.0)
-    axes.set_xlabel("share of the damage per duty cycle, %")
-    axes.set_title(f"Damage by event: {result.critical_name}")
-    axes.legend(loc="center")
-    axes.grid(visible=False, axis="y")
+    return Panel("share of the damage per duty cycle, %", "", [
+        Mark("barh", heights, shares, color=BLUE, label="of the event"),
+        drawn_curve(np.cumsum(shares), heights, "cumulative", "black", "o-", markersize=3, linewidth=1),
+        Mark("set_yticks", heights, names), Mark("invert_yaxis")],
+        f"Damage by event: {result.critical_name}", legend="center", grid="x", xlim=(0.0, 105.0))
 
 
-def _draw_spectrum(axes, result, colours):
-    """Draws the stress over the number of load cycles in one life that reach it, with the S–N curve."""
+def _spectrum(result):
+    """Stress over the number of load cycles in one life that reach it, with the S–N curve."""
     duty_cycles = result.cycles_to_failure if np.isfinite(result.cycles_to_failure) else 1.0
-    parts = [("of rolling teeth", colours[0], rolling_spectrum(result)), ("of standing teeth", colours[1], standing_spectrum(result))]
+    parts = [("of rolling teeth", BLUE, rolling_spectrum(result)), ("of standing teeth", OCHRE, standing_spectrum(result))]
     parts = [part for part in parts if len(part[2][0])]
     highest = max((part[2][0].max() for part in parts), default=1e9)
     stresses = np.linspace(0.02, 1.3, 300) * highest
+    marks = []
     for label, colour, (stress, count) in parts:
         order = np.argsort(-stress)
         reached = np.cumsum(count[order]) * duty_cycles
         # a last point at 0 draws the edge of the last step
-        steps = np.array([stress.max(), *stress[order], 0.0]) / MPA
-        axes.step([0.1, *reached, reached[-1]], steps, where="pre", color=colour, label=label)
-    axes.plot(curve(result).life(stresses), stresses / MPA, "--", color="black", linewidth=1, label="S–N curve")
-    axes.set_xscale("log")
-    axes.set_xlim(1.0, 1e13)
-    axes.set_ylim(0.0, 1.3 * highest / MPA)
-    axes.set_xlabel("cycles at this stress or above, in one life")
-    axes.set_ylabel("rated contact pressure, MPa" if result.is_flank else "root stress of a pulsating cycle, MPa")
-    axes.set_title(f"Load spectrum: {result.critical_name}")
-    axes.legend()
+        marks.append(Mark("step", [0.1, *reached, reached[-1]], [stress.max(), *stress[order], 0.0], where="pre", color=colour, label=label))
+    marks.append(drawn_curve(curve(result).life(stresses), stresses, "S–N curve", "black", "--", linewidth=1))
+    quantity = "rated contact pressure" if result.is_flank else "root stress of a pulsating cycle"
+    return Panel("cycles at this stress or above, in one life", Axis(f"{quantity}, MPa", lambda stress: stress / MPA), marks,
+                 f"Load spectrum: {result.critical_name}", xscale="log", xlim=(1.0, 1e13), ylim=(0.0, 1.3 * highest / MPA))
 
 
 def _caption(result):

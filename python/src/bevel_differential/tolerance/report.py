@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..extras import matplotlib
+from ..panel import BLUE, GREY, PALE_BLUE, RED, Mark, Panel, picture
 from ..readable import in_words
 from ..records import write
 from ..text import aligned
@@ -134,71 +134,49 @@ def _table(lines):
 
 def draw(plan: Plan, result: Result, file: FileName) -> Path:
     """Draws the result: for each figure a histogram with its limits and bars of its Sobol indices, then yields, then a caption."""
-    matplotlib("plot")
-    from .. import style
-
     found = verdicts(plan.study, result)
-    figures = len(plan.study.wants) * (ROW + LINE * len(result.names))
-    heights = [figures, *([ROW + LINE * len(found)] if found else [])]
-    with style.styled():
-        picture = style.figure(sum(heights) + 1.2)
-        style.caption(picture, _caption(plan, result, found))
-        parts = iter(picture.subfigures(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0])
-        panels = next(parts).subplots(len(plan.study.wants), 2, squeeze=False)
-        for i, want in enumerate(plan.study.wants):
-            _histogram(style, panels[i, 0], plan, result, want)
-            _bars(style, panels[i, 1], result, want, i == 0)
-        if found:
-            _draw_yields(style, next(parts).subplots(), result, found)
-        style.save(picture, file)
+    rows = [[_histogram(plan, result, want), _bars(result, want, i == 0)] for i, want in enumerate(plan.study.wants)]
+    heights = [len(rows) * (ROW + LINE * len(result.names)), ROW + LINE * len(found)]
+    blocks = [rows, [[_yields_panel(result, found)]]][:1 + bool(found)]
+    picture(blocks, _caption(plan, result, found), file, sum(heights[:len(blocks)]) + 1.2, height_ratios=heights[:len(blocks)])
     return Path(file)
 
 
-def _histogram(style, axes, plan, result, want):
+def _histogram(plan, result, want):
     variable = want.quantity(plan.scene.fmu)
     figures = result.base.figures[str(want)]
-    unit, values = variable.shown(figures[np.isfinite(figures)])
-    if len(values):
-        axes.hist(values, bins="auto", color=style.PALE_BLUE, edgecolor=style.BLUE, linewidth=0.6)
+    marks = [Mark("hist", variable.shown(figures[np.isfinite(figures)])[1], bins="auto", color=PALE_BLUE, edgecolor=BLUE, linewidth=0.6)]
     for limit in plan.study.limits:
         if limit.want == want:
             label = limit_text(plan, limit).removeprefix(f"{want} ").replace("<=", "≤").replace(">=", "≥")
-            axes.axvline(variable.shown(limit.limit)[1], color=style.RED, label=f"limit {label}")
-    if axes.get_legend_handles_labels()[0]:
-        axes.legend(loc="best")
-    axes.set(xlabel=f"{in_words(want)}, {unit}" if unit else in_words(want), ylabel="differentials")
-    axes.locator_params(axis="x", nbins=6)
+            marks.append(Mark("axvline", variable.shown(limit.limit)[1], color=RED, label=f"limit {label}"))
+    unit, _ = variable.shown(0.0)
+    return Panel(f"{in_words(want)}, {unit}" if unit else in_words(want), "differentials", [*marks, Mark("locator_params", axis="x", nbins=6)])
 
 
-def _bars(style, axes, result, want, with_legend):
+def _bars(result, want, with_legend):
     indices = result.indices[str(want)]
     if not isinstance(indices, Indices):
-        axes.text(0.5, 0.5, textwrap.fill(indices, 60), ha="center", va="center", transform=axes.transAxes, color=style.GREY)
-        axes.set_axis_off()
-        return
+        return Panel("", "", [Mark("text", 0.5, 0.5, textwrap.fill(indices, 60), ha="center", va="center", color=GREY), Mark("set_axis_off")])
     heights = np.arange(len(result.names))[::-1]
-    error = {"error_kw": {"ecolor": style.GREY, "elinewidth": 1.0}, "height": 0.4}
-    axes.barh(heights + 0.2, 100.0 * indices.first, xerr=100.0 * indices.first_half, color=style.BLUE, label="by itself", **error)
-    axes.barh(heights - 0.2, 100.0 * indices.total, xerr=100.0 * indices.total_half, color=style.PALE_BLUE, label="with others", **error)
-    axes.set_yticks(heights, result.names)
-    axes.set(xlim=(0.0, 105.0), xlabel="share of the variance of the quantity at the left, %")
-    if with_legend:
-        axes.legend(loc="lower right")
+    bars = [Mark("barh", heights + up, 100.0 * share, xerr=100.0 * half, color=colour, label=label, height=0.4,
+                 error_kw={"ecolor": GREY, "elinewidth": 1.0})
+            for up, share, half, colour, label in ((0.2, indices.first, indices.first_half, BLUE, "by itself"),
+                                                   (-0.2, indices.total, indices.total_half, PALE_BLUE, "with others"))]
+    return Panel("share of the variance of the quantity at the left, %", "", [*bars, Mark("set_yticks", heights, result.names)],
+                 legend="lower right" if with_legend else "", xlim=(0.0, 105.0))
 
 
-def _draw_yields(style, axes, result, found):
+def _yields_panel(result, found):
     base = proportion(result.base.good)
-    names = ["as it is", *(textwrap.shorten(verdict.alternative.name, 60) for verdict in found)]
-    yields = [base, *(verdict.yield_ for verdict in found)]
-    heights = np.arange(len(names))[::-1]
-    value = 100.0 * np.array([each.value for each in yields])
-    ends = 100.0 * np.array([[each.value - each.low, each.high - each.value] for each in yields]).T
-    colours = [style.BLUE if verdict.gain.low > 0.0 else style.RED if verdict.gain.high < 0.0 else style.GREY for verdict in found]
-    axes.axvline(100.0 * base.value, color=style.GREY, linestyle="--", linewidth=1.0)
-    for y, x, end, colour in zip(heights, value, ends.T, [style.GREY, *colours]):
-        axes.errorbar(x, y, xerr=end[:, None], fmt="o", color=colour, capsize=3)
-    axes.set_yticks(heights, names)
-    axes.set(xlabel="yield: share of the differentials within all limits, %", ylim=(-0.7, len(names) - 0.3))
+    rows = [("as it is", base, GREY)]
+    rows += [(textwrap.shorten(verdict.alternative.name, 60), verdict.yield_,
+              BLUE if verdict.gain.low > 0.0 else RED if verdict.gain.high < 0.0 else GREY) for verdict in found]
+    marks = [Mark("axvline", 100.0 * base.value, color=GREY, linestyle="--", linewidth=1.0)]
+    marks += [Mark("errorbar", 100.0 * each.value, -y, xerr=[[100.0 * (each.value - each.low)], [100.0 * (each.high - each.value)]], fmt="o",
+                   color=colour, capsize=3) for y, (_, each, colour) in enumerate(rows)]
+    return Panel("yield: share of the differentials within all limits, %", "",
+                 [*marks, Mark("set_yticks", -np.arange(len(rows)), [name for name, *_ in rows])], ylim=(0.3 - len(rows), 0.7))
 
 
 def _caption(plan, result, found):
