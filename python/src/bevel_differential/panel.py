@@ -107,7 +107,9 @@ class Panel:
 
         for mark in self.marks:
             mark.draw(axes, self)
-        axes.set(title=self.title, xlabel=printed(self.x.label), ylabel=printed(self.y.label), **self.look)
+        axes.set(xlabel=printed(self.x.label), ylabel=printed(self.y.label), **self.look)
+        if self.title:
+            axes.set_title(self.title)
         for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
             if name not in self.grid:
                 axes.grid(False, axis=name)

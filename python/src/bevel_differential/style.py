@@ -35,7 +35,7 @@ COLOURS = 256
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
 
 STYLE = {
-    "font.size": 11.5, "axes.titlesize": 12.5, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
+    "font.size": 11.5, "axes.titlesize": 11.0, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
     "axes.prop_cycle": cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "legend.framealpha": 0.8, "legend.edgecolor": "white", "lines.linewidth": 1.7,
     "figure.facecolor": "white", "savefig.dpi": DPI, "figure.titlesize": 12.5, "figure.titleweight": "bold",
@@ -64,14 +64,13 @@ def panels(rows, columns, height, **options):
     return picture, picture.subplots(rows, columns, **options)
 
 
-def caption(picture, text, above=0.0, density=CAPTION_DENSITY):
-    """Adds a caption in lines below the panels. `above`: free height above the panels, inches. `density`: characters per inch of width."""
+def caption(picture, text):
+    """Adds a caption in lines below the panels."""
     # a number and its unit stay on one line
     text = re.sub(r"(?<=\d) (?=(%|[µmk]?[smN]|kg|rpm|deg/s|Hz|MPa)\b|%)", "\N{NO-BREAK SPACE}", printed(text))
-    lines = textwrap.wrap(text, int(density * picture.get_figwidth()))
+    lines = textwrap.wrap(text, int(CAPTION_DENSITY * picture.get_figwidth()))
     height = (CAPTION_LINE * len(lines) + 0.2) / picture.get_figheight()
-    share = 0.99 - height - above / picture.get_figheight()
-    picture.get_layout_engine().set(rect=(0.0, height, 0.995, share), hspace=0.04, wspace=0.03)
+    picture.get_layout_engine().set(rect=(0.0, height, 0.995, 0.99 - height), hspace=0.04, wspace=0.03)
     picture.text(0.02, height - 0.08 / picture.get_figheight(), "\n".join(lines), va="top", fontsize=CAPTION_SIZE,
                  color=TEXT, linespacing=1.3)
 

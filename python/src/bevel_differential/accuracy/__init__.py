@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..answers import Progress, about, ask
-from ..extras import matplotlib
+from ..panel import CYCLE, FAINT, GREY, INK, RED, Mark, Panel, curve, picture
 from ..quantities import QUANTITIES
 from ..readable import plain
 from ..scene import Scene
@@ -89,11 +89,7 @@ class Accuracy:
 
     def plot(self, file: FileName | None = None) -> "Figure":
         """Draws the error of all runs against their cost."""
-        matplotlib("plot")
-        from .. import style
-
-        with style.styled():
-            return _drawn(style, self, file)
+        return _drawn(self, file)
 
 
 def accuracy(scene: FileName | Scene, want: Sequence[str] | str = (), within: float | str = "1%", *, from_: str | float | None = None,
@@ -136,50 +132,39 @@ def kind(setting):
     return next((number for number, (text, _) in enumerate(KINDS) if setting.startswith(text)), len(KINDS) - 1)
 
 
-def _drawn(style, found, file):
+def _drawn(found, file):
     runs, within, wanted = found.runs, found.within, ", ".join(found.wants)
-    picture = style.figure(6.2)
-    axes = picture.subplots()
 
-    def point(run):
-        return 100.0 * run.price / found.reference.price, 100.0 * max(run.error, FLOOR * within)
+    def points(runs, *look, **options):
+        """Marks of runs at their costs and errors, %; none without runs."""
+        at = [(100.0 * run.price / found.reference.price, 100.0 * max(run.error, FLOOR * within)) for run in runs]
+        return [curve(*zip(*at), *look, **options)] if at else []
 
     chosen = [run for run in runs if run.place == "chosen"]
     is_fixed = any(FIXED in run.setting for run in chosen)
     tried = [run for run in runs[:-1] if (FIXED in run.setting) == is_fixed]
-    others = [point(run) for run in runs[:-1] if run not in tried]
+    marks = []
     for number, (text, marker) in enumerate(KINDS):
-        of_kind = [point(run) for run in tried if kind(run.setting) == number]
-        if of_kind:
-            axes.plot(*zip(*of_kind), marker, color=style.CYCLE[number % len(style.CYCLE)], ms=6, alpha=0.75,
-                      label=text.replace(" +", " + gear bodies"))
-    if others:
-        axes.plot(*zip(*others), ".", color=style.FAINT, ms=6, label="adaptive" if is_fixed else FIXED)
-    axes.plot(*point(runs[-1]), "*", color=style.INK, ms=13, label="reference (its uncertainty from the tolerance)")
+        marks += points([run for run in tried if kind(run.setting) == number], text.replace(" +", " + gear bodies"), CYCLE[number % len(CYCLE)],
+                        marker, ms=6, alpha=0.75)
+    marks += points([run for run in runs[:-1] if run not in tried], "adaptive" if is_fixed else FIXED, FAINT, ".", ms=6)
+    marks += points(runs[-1:], "reference (its uncertainty from the tolerance)", INK, "*", ms=13)
     front, best = [], float("inf")
-    for x, y in sorted(point(run) for run in tried):
-        if y < best:
-            front.append((x, y))
-            best = y
-    axes.step(*zip(*front), where="post", color=style.GREY, lw=1, zorder=1)
-    for run in chosen:
-        axes.plot(*point(run), "o", mfc="none", mec=style.RED, mew=2.2, ms=17, label="chosen")
-    axes.axhline(100.0 * within, color=style.RED, lw=1, ls="--")
-    axes.annotate("wanted", (0.003, 100.0 * within), xycoords=axes.get_yaxis_transform(), xytext=(4, 3),
-                  textcoords="offset points", color=style.RED)
-    axes.set(xscale="log", yscale="log", xlabel="cost, % of the reference", ylabel="largest error of the wanted quantities, %")
-    axes.set_ylim(bottom=60.0 * FLOOR * within)
-    for axis in (axes.xaxis, axes.yaxis):
-        style.plain_decades(axis)
-    short = wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + " …"
-    axes.set_title(f"{found.scene}: {short}")
-    axes.legend(ncols=2)
+    for run in sorted(tried, key=lambda run: (run.price, run.error)):
+        if run.error < best:
+            front.append(run)
+            best = run.error
+    marks += points(front, None, GREY, drawstyle="steps-post", lw=1, zorder=1)
+    marks += points(chosen, "chosen", None, "o", mfc="none", mec=RED, mew=2.2, ms=17)
+    marks += [Mark("axhline", 100.0 * within, color=RED, lw=1, ls="--"),
+              Mark(lambda axes: axes.annotate("wanted", (0.003, 100.0 * within), xycoords=axes.get_yaxis_transform(), xytext=(4, 3),
+                                              textcoords="offset points", color=RED))]
     chosen_text = f"chosen is {chosen[0].setting}" if chosen else "nothing is accurate enough"
     tiny = (f" Errors below {plain(100.0 * FLOOR * within)} % are drawn at this value."
             if any(run.error < FLOOR * within for run in runs) else "")
-    style.caption(picture, "Each mark is a run of the scene with another level, law, set of effects, tolerance or step, compared with "
-                  "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
-                  f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.{tiny}")
-    if file is not None:
-        style.save(picture, file)
-    return picture
+    panel = Panel("cost, % of the reference", "largest error of the wanted quantities, %", marks,
+                  f"{found.scene}: {wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + ' …'}", columns=2, xscale="log", yscale="log",
+                  ylim=(60.0 * FLOOR * within, None))
+    return picture([[panel]], "Each mark is a run of the scene with another level, law, set of effects, tolerance or step, compared with "
+                   "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "
+                   f"cheapest runs for each accuracy. Runs below the dashed line are accurate enough; {chosen_text}.{tiny}", file, 6.2)

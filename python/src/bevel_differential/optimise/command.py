@@ -58,7 +58,7 @@ def _optimise(arguments, problem, out, store, workers):
     """Runs the search; prints and writes its results. Returns true if the gears of all chosen designs turn freely."""
     from .design_task import Confirmed, DesignTask, confirm
     from .front import choice, thinned
-    from .report import LETTERS, choice_table, compared_with_front, below_one, picture, scene_text, to_csv, write_gears
+    from .report import LETTERS, choice_table, compared_with_front, below_one, draw, scene_text, to_csv, write_gears
     from .search import search
 
     total = problem.generations * (problem.starts + (problem.starts > 1))
@@ -89,7 +89,7 @@ def _optimise(arguments, problem, out, store, workers):
     with in_folder(out) as stage:
         to_csv(confirmed.values(), problem, stage / "front.csv")
         write_whole(stage / "choice.md", table + "".join(f"\n{line}\n" for line in notes))
-        picture(rows, chosen, compared, problem, stage / "front.png")
+        draw(rows, chosen, compared, problem, stage / "front.png")
         for letter, (reason, row) in zip(LETTERS, reasons):
             write_whole(stage / f"{letter}.toml", scene_text(problem, row, f"design {letter}, {reason}"))
             free = write_gears(problem, row, stage / letter)

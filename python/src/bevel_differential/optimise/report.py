@@ -8,6 +8,7 @@ import pandas as pd
 
 from .. import cad
 from ..answers import ask, assignments
+from ..panel import BLUE, BROWN, GREEN, GREY, INK, RED, Mark, Panel, curve, picture
 from ..readable import in_words, wrapped
 from ..values import FileName
 from ..writing import whole
@@ -96,10 +97,9 @@ def _shown(variable, value):
     return f"{variable.shown(value)[1]:.4g}" if variable.kind in ("Real", "Integer") else str(value).lower()
 
 
-def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem,
+def draw(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict[str, DesignRow], problem: Problem,
             file: FileName) -> None:
     """Draws the front in panels, with the chosen designs by letter and the compared ones as stars; PNG."""
-    from .. import style
     objectives, catalogue = problem.objectives, problem.scene.fmu
     across = next((each for each in objectives if each.sign > 0.0), objectives[0])
     others = [each for each in objectives if each is not across]
@@ -112,23 +112,22 @@ def picture(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: d
     olds = costs(list(compared.values()), objectives)
     better = [row for row, cost in zip(front, costs(front, objectives)) if any(dominates(cost, old) for old in olds)]
     plain = [row for row in front if row not in better]
-    with style.styled():
-        figure, panels = style.panels(1, len(others), 4.8, squeeze=False)
-        for panel, up in zip(panels[0], others):
-            panel.plot(shown(plain, across), shown(plain, up), "o", ms=3.5, color=style.GREY, label="front")
-            if better:
-                panel.plot(shown(better, across), shown(better, up), "o", ms=4.5, color=style.BLUE,
-                           label="front, better in all than a compared design")
-            for k, (name, row) in enumerate(compared.items()):
-                panel.plot(shown([row], across), shown([row], up), "*", ms=14, color=(style.RED, style.GREEN, style.BROWN)[k % 3],
-                           label=name + (" (breaks conditions)" if row.refused else ""))
-            for letter, x, y in zip(LETTERS, shown(chosen, across), shown(chosen, up)):
-                panel.plot([x], [y], "o", ms=8, mfc="none", mec=style.INK)
-                panel.annotate(letter, (x, y), xytext=(5, 5), textcoords="offset points", fontweight="bold")
-            panel.set(xlabel=_label(catalogue, across), ylabel=_label(catalogue, up))
-        handles, labels = panels[0][0].get_legend_handles_labels()
-        figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
-        style.save(figure, file)
+
+    def points(rows, up, *look, **options):
+        return [curve(shown(rows, across), shown(rows, up), *look, **options)] if rows else []
+
+    def marks(up):
+        yield from points(plain, up, "front", GREY, "o", ms=3.5)
+        yield from points(better, up, "front, better in all than a compared design", BLUE, "o", ms=4.5)
+        for k, (name, row) in enumerate(compared.items()):
+            yield from points([row], up, name + (" (breaks conditions)" if row.refused else ""), (RED, GREEN, BROWN)[k % 3], "*", ms=14)
+        yield from points(chosen, up, None, None, "o", ms=8, mfc="none", mec=INK)
+        for letter, *at in zip(LETTERS, shown(chosen, across), shown(chosen, up)):
+            yield Mark("annotate", letter, at, xytext=(5, 5), textcoords="offset points", fontweight="bold")
+
+    picture([[Panel(_label(catalogue, across), _label(catalogue, up), marks(up), legend="") for up in others]],
+            "Each mark is a design on the Pareto front: no other design that meets the conditions is better in one objective and nowhere worse. "
+            "Letters: chosen designs. Stars: designs that are compared with the front.", file, 5.4, legend="upper center")
 
 
 def _label(catalogue, objective: Objective) -> str:

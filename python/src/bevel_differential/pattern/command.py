@@ -25,7 +25,7 @@ def run(arguments: argparse.Namespace) -> int:
     from ..records import localised
     from ..values import DifferentialError
     from ..writing import in_folder, write_whole
-    from .picture import draw, style
+    from .picture import draw
 
     changed = changes(arguments)
     if changed and not arguments.scenes:
@@ -36,8 +36,7 @@ def run(arguments: argparse.Namespace) -> int:
         for name, content in {**found["files"], "findings.md": found["document"]}.items():
             write_whole(folder / name, content)
         progress(0.9, "drawing")
-        with style.styled():
-            pictures = draw(folder, not arguments.scenes)
+        pictures = draw(folder, not arguments.scenes)
         for name, content in found["files"].items():
             write_whole(folder / name, localised(content))
     print(f"{found['text']}files in {arguments.out}: {', '.join([*found['files'], 'findings.md', *pictures])}")

@@ -4,16 +4,15 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import style
+from ..panel import BLUE, RED, SMALL, TEXT, Axis, Mark, Panel, curve, picture
 from ..records import read
+from ..style import WIDTH
 
 # after the style, which chooses the backend
 from matplotlib import colormaps  # noqa: E402
-from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
-from matplotlib.patches import Polygon  # noqa: E402
 
-PRESSURE, LOAD, CENTROID = "magma_r", style.BLUE, style.RED
+PRESSURE, LOAD, CENTROID = "magma_r", BLUE, RED
 # remarks on the cases of the documentation
 REMARKS = {
     "aligned": "even load; dark band: only one pair is loaded",
@@ -47,9 +46,6 @@ THINNEST = 0.12
 # sizes of the units of pictures, by column: lengths in mm, line loads in N/mm, pressures in MPa, force in kN
 UNITS = {**dict.fromkeys(("cone", "width", "height", "planet_height", "side_height", "radius", "half_width", "centroid", "toe_cone",
                           "toe_height", "heel_cone", "heel_height"), 1e3), "line_load": 1e-3, "pressure": 1e-6, "force": 1e-3}
-# height for the legend above the panels, inches
-LEGEND = 0.4
-
 
 def draw(folder: Path, of_documentation: bool) -> list[str]:
     """Draws the patterns whose files are in `folder`. Returns the names of the pictures. `of_documentation`: true for the cases of the
@@ -69,26 +65,24 @@ def _drawn(row):
     return {name: value * UNITS[name] if name in UNITS else value for name, value in row.items()}
 
 
-def tooth(axes, outline, names=False):
-    """Draws the unrolled flank: toe left, heel right, tip at the top, pitch line at zero."""
-    toe, heel = outline["tip"]["toe_cone"], outline["tip"]["heel_cone"]
-    corners = [(toe, outline["root"]["toe_height"]), (heel, outline["root"]["heel_height"]),
-               (heel, outline["tip"]["heel_height"]), (toe, outline["tip"]["toe_height"])]
-    axes.add_patch(Polygon(corners, closed=True, fill=False, ec=style.TEXT, lw=1.3, zorder=4))
-    marks = [("pitch", "-.", "pitch line"), ("base", ":", "base circle: end of the involute"),
-             ("start", "--", "rigid contact begins")]
-    for mark, line, name in marks:
-        row = outline[mark]
-        axes.plot([toe, heel], [row["toe_height"], row["heel_height"]], ls=line, color=style.TEXT, lw=0.9, zorder=4,
-                  label=name)
+def tooth(outline, names=False):
+    """Marks of the unrolled flank: toe left, heel right, tip at the top, pitch line at zero."""
+    tip, root = outline["tip"], outline["root"]
+    toe, heel = tip["toe_cone"], tip["heel_cone"]
+    yield Mark("fill", [toe, heel, heel, toe], [root["toe_height"], root["heel_height"], tip["heel_height"], tip["toe_height"]], fill=False,
+               ec=TEXT, lw=1.3, zorder=4)
+    for mark, form, name in [("pitch", "-.", "pitch line"), ("base", ":", "base circle: end of the involute"), ("start", "--", "rigid contact begins")]:
+        yield curve([toe, heel], [outline[mark]["toe_height"], outline[mark]["heel_height"]], name, TEXT, form, lw=0.9, zorder=4)
     if names:
-        axes.text(toe - 0.25, 0.0, "toe", rotation=90, ha="right", va="center", fontsize=9.5)
-        axes.text(heel + 0.25, 0.0, "heel", rotation=90, ha="left", va="center", fontsize=9.5)
-        axes.text(0.5 * (toe + heel), 0.5 * (outline["tip"]["toe_height"] + outline["tip"]["heel_height"]) + 0.35,
-                  "tip", ha="center", fontsize=9.5)
-    axes.set(xlim=limits(outline)[0], ylim=limits(outline)[1])
-    axes.set_aspect("equal", anchor="N")
-    axes.grid(False)
+        for x, y, name, rotation, align in [(toe - 0.25, 0.0, "toe", 90, ("right", "center")), (heel + 0.25, 0.0, "heel", 90, ("left", "center")),
+                                            (0.5 * (toe + heel), 0.5 * (tip["toe_height"] + tip["heel_height"]) + 0.35, "tip", 0, ("center", "baseline"))]:
+            yield Mark("text", x, y, name, rotation=rotation, ha=align[0], va=align[1], fontsize=9.5)
+
+
+def flank(x, y, outline, marks, title="", **look):
+    """Panel of a flank, with equal scales in both directions."""
+    wide, high = limits(outline)
+    return Panel(x, y, marks, title, legend="", grid="", aspect="equal", anchor="N", **{"xlim": wide, "ylim": high, **look})
 
 
 def limits(outline):
@@ -102,53 +96,53 @@ def patterns(folder, data, outlines, cases, remarks):
     rows = -(-len(cases) // columns)
     # height of a flank and of its line load, over its width: all flanks have the same scale in both directions
     shape = max(np.ptp(high) / np.ptp(wide) for wide, high in (limits(outlines[name]) for name, _ in cases))
-    room = (style.WIDTH - BESIDE * columns) / columns
+    room = (WIDTH - BESIDE * columns) / columns
     width = min(room, HIGHEST / shape)
-    figure = style.figure((width * (shape + LOAD_HEIGHT) + AROUND) * rows + 2.5)
     # flanks that would be too high are narrower than their column
-    margin = 0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0
-    grid = figure.add_gridspec(rows, columns + 2, width_ratios=[margin + 1e-3, *[1.0] * columns, margin + 1e-3])
+    margin = 1e-3 + (0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0)
     most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
     engaged, rated = words_of(data)
-    scale, first = Normalize(0.0, top_of(data, cases)), None
-    for i, (name, title) in enumerate(cases):
-        row, column = divmod(i, columns)
-        axes = figure.add_subplot(grid[row, column + 1])
-        first = first or axes
-        result = next(one for one in data["summary"] if one["case"] == name)
-        flank(axes, outlines[name], [one for one in data["pattern"] if one["case"] == name], scale)
-        remark = remarks.get(name, "")
-        axes.set_title(f"{title} ({result['flank']} flank)", fontsize=11.5, loc="left", pad=19 if remark else None)
-        # between flank and title, whatever the height of the flank
-        axes.annotate(remark, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points", fontsize=style.SMALL,
-                      color=style.TEXT, annotation_clip=False)
-        # a part of the flank's panel, so that both show the same places along the face whatever the shape of the flank
-        wide, high = limits(outlines[name])
-        own = LOAD_HEIGHT * np.ptp(wide) / np.ptp(high)
-        below = axes.inset_axes([0.0, -1.2 * own, 1.0, own], sharex=axes)
-        line_load(below, outlines[name]["tip"], np.array(strip(data, name)), result, most_load)
-        if column == 0:
-            axes.set_ylabel("height, mm")
-            below.set_ylabel("line load,\nN/mm", fontsize=style.SMALL)
-        if i >= len(cases) - columns:
-            below.set_xlabel("cone distance R, mm")
-    bar = figure.colorbar(ScalarMappable(scale, PRESSURE), ax=figure.axes, orientation="horizontal", shrink=1.0 if columns == 1 else 0.5,
-                          aspect=50, extend="max", pad=0.01)
-    bar.set_label("largest Hertz pressure of the engagement, MPa")
-    legend(figure, first)
+    scale = Normalize(0.0, top_of(data, cases))
+    panels = [_pattern(data, outlines[name], name, title, scale, remarks.get(name, ""), most_load, i % columns == 0, i >= len(cases) - columns)
+              for i, (name, title) in enumerate(cases)]
+    panels += [None] * (rows * columns - len(panels))
+    grid = [[None, *panels[i:i + columns], None] for i in range(0, len(panels), columns)]
     where = ("the study's turn (835 N·m on each half-shaft)" if remarks else f"the scene {cases[0][1]}" if len(cases) == 1 else
              "the given scenes")
     shared = "One scale for all panels; only" if len(cases) > 1 else "Only"
     errors = ("Offsets bring one end of the face into contact first, and the load moves there; an error of the shaft angle turns the "
               "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
               "opposite one. ") if remarks else ""
-    style.caption(figure, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
-                  f"trapezoid with the small end (toe) left; colour is the largest pressure at each spot while {engaged}, "
-                  f"as marking compound would show it. {shared} the seam at the base "
-                  f"circle exceeds the scale, because the flank has no radius there. Blue: line load over the face {rated}. "
-                  f"Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
-                  "tip corner touches, the pressure is calculated with the flanks' radii; the true one is higher.", LEGEND)
-    style.save(figure, folder / "contact_pattern.png", shaded=True)
+    picture(grid, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
+            f"trapezoid with the small end (toe) left; colour is the largest pressure at each spot while {engaged}, "
+            f"as marking compound would show it. {shared} the seam at the base "
+            f"circle exceeds the scale, because the flank has no radius there. Blue: line load over the face {rated}. "
+            f"Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
+            "tip corner touches, the pressure is calculated with the flanks' radii; the true one is higher.",
+            folder / "contact_pattern.png", (width * (shape + LOAD_HEIGHT) + AROUND) * rows + 2.5, shaded=True, legend="upper center",
+            width_ratios=[margin, *[1.0] * columns, margin],
+            bar={"norm": scale, "cmap": PRESSURE, "label": "largest Hertz pressure of the engagement, MPa", "orientation": "horizontal",
+                 "shrink": 1.0 if columns == 1 else 0.5, "aspect": 50, "extend": "max"})
+
+
+def _pattern(data, outline, name, title, scale, remark, most_load, is_first, is_lowest):
+    """Flank with the largest pressure at each position, and the line load below it."""
+    rows = [one for one in data["pattern"] if one["case"] == name]
+    result = next(one for one in data["summary"] if one["case"] == name)
+    cones = len({row["cone"] for row in rows})
+    cone, height, pressure = [np.array([row[key] for row in rows]).reshape(cones, -1) for key in ["cone", "height", "pressure"]]
+    load = line_load(outline["tip"], np.array(strip(data, name)), result, most_load, is_first, is_lowest)
+    # the line load is a part of the flank's panel, so that both show the same places along the face whatever the shape of the flank
+    wide, high = limits(outline)
+    own = LOAD_HEIGHT * np.ptp(wide) / np.ptp(high)
+    return flank("", "height, mm" if is_first else "", outline, [
+        Mark("pcolormesh", cone, height, np.ma.masked_less(pressure, 1.0), cmap=PRESSURE, norm=scale, shading="gouraud"), *tooth(outline, True),
+        Mark("tick_params", labelbottom=False),
+        Mark("set_title", f"{title} ({result['flank']} flank)", pad=19 if remark else None),
+        # between flank and title, whatever the height of the flank
+        Mark("annotate", remark, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points", fontsize=SMALL, color=TEXT,
+             annotation_clip=False),
+        Mark(lambda axes: load.draw(axes.inset_axes([0.0, -1.2 * own, 1.0, own], sharex=axes)))])
 
 
 def words_of(data):
@@ -166,32 +160,15 @@ def teeth_of(data):
     return " or ".join(dict.fromkeys(TEETH[row["teeth"]] for row in data["summary"]))
 
 
-def flank(axes, outline, rows, scale):
-    """Draws the flank with the largest pressure at each position."""
-    cones = sorted({row["cone"] for row in rows})
-    shape = (len(cones), len(rows) // len(cones))
-    cone, height, pressure = [np.array([row[key] for row in rows]).reshape(shape) for key in ["cone", "height", "pressure"]]
-    axes.pcolormesh(cone, height, np.ma.masked_less(pressure, 1.0), cmap=PRESSURE, norm=scale, shading="gouraud")
-    tooth(axes, outline, True)
-    axes.tick_params(labelbottom=False)
-
-
-def line_load(axes, tip, points, result, most):
-    """Draws the load over the face, and the force at its centroid."""
-    axes.fill_between(*points.T, color=LOAD, alpha=0.25, lw=0)
-    axes.plot(*points.T, color=LOAD, lw=1.5)
-    middle = 0.5 * (tip["toe_cone"] + tip["heel_cone"])
-    centroid = middle + result["centroid"]
-    axes.axvline(centroid, color=CENTROID, lw=1.3)
+def line_load(tip, points, result, most, is_first, is_lowest):
+    """Panel of the load over the face, and the force at its centroid."""
+    centroid = 0.5 * (tip["toe_cone"] + tip["heel_cone"]) + result["centroid"]
     shift = f"{round(result['centroid'], 1) + 0.0:+.1f}".replace("-", "−")
-    axes.text(centroid + 0.15, 1.4 * most, f"{result['force']:.1f} kN, {shift} mm",
-              color=CENTROID, fontsize=style.SMALL, va="top")
-    axes.set(ylim=(0, 1.45 * most))
-
-
-def legend(figure, axes):
-    handles, labels = axes.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="upper center", ncols=3, bbox_to_anchor=(0.5, 1.0))
+    return Panel("cone distance R, mm" if is_lowest else "", "line load,\nN/mm" if is_first else "", [
+        Mark("fill_between", *points.T, 0.0, color=LOAD, alpha=0.25, lw=0), curve(*points.T, None, LOAD, lw=1.5),
+        Mark("axvline", centroid, color=CENTROID, lw=1.3),
+        Mark("text", centroid + 0.15, 1.4 * most, f"{result['force']:.1f} kN, {shift} mm", color=CENTROID, fontsize=SMALL, va="top")],
+        ylim=(0, 1.45 * most))
 
 
 def top_of(data, cases):
@@ -216,64 +193,56 @@ def lines(folder, data, outlines, cases, of_documentation):
     chosen = [name for name in (LINES if of_documentation else names) if name in names][:2]
     # one column for each of two cases; a single case fills two columns, row by row
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
-    figure, grid = style.panels(high, 2, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, squeeze=False, sharex=True, sharey=True)
     colours, scale = colormaps[PRESSURE], Normalize(0.0, top_of(data, cases))
     whole = {row["case"]: bool(row["whole"]) for row in data["summary"]}
-    for column, name in enumerate(chosen):
+    # room for the forces on the right, and at least as wide as a panel of the grid
+    wide, tall = (np.array([limits(outlines[name])[axis] for name in chosen]) for axis in (0, 1))
+    toe, heel = wide.min(), wide.max()
+    ends = toe, max(heel + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * np.ptp(tall))
+    cones, heights = Axis("cone distance R, mm"), Axis("height, mm")
+    panels = []
+    for name in chosen:
         rows = [row for row in data["contacts"] if row["case"] == name]
         followed = sorted({row["time"] for row in rows if row["followed"]})
         picks = [followed[round(i * (len(followed) - 1) / (INSTANTS - 1))] for i in range(INSTANTS)]
         for i, time in enumerate(picks):
-            axes = (grid[:, column] if len(chosen) == 2 else grid.ravel())[i]
-            tooth(axes, outlines[name], i == 0)
+            marks = [*tooth(outlines[name], i == 0)]
             now = [row for row in rows if row["time"] == time]
             for pair in sorted({(row["planet_tooth"], row["side_tooth"]) for row in now}):
                 line = [row for row in now if (row["planet_tooth"], row["side_tooth"]) == pair]
-                draw_line(axes, line, outlines[name]["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
+                marks += line_marks(line, outlines[name]["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
             share = (time - picks[0]) / ((picks[-1] - picks[0]) or 1.0)
-            axes.set_title(f"{names[name]}, {100.0 * share:.0f} % of {'the engagement' if whole[name] else 'its part'}, {1e-3 * force_of(now):.1f} kN in all",
-                           fontsize=11, loc="left")
-    for axes in grid[:, 0]:
-        axes.set_ylabel("height, mm")
-    for axes in grid[-1]:
-        axes.set_xlabel("cone distance R, mm")
-    # room for the forces on the right, and at least as wide as a panel of the grid
-    wide, tall = (np.array([limits(outlines[name])[axis] for name in chosen]) for axis in (0, 1))
-    toe, heel, height = wide.min(), wide.max(), np.ptp(tall)
-    for axes in grid.flat:
-        axes.set_xlim(toe, max(heel + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * height))
-    bar = figure.colorbar(ScalarMappable(scale, colours), ax=grid, shrink=0.5, aspect=40, pad=0.01, extend="max")
-    bar.set_label("Hertz pressure, MPa")
-    legend(figure, grid[0, 0])
+            panels.append(flank(cones, heights, outlines[name], marks, f"{names[name]}, {100.0 * share:.0f} % of {'the engagement' if whole[name] else 'its part'}, "
+                                f"{1e-3 * force_of(now):.1f} kN in all", xlim=ends))
+    grid = zip(panels[:INSTANTS], panels[INSTANTS:]) if len(chosen) == 2 else zip(panels[::2], panels[1::2])
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if of_documentation else ""
-    style.caption(figure, f"Lines of contact on the planet's flank while {words_of(data)[0]}, "
-                  f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
-                  f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
-                  "each line's load, a circle for the pair that is followed and a square for its neighbours.", LEGEND)
-    style.save(figure, folder / "contact_lines.png", shaded=True)
+    picture(grid, f"Lines of contact on the planet's flank while {words_of(data)[0]}, "
+            f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
+            f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
+            "each line's load, a circle for the pair that is followed and a square for its neighbours.",
+            folder / "contact_lines.png", (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, shaded=True, legend="upper center",
+            bar={"norm": scale, "cmap": colours, "label": "Hertz pressure, MPa", "shrink": 0.5, "aspect": 40, "extend": "max"})
 
 
-def draw_line(axes, line, heel, colour, indent):
-    """Draws the line of contact of one pair with its force beyond the heel. The line is as wide as the contact, or the smallest visible
-    width."""
+def line_marks(line, heel, colour, indent):
+    """Line of contact of one pair with its force beyond the heel. The line is as wide as the contact, or the smallest visible width."""
     for row in line:
         half = max(row["half_width"], THINNEST)
-        ends = [row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]]
-        heights = [row["planet_height"] * end / row["cone"] for end in ends]
-        corners = [(ends[k], heights[k] + side * half) for k, side in [(0, -1), (1, -1), (1, 1), (0, 1)]]
-        axes.add_patch(Polygon(corners, lw=0.4, color=colour(row["pressure"])))
+        ends = np.array([row["cone"] - 0.5 * row["width"], row["cone"] + 0.5 * row["width"]])
+        heights = row["planet_height"] * ends / row["cone"]
+        yield Mark("fill", [*ends, *ends[::-1]], [*(heights - half), *(heights[::-1] + half)], lw=0.4, color=colour(row["pressure"]))
     force = force_of(line)
     centre = sum(row["line_load"] * row["width"] * row["cone"] for row in line) / force
     height = np.interp(centre, [row["cone"] for row in line], [row["planet_height"] for row in line])
     own = bool(line[0]["followed"])
-    axes.plot(centre, height, ls="", marker="o" if own else "s", mfc="white", mec=CENTROID, ms=6, zorder=6)
+    yield curve(centre, height, None, None, "o" if own else "s", mfc="white", mec=CENTROID, ms=6, zorder=6)
     size = f"{1e-3 * force:.1f} kN" if force >= 50.0 else f"{force:.0f} N"
     name = f"{'this pair' if own else 'neighbour'} {size}{', tip corner' if line[0]['corner'] else ''}"
     # on the ray through the apex that the line follows
-    axes.annotate(name, (heel, line[-1]["planet_height"] * heel / line[-1]["cone"]), xytext=(indent, 0),
-                  textcoords="offset points", fontsize=9.5, va="center", annotation_clip=False)
+    yield Mark("annotate", name, (heel, line[-1]["planet_height"] * heel / line[-1]["cone"]), xytext=(indent, 0), textcoords="offset points",
+               fontsize=9.5, va="center", annotation_clip=False)
 
 
 def force_of(rows):

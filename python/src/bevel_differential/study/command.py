@@ -27,7 +27,6 @@ def run(arguments: argparse.Namespace) -> int:
     from ..writing import in_folder, write_whole
 
     need()
-    from .. import style
     from .comparison import Comparison
     from .figures import draw
     from .simulation import simulate_cases, start_values
@@ -36,7 +35,6 @@ def run(arguments: argparse.Namespace) -> int:
     scenes = () if arguments.quick else [case.scene for case in CASES.values()]
     whole = DRAWN if scenes else 1.0
     fmu = Fmu.of(arguments.fmu)
-    style.apply()
     with in_folder(arguments.out) as folder, shown(arguments.progress) as progress:
         runs = simulate_cases(fmu, folder, part(progress, 0.0, SIMULATED / DRAWN * whole))
         draw(folder, runs, part(progress, SIMULATED / DRAWN * whole, whole))
