@@ -186,8 +186,3 @@ def shades(*colours: tuple[str, float]) -> Any:
     from matplotlib.colors import LinearSegmentedColormap, to_rgba
 
     return LinearSegmentedColormap.from_list("shades", [to_rgba(*each) for each in colours])
-
-
-def sentence(text: str) -> str:
-    """A conclusion as a sentence."""
-    return f"{text[0].upper()}{text[1:]}."

@@ -14,12 +14,11 @@ import numpy as np
 from ..losses import inputs
 from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
-from ..panel import CYCLE, GREY, INK, PALE_BLUE, RED, Axis, Mark, Panel, curve, picture, sentence
-from ..records import write
+from ..panel import CYCLE, GREY, INK, PALE_BLUE, RED, Axis, Mark, Panel, curve
 from ..report import words
 from ..scene import Scene
 from ..values import DifferentialError
-from .steady import DIFFERENCE, SPEED, largest_torque, means
+from .steady import DIFFERENCE, SPEED, largest_torque, means, written
 
 COAST, COEFFICIENT, VISCOUS = "limited_slip.coast_ratio", "limited_slip.torque_coefficient", "limited_slip.viscous_torque"
 # carrier torques, fractions of the scene's torque from coast to drive; 0 between them
@@ -54,9 +53,7 @@ def ramps(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     if scene.value("limited_slip.preload") > 0.0:
         conclusion += (". At small torque only the preload remains, so the ratio of the torques grows there; it has no value where they oppose "
                  "each other")
-    write(out.with_suffix(".csv"), RAMP_HEAD, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
-    _draw_ramps(scene, out, rows, of_torque, conclusion)
-    return conclusion
+    return written(scene, out, conclusion, [_ramp_panels(rows, of_torque)], 5.4, "differentiating", RAMP_HEAD, rows)
 
 
 def ramp(ratio: float) -> str:
@@ -78,9 +75,7 @@ def clutch_curve(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     rows = [(curve.name, slip, 0.5 * (right - left if slip else most - least))
             for (curve, slip), (left, right, _, least, most) in zip(points, found)]
     conclusion = _conclusion(rows, given, of_torque, of_slip)
-    write(out.with_suffix(".csv"), CURVE_HEAD, rows, conclusion)
-    _draw_curves(scene, out, rows, given, of_torque, of_slip, conclusion)
-    return conclusion
+    return written(scene, out, conclusion, [[_curve_panel(rows, given, of_torque, of_slip)]], 5.6, "differentiating", CURVE_HEAD, rows)
 
 
 @dataclass(frozen=True)
@@ -147,7 +142,7 @@ def _conclusion(rows, given, of_torque, of_slip):
     return f"{'; '.join(sentences)}. Only a pack with a breakaway torque has torque without slip"
 
 
-def _draw_ramps(scene, out, rows, of_torque, conclusion):
+def _ramp_panels(rows, of_torque):
     looks = ((PALE_BLUE, 7.0, "-"), (RED, 2.8, "-"), (INK, 1.4, "--"))
 
     def panel(label, column, **look):
@@ -156,21 +151,19 @@ def _draw_ramps(scene, out, rows, of_torque, conclusion):
         return Panel(Axis(f"{of_torque.label} (coast < 0 < drive)", of_torque.values), label,
                      [*curves, Mark("axvline", 0.0, color=GREY, linewidth=0.8)], **look)
 
-    picture([[panel(of_torque.named("torque of slower wheel − faster wheel"), 4, legend="upper center", ylim=(0.0, None)),
-              panel("torque bias ratio T_high/T_low", 5, legend="", ylim=(1.0, None))]],
-            sentence(conclusion), out.with_suffix(".png"), 5.4, title=f"{scene.name}, differentiating")
+    return [panel(of_torque.named("torque of slower wheel − faster wheel"), 4, legend="upper center", ylim=(0.0, None)),
+            panel("torque bias ratio T_high/T_low", 5, legend="", ylim=(1.0, None))]
 
 
-def _draw_curves(scene, out, rows, given, of_torque, of_slip, conclusion):
+def _curve_panel(rows, given, of_torque, of_slip):
     # the last curve covers the one before in parts
     marks = [curve(*zip(*(row[1:] for row in rows if row[0] == each.name)), each.name, colour, linewidth=1.7 if each.holds else 3.5)
              for each, colour in zip(given, CYCLE)]
     points = {point for each in given for point in each.points}
     if points:
         marks.append(curve(*zip(*points), "given points", INK, "o", fillstyle="none", markersize=9, clip_on=False))
-    panel = Panel(of_slip.named("slip relative to the carrier"), of_torque.named("torque of a clutch pack"), marks, xlim=(0.0, None),
-                  ylim=(0.0, None))
-    picture([[panel]], sentence(conclusion), out.with_suffix(".png"), 5.6, title=f"{scene.name}, differentiating")
+    return Panel(of_slip.named("slip relative to the carrier"), of_torque.named("torque of a clutch pack"), marks, xlim=(0.0, None),
+                 ylim=(0.0, None))
 
 
 def _by_ratio(rows):

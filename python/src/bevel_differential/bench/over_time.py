@@ -8,8 +8,9 @@ import numpy as np
 
 from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
-from ..panel import Axis, Panel, curve, picture, sentence
+from ..panel import Axis, Panel, curve
 from ..scene import Scene
+from .steady import drawn
 
 # friction that rises with speed, as with a fresh oil that has a friction modifier
 RISING = {"limited_slip.static_ratio": 1.0, "limited_slip.stribeck_speed": 0.0, "limited_slip.slip_slope": 0.02}
@@ -82,4 +83,4 @@ def _written(scene: Scene, record: np.ndarray, out: Path, conclusion: str, panel
     time = Axis("time, s")
     rows = [[Panel(time, axis, [curve(record["time"], values, name, linewidth=1.2) for name, values in curves.items()], xmargin=0.0)]
             for axis, curves in panels]
-    picture(rows, sentence(conclusion), out.with_suffix(".png"), 6.4, title=scene.name)
+    drawn(scene, out, conclusion, rows, 6.4)

@@ -1,6 +1,6 @@
 """Steady tests: torque bias and breakaway over torque, at three temperatures, in both directions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -12,7 +12,7 @@ from ..losses import inputs
 from ..losses.axes import axes
 from ..losses.point import FIGURES, PointTask, benched
 from ..losses.tables import bias as ratio_of
-from ..panel import CYCLE, Panel, curve, picture, sentence
+from ..panel import CYCLE, Panel, curve, picture
 from ..records import write
 from ..scene import Scene
 from ..values import DifferentialError, Number
@@ -33,7 +33,7 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     conclusion = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
             f"{of_torque.text(torques[-1])}: preload determines it at small torque, friction that grows with the torque at large torque. "
             "Left and right agree where solid and dashed lines meet")
-    return _written(scene, out, rows, conclusion, "differentiating", 5)
+    return written(scene, out, conclusion, [[_panel(scene, rows, "torque bias ratio T_high/T_low", 5)]], 5.6, "differentiating", HEAD, rows)
 
 
 def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
@@ -55,7 +55,7 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
             f"{of_torque.text(torques[-1])}; breakaway needs {min(over):.2f} to "
             f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}. This is not a TBR, because "
             "nothing differentiates")
-    return _written(scene, out, rows, conclusion, "breaking loose", 6)
+    return written(scene, out, conclusion, [[_panel(scene, rows, "locking effect, %", 6)]], 5.6, "breaking loose", HEAD, rows)
 
 
 def largest_torque(scene: Scene) -> float:
@@ -89,14 +89,24 @@ def _range(rows, torque):
     return f"{text} or none" if known and len(known) < len(ratios) else text
 
 
-def _written(scene, out, rows, conclusion, doing, column):
+def _panel(scene, rows, label, column):
     of_torque, _, _, warmth = axes(scene)
-    write(out.with_suffix(".csv"), HEAD, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
     curves = []
     for temperature, colour in zip(TEMPERATURES, CYCLE):
         for sign, side, form in ((1.0, "left", "o-"), (-1.0, "right", "o--")):
             torques, values = zip(*((row[0], row[column]) for row in rows if row[2] == temperature and row[1] * sign > 0.0))
             curves.append(curve(torques, values, f"{warmth.text(temperature)}, {side} wheel faster", colour, form))
-    panel = Panel(of_torque, ("torque bias ratio T_high/T_low", "locking effect, %")[column - 5], curves)
-    picture([[panel]], sentence(conclusion), out.with_suffix(".png"), 5.6, title=f"{scene.name}, {doing}")
+    return Panel(of_torque, label, curves)
+
+
+def written(scene: Scene, out: Path, conclusion: str, panels: Iterable[Iterable[Panel]], height: float, doing: str, head: Sequence[str],
+            rows: Iterable[Sequence[Any]]) -> str:
+    """Writes the numbers and the figure of a test; returns its conclusion, which is also the caption. `doing`: what the differential does."""
+    write(out.with_suffix(".csv"), head, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
+    drawn(scene, out, conclusion, panels, height, f", {doing}")
     return conclusion
+
+
+def drawn(scene: Scene, out: Path, conclusion: str, panels: Iterable[Iterable[Panel]], height: float, doing: str = "") -> None:
+    """Draws the figure of a test."""
+    picture(panels, f"{conclusion[0].upper()}{conclusion[1:]}.", out.with_suffix(".png"), height, title=f"{scene.name}{doing}")

@@ -22,6 +22,7 @@ LEVELS, NOTHING = 10, 1e-9
 SAME = 1e-6
 # a ratio with a larger range than this has a logarithmic axis
 DECADE = 4.0
+ERRED = ("left torque", "right torque", "loss")
 SIDES = ("left wheel faster", "right wheel faster")
 
 
@@ -136,7 +137,7 @@ def _label_positions(curves, speed, torque):
 def over_difference(result: MeasuredMap) -> Picture:
     """Loss and locking torque over the signed difference, with the stuck interval at 0."""
     slip = result.lines[SLIP_AXIS]
-    at = [_level(result, index) for index in range(4)]
+    at = _levels(result)
     first, last = (result.slipping[0][at[0], at[1], index, -1, :2] for index in (0, -1))
     of_torque, _, of_slip, _ = axes_of(result.scene)
     falls = [abs(float(left - right)) for left, right in (first, last)]
@@ -153,14 +154,13 @@ def over_difference(result: MeasuredMap) -> Picture:
                    f"{warmth_text(result, result.lines[TEMPERATURE_AXIS][-1])}). Points are lines of the map.", 5.4)
 
 
-def _level(result, axis):
-    """Line of an axis that represents it when others vary: the largest torque, the middle of the others."""
-    line = result.lines[axis]
-    return largest(line) if axis == TORQUE_AXIS else len(line) // 2
+def _levels(result):
+    """Lines of the axes that represent them when others vary: the largest torque, the middle of the others."""
+    return [largest(line) if axis == TORQUE_AXIS else len(line) // 2 for axis, line in enumerate(result.lines)]
 
 
 def _point(result):
-    torque, speed = (result.lines[axis][_level(result, axis)] for axis in (TORQUE_AXIS, SPEED_AXIS))
+    torque, speed = (line[k] for line, k in zip(result.lines, _levels(result)[:SLIP_AXIS]))
     of_torque, of_speed, *_ = axes_of(result.scene)
     return f"{of_torque.text(torque)} and {of_speed.text(speed)}"
 
@@ -189,16 +189,16 @@ def _over_difference(result, at, across, is_first, is_last):
 
 def ratio(result: MeasuredMap) -> Picture:
     """Torque bias ratio over torque for both signs of the difference, during slip and at breakaway."""
-    slip, speed = result.lines[SLIP_AXIS], result.lines[SPEED_AXIS][_level(result, SPEED_AXIS)]
+    slip, at = result.lines[SLIP_AXIS], _levels(result)[SPEED_AXIS]
     _, of_speed, of_slip, _ = axes_of(result.scene)
     ends = []
     for sign, side in zip(SIGNS, SIDES):
-        found = [one for one in (_ratio(result.slipping[SIGNS.index(sign)][k, _level(result, SPEED_AXIS), -1, warmth, :2])
+        found = [one for one in (_ratio(result.slipping[SIGNS.index(sign)][k, at, -1, warmth, :2])
                                  for k in range(len(result.lines[TORQUE_AXIS])) for warmth in temperatures(result)) if np.isfinite(one)]
         ends.append(f"{side} {words.number(min(found))} to {words.number(max(found))}" if found else
                     f"{side} none, as the torques oppose each other")
     return picture("ratio", [_ratio_panels(result)],
-                   f"Torque bias ratio T_high/T_low at {of_speed.text(speed)}. Solid: at the "
+                   f"Torque bias ratio T_high/T_low at {of_speed.text(result.lines[SPEED_AXIS][at])}. Solid: at the "
                    f"largest difference, {of_slip.text(slip[-1])} ({'; '.join(ends)}); dashed: at the smallest, "
                    f"{of_slip.text(slip[0])}; dotted with crosses: where the stuck differential breaks loose. Where a curve "
                    "ends, the torques of the wheels oppose each other or one vanishes, and there is no ratio.", 3.8)
@@ -209,7 +209,7 @@ def _ratio(torques):
 
 
 def _ratio_panels(result):
-    speed, torque, of_torque = _level(result, SPEED_AXIS), result.lines[TORQUE_AXIS], axes_of(result.scene)[TORQUE_AXIS]
+    speed, torque, of_torque = _levels(result)[SPEED_AXIS], result.lines[TORQUE_AXIS], axes_of(result.scene)[TORQUE_AXIS]
     sides, seen = [], []
     for sign, values, loose in zip(SIGNS, result.slipping, (3, 4)):
         marks = []
@@ -233,7 +233,7 @@ def _ratio_panels(result):
 
 def stuck(result: MeasuredMap) -> Picture:
     """Interval in which the differential stays stuck, over torque or speed."""
-    at = [_level(result, axis) for axis in range(4)]
+    at = _levels(result)
     of_torque, _, of_slip, _ = axes_of(result.scene)
     ends = [f"{words.number(of_torque.values(low))} to {of_torque.text(high)} at {label(result, warmth)}"
             for warmth in temperatures(result) for low, high in [result.stuck[at[0], at[1], 0, warmth, 3:5]]]
@@ -249,7 +249,8 @@ def _stuck_panels(result):
     of_axis, locking = axes_of(result.scene)[axis], axes_of(result.scene)[TORQUE_AXIS].named("T_left − T_right")
     over = result.lines[axis]
     for warmth, _, text in _looks(result):
-        at = [slice(None) if index == axis else _level(result, index) for index in (TORQUE_AXIS, SPEED_AXIS)]
+        at = _levels(result)[:SLIP_AXIS]
+        at[axis] = slice(None)
         left, right, _, *ends = result.stuck[(*at, 0, warmth)].T
         low, high = (2.0 * end - left - right for end in ends)
         slipping = [values[(*at, 0, warmth)] for values in result.slipping]
@@ -259,15 +260,20 @@ def _stuck_panels(result):
             text, legend="")
 
 
+def shares(result: MeasuredMap) -> list[Mark]:
+    """Shares of the unseen points, %, up to each error over the bound, which is a red line."""
+    curves = [curve(np.sort(column), 100.0 * np.arange(1, len(column) + 1) / max(len(column), 1), name, drawstyle="steps-post")
+              for column, name in zip(result.errors.T, ERRED)]
+    return [*curves, Mark("axvline", 1.0, color=RED, ls="--")]
+
+
 def error(result: MeasuredMap) -> Picture:
     """Distribution of the error at the unseen points, and the error over the difference of speeds."""
     worst = result.errors.max(axis=1)
     index, half = int(np.argmax(worst)), float(np.median(worst))
     of_slip = axes_of(result.scene)[SLIP_AXIS]
-    shares = [Mark("step", np.sort(column), 100.0 * np.arange(1, len(column) + 1) / len(column), where="post", label=name)
-              for column, name in zip(result.errors.T, ("left torque", "right torque", "loss"))]
     return picture("error", [[
-        Panel(f"error over {result.bound}", "share of the points, %", [*shares, Mark("axvline", 1.0, color=RED, ls="--")], legend="upper left",
+        Panel(f"error over {result.bound}", "share of the points, %", shares(result), legend="upper left",
               xscale="log"),
         Panel(of_slip, "largest error over the bound", [curve(result.unseen[:, SLIP_AXIS], worst, None, BLUE, "."),
                                                         Mark("axhline", 1.0, color=RED, ls="--")], ylim=(0.0, None))]],

@@ -4,17 +4,17 @@ from pathlib import Path
 
 import numpy as np
 
-from ..panel import CYCLE, RED, Axis, Mark, Panel, curve, picture
+from ..panel import CYCLE, Axis, Panel, curve, picture
 from ..values import FileName
 from . import MeasuredMap
 from .axes import axes as axes_of
 from .cuts import along, some
+from .figures import shares
 from .loss_map import SIGNS
 from .tables import bias
 
 # maximum number of temperatures with curves
 MOST_CURVES = 4
-NAMES = ["left torque", "right torque", "loss"]
 # ratio from which its axis is logarithmic
 DECADE = 10.0
 # smallest error of interest, as a fraction of the bound
@@ -36,8 +36,6 @@ def draw(result: MeasuredMap, file: FileName) -> Path:
             ratios.append(curve(at, ratio, label, CYCLE[number], form, **look))
             at, values = along(result, 2, fixed, sign)
             losses.append(curve(sign * at, values[:, 2], label, CYCLE[number], **look))
-    errors = [curve(np.sort(column), 100.0 * np.arange(1, len(column) + 1) / max(len(column), 1), name)
-              for column, name in zip(result.errors.T, NAMES)]
     # 1 is no bias
     ends = {"yscale": "log"} if highest > DECADE else {"ylim": (1.0, 1.0 + 1.2 * max(highest - 1.0, 0.05))}
     picture([[
@@ -45,7 +43,7 @@ def draw(result: MeasuredMap, file: FileName) -> Path:
               f"Bias at {of_speed.text(middle[1], 3)},\ndifference {of_slip.text(middle[2], 3)}", **ends),
         Panel(of_slip, Axis("power loss, kW", lambda loss: loss / 1e3), losses,
               f"Loss at {of_torque.text(middle[0])},\n{of_speed.text(middle[1], 3)}"),
-        Panel(f"error over the bound, {result.bound}", "share of the unseen points, %", [*errors, Mark("axvline", 1.0, color=RED, ls="--")],
+        Panel(f"error over the bound, {result.bound}", "share of the unseen points, %", shares(result),
               "Measured error", xscale="log", xlim=(max(SMALLEST, 0.9 * np.min(result.errors, initial=1.0)), None)),
     ]], "Left: solid with the left wheel faster, dashed with the right wheel faster; where both meet, the differential "
         f"is symmetric. Middle: the loss is lowest where nothing slips. Right: {result.error}.", file, 5.6)

@@ -21,7 +21,6 @@ from .tables import BETWEEN, MEANINGS, bias
 # number of unseen points that are listed
 WORST = 10
 AXES = ("carrier torque", "carrier speed", "difference of the wheels' speeds", "temperature of oil and surfaces")
-ERRED = ("left torque", "right torque", "loss")
 
 
 def write(result: MeasuredMap, file: FileName) -> Path:
@@ -163,7 +162,7 @@ def _error(result):
         # two torques and a loss, which is always in W
         pairs = [" / ".join(words.number(_value(result, 0, found[index, k]) if k < 2 else found[index, k]) for found in (result.found, at))
                  for k in range(MAPPED)]
-        rows.append((ERRED[int(np.argmax(errors))], words.number(errors.max(), 3),
+        rows.append((figures.ERRED[int(np.argmax(errors))], words.number(errors.max(), 3),
                      *(words.number(_value(result, axis, value)) for axis, value in enumerate(point)), *pairs))
     torque, speed, slip, warmth = (axis.unit for axis in axes_of(result.scene))
     found.add(Table(("worst in", "error", f"torque, {torque}", f"speed, {speed}", f"difference, {slip}", f"oil, {warmth}",

@@ -177,14 +177,9 @@ def _largest(trial):
 def _table(run, tried):
     rows = []
     for trial in tried:
-        if trial.refused:
-            rows.append((trial.name, f"refused by the FMU: {trial.refused}", "", ""))
-        elif not trial.changes:
-            rows.append((trial.name, _nothing(run, trial), f"{words.number(trial.calls, 2)} ×", f"{words.number(trial.seconds, 2)} ×"))
-        else:
-            changes = [(name, change) for name, change in _largest(trial)[:NAMED] if abs(change) > trial.nothing]
-            largest = [f"{name} {words.signed(100.0 * change)} %" for name, change in changes]
-            rows.append((trial.name, "; ".join(largest), f"{words.number(trial.calls, 2)} ×", f"{words.number(trial.seconds, 2)} ×"))
+        changes = [f"{name} {words.signed(100.0 * change)} %" for name, change in _largest(trial)[:NAMED] if abs(change) > trial.nothing]
+        what = f"refused by the FMU: {trial.refused}" if trial.refused else "; ".join(changes) or _nothing(run, trial)
+        rows.append((trial.name, what, *("" if trial.refused else f"{words.number(cost, 2)} ×" for cost in (trial.calls, trial.seconds))))
     return Table(("effect", "largest changes, relative to the largest value of the kind", "evaluations", "time"), rows,
                  "Evaluations of the tooth forces and time, relative to those of the scene. Times of short runs include the start of the "
                  "simulation, in which the tables of new gears are calculated.", left=2)
