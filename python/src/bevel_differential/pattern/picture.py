@@ -47,16 +47,32 @@ THINNEST = 0.12
 UNITS = {**dict.fromkeys(("cone", "width", "height", "planet_height", "side_height", "radius", "half_width", "centroid", "toe_cone",
                           "toe_height", "heel_cone", "heel_height"), 1e3), "line_load": 1e-3, "pressure": 1e-6, "force": 1e-3}
 
+
+class Case:
+    """Case of a picture. `result`: its findings; `outline`: rows of its flank by mark; `pattern` and `contacts`: its rows, `followed` those of
+    the followed pair. `wide` and `high`: ranges of cone distance and height of the flank's panel, mm."""
+
+    def __init__(self, result, tables):
+        self.name, self.title, self.result = result["case"], result["title"], result
+        self.pattern, self.contacts, outline = ([row for row in rows if row["case"] == self.name] for rows in tables)
+        self.outline = {row["mark"]: row for row in outline}
+        self.followed = [row for row in self.contacts if row["followed"]]
+        tip, root = self.outline["tip"], self.outline["root"]
+        self.wide, self.high = (tip["toe_cone"] - 1.3, tip["heel_cone"] + 1.3), (root["heel_height"] - 0.3, tip["heel_height"] + 0.4)
+
+    @property
+    def line_load(self):
+        """Cone distances and line loads at the instant of the findings, shape (points, 2)."""
+        return np.array([(row["cone"], row["line_load"]) for row in self.followed if row["time"] == self.result["time"]])
+
+
 def draw(folder: Path, of_documentation: bool) -> list[str]:
     """Draws the patterns whose files are in `folder`. Returns the names of the pictures. `of_documentation`: true for the cases of the
     documentation, which have remarks; scenes of users may have the same names."""
-    data = {name: [_drawn(row) for row in read(folder / f"{name}.csv")[1]] for name in ["pattern", "contacts", "summary", "outline"]}
-    outlines = {}
-    for row in data["outline"]:
-        outlines.setdefault(row["case"], {})[row["mark"]] = row
-    cases = [(row["case"], row["title"]) for row in data["summary"]]
-    patterns(folder, data, outlines, cases, REMARKS if of_documentation else {})
-    lines(folder, data, outlines, cases, of_documentation)
+    results, *tables = ([_drawn(row) for row in read(folder / f"{name}.csv")[1]] for name in ["summary", "pattern", "contacts", "outline"])
+    cases = [Case(result, tables) for result in results]
+    patterns(folder / "contact_pattern.png", cases, REMARKS if of_documentation else {})
+    lines(folder / "contact_lines.png", cases, of_documentation)
     return ["contact_pattern.png", "contact_lines.png"]
 
 
@@ -79,75 +95,65 @@ def tooth(outline, names=False):
             yield Mark("text", x, y, name, rotation=rotation, ha=align[0], va=align[1], fontsize=9.5)
 
 
-def flank(x, y, outline, marks, title="", **look):
+def flank(x, y, case, marks, title="", **look):
     """Panel of a flank, with equal scales in both directions."""
-    wide, high = limits(outline)
-    return Panel(x, y, marks, title, legend="", grid="", aspect="equal", anchor="N", **{"xlim": wide, "ylim": high, **look})
+    return Panel(x, y, marks, title, legend="", grid="", aspect="equal", anchor="N", **{"xlim": case.wide, "ylim": case.high, **look})
 
 
-def limits(outline):
-    """Ranges of cone distance and height of a flank's panel, mm."""
-    tip = outline["tip"]
-    return (tip["toe_cone"] - 1.3, tip["heel_cone"] + 1.3), (outline["root"]["heel_height"] - 0.3, tip["heel_height"] + 0.4)
-
-
-def patterns(folder, data, outlines, cases, remarks):
+def patterns(file, cases, remarks):
     columns = min(COLUMNS, len(cases))
     rows = -(-len(cases) // columns)
     # height of a flank and of its line load, over its width: all flanks have the same scale in both directions
-    shape = max(np.ptp(high) / np.ptp(wide) for wide, high in (limits(outlines[name]) for name, _ in cases))
+    shape = max(np.ptp(case.high) / np.ptp(case.wide) for case in cases)
     room = (WIDTH - BESIDE * columns) / columns
     width = min(room, HIGHEST / shape)
     # flanks that would be too high are narrower than their column
     margin = 1e-3 + (0.5 * (room - width) / (width + BESIDE) if columns == 1 else 0.0)
-    most_load = max(max(load for _, load in strip(data, name)) for name, _ in cases)
-    engaged, rated = words_of(data)
-    scale = Normalize(0.0, top_of(data, cases))
-    panels = [_pattern(data, outlines[name], name, title, scale, remarks.get(name, ""), most_load, i % columns == 0, i >= len(cases) - columns)
-              for i, (name, title) in enumerate(cases)]
+    most_load = max(case.line_load[:, 1].max() for case in cases)
+    engaged, rated = words_of(cases)
+    scale = Normalize(0.0, top_of(cases))
+    panels = [_pattern(case, scale, remarks.get(case.name, ""), most_load, i % columns == 0, i >= len(cases) - columns)
+              for i, case in enumerate(cases)]
     panels += [None] * (rows * columns - len(panels))
     grid = [[None, *panels[i:i + columns], None] for i in range(0, len(panels), columns)]
-    where = ("the study's turn (835 N·m on each half-shaft)" if remarks else f"the scene {cases[0][1]}" if len(cases) == 1 else
+    where = ("the study's turn (835 N·m on each half-shaft)" if remarks else f"the scene {cases[0].title}" if len(cases) == 1 else
              "the given scenes")
     shared = "One scale for all panels; only" if len(cases) > 1 else "Only"
     errors = ("Offsets bring one end of the face into contact first, and the load moves there; an error of the shaft angle turns the "
               "gears about their common apex, and all sections change alike. A pin out of place loads one planet and unloads the "
               "opposite one. ") if remarks else ""
-    picture(grid, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(data)}. The planet's flank is a "
+    picture(grid, f"Contact patterns of planet 1 with the left side gear in {where}, {teeth_of(cases)}. The planet's flank is a "
             f"trapezoid with the small end (toe) left; colour is the largest pressure at each spot while {engaged}, "
             f"as marking compound would show it. {shared} the seam at the base "
             f"circle exceeds the scale, because the flank has no radius there. Blue: line load over the face {rated}. "
             f"Red: the pair's force and its centroid, measured from mid-face toward the heel. {errors}Where a "
             "tip corner touches, the pressure is calculated with the flanks' radii; the true one is higher.",
-            folder / "contact_pattern.png", (width * (shape + LOAD_HEIGHT) + AROUND) * rows + 2.5, shaded=True, legend="upper center",
+            file, (width * (shape + LOAD_HEIGHT) + AROUND) * rows + 2.5, shaded=True, legend="upper center",
             width_ratios=[margin, *[1.0] * columns, margin],
             bar={"norm": scale, "cmap": PRESSURE, "label": "largest Hertz pressure of the engagement, MPa", "orientation": "horizontal",
                  "shrink": 1.0 if columns == 1 else 0.5, "aspect": 50, "extend": "max"})
 
 
-def _pattern(data, outline, name, title, scale, remark, most_load, is_first, is_lowest):
+def _pattern(case, scale, remark, most_load, is_first, is_lowest):
     """Flank with the largest pressure at each position, and the line load below it."""
-    rows = [one for one in data["pattern"] if one["case"] == name]
-    result = next(one for one in data["summary"] if one["case"] == name)
-    cones = len({row["cone"] for row in rows})
-    cone, height, pressure = [np.array([row[key] for row in rows]).reshape(cones, -1) for key in ["cone", "height", "pressure"]]
-    load = line_load(outline["tip"], np.array(strip(data, name)), result, most_load, is_first, is_lowest)
+    cones = len({row["cone"] for row in case.pattern})
+    cone, height, pressure = [np.array([row[key] for row in case.pattern]).reshape(cones, -1) for key in ["cone", "height", "pressure"]]
+    load = line_load(case, most_load, is_first, is_lowest)
     # the line load is a part of the flank's panel, so that both show the same places along the face whatever the shape of the flank
-    wide, high = limits(outline)
-    own = LOAD_HEIGHT * np.ptp(wide) / np.ptp(high)
-    return flank("", "height, mm" if is_first else "", outline, [
-        Mark("pcolormesh", cone, height, np.ma.masked_less(pressure, 1.0), cmap=PRESSURE, norm=scale, shading="gouraud"), *tooth(outline, True),
+    own = LOAD_HEIGHT * np.ptp(case.wide) / np.ptp(case.high)
+    return flank("", "height, mm" if is_first else "", case, [
+        Mark("pcolormesh", cone, height, np.ma.masked_less(pressure, 1.0), cmap=PRESSURE, norm=scale, shading="gouraud"), *tooth(case.outline, True),
         Mark("tick_params", labelbottom=False),
-        Mark("set_title", f"{title} ({result['flank']} flank)", pad=19 if remark else None),
+        Mark("set_title", f"{case.title} ({case.result['flank']} flank)", pad=19 if remark else None),
         # between flank and title, whatever the height of the flank
         Mark("annotate", remark, (0.0, 1.0), xycoords="axes fraction", xytext=(0, 5), textcoords="offset points", fontsize=SMALL, color=TEXT,
              annotation_clip=False),
         Mark(lambda axes: load.draw(axes.inset_axes([0.0, -1.2 * own, 1.0, own], sharex=axes)))])
 
 
-def words_of(data):
+def words_of(cases):
     """Phrases for captions: the motion of the pairs, and the instant of their line loads."""
-    whole = [bool(row["whole"]) for row in data["summary"]]
+    whole = [bool(case.result["whole"]) for case in cases]
     engaged, rated = "one pair goes from first touch to parting", "while the pair is nearest to the pitch line"
     if all(whole):
         return engaged, rated
@@ -155,25 +161,26 @@ def words_of(data):
     return (f"{engaged}, or {partly}", f"{rated}, or {largest}") if any(whole) else (partly, largest)
 
 
-def teeth_of(data):
+def teeth_of(cases):
     """Kinds of teeth in all cases, for captions."""
-    return " or ".join(dict.fromkeys(TEETH[row["teeth"]] for row in data["summary"]))
+    return " or ".join(dict.fromkeys(TEETH[case.result["teeth"]] for case in cases))
 
 
-def line_load(tip, points, result, most, is_first, is_lowest):
+def line_load(case, most, is_first, is_lowest):
     """Panel of the load over the face, and the force at its centroid."""
-    centroid = 0.5 * (tip["toe_cone"] + tip["heel_cone"]) + result["centroid"]
+    result, points = case.result, case.line_load.T
+    centroid = 0.5 * sum(case.wide) + result["centroid"]
     shift = f"{round(result['centroid'], 1) + 0.0:+.1f}".replace("-", "−")
     return Panel("cone distance R, mm" if is_lowest else "", "line load,\nN/mm" if is_first else "", [
-        Mark("fill_between", *points.T, 0.0, color=LOAD, alpha=0.25, lw=0), curve(*points.T, None, LOAD, lw=1.5),
+        Mark("fill_between", *points, 0.0, color=LOAD, alpha=0.25, lw=0), curve(*points, None, LOAD, lw=1.5),
         Mark("axvline", centroid, color=CENTROID, lw=1.3),
         Mark("text", centroid + 0.15, 1.4 * most, f"{result['force']:.1f} kN, {shift} mm", color=CENTROID, fontsize=SMALL, va="top")],
         ylim=(0, 1.45 * most))
 
 
-def top_of(data, cases):
+def top_of(cases):
     """Upper end of the colours, MPa: the largest pressure outside the seam at the foot, where the flanks' radius vanishes."""
-    shown = [row for row in data["contacts"] if row["followed"] and row["case"] in dict(cases)]
+    shown = [row for case in cases for row in case.followed]
     # relative radii per cone distance; the contact nearest to the pitch point gives the value there
     pitch = min(shown, key=lambda row: abs(row["s"]))
     least = LEAST_RADIUS * pitch["radius"] / pitch["cone"]
@@ -181,48 +188,39 @@ def top_of(data, cases):
     return 100.0 * np.ceil(max(sound or [row["pressure"] for row in shown]) / 100.0)
 
 
-def strip(data, name):
-    """Cone distance and line load at the instant of the findings."""
-    rows = [row for row in data["contacts"] if row["case"] == name and row["followed"]]
-    time = next(row["time"] for row in data["summary"] if row["case"] == name)
-    return [(row["cone"], row["line_load"]) for row in rows if row["time"] == time]
-
-
-def lines(folder, data, outlines, cases, of_documentation):
-    names = dict(cases)
-    chosen = [name for name in (LINES if of_documentation else names) if name in names][:2]
+def lines(file, cases, of_documentation):
+    named = {case.name: case for case in cases}
+    chosen = [named[name] for name in (LINES if of_documentation else named) if name in named][:2]
     # one column for each of two cases; a single case fills two columns, row by row
     high = INSTANTS if len(chosen) == 2 else INSTANTS // 2
-    colours, scale = colormaps[PRESSURE], Normalize(0.0, top_of(data, cases))
-    whole = {row["case"]: bool(row["whole"]) for row in data["summary"]}
+    colours, scale = colormaps[PRESSURE], Normalize(0.0, top_of(cases))
     # room for the forces on the right, and at least as wide as a panel of the grid
-    wide, tall = (np.array([limits(outlines[name])[axis] for name in chosen]) for axis in (0, 1))
-    toe, heel = wide.min(), wide.max()
-    ends = toe, max(heel + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * np.ptp(tall))
+    wide, tall = np.array([case.wide for case in chosen]), [case.high for case in chosen]
+    toe = wide.min()
+    ends = toe, max(wide.max() + 6.2, toe + (2.6 if len(chosen) == 2 else 2.0) * np.ptp(tall))
     cones, heights = Axis("cone distance R, mm"), Axis("height, mm")
     panels = []
-    for name in chosen:
-        rows = [row for row in data["contacts"] if row["case"] == name]
-        followed = sorted({row["time"] for row in rows if row["followed"]})
+    for case in chosen:
+        followed = sorted({row["time"] for row in case.followed})
         picks = [followed[round(i * (len(followed) - 1) / (INSTANTS - 1))] for i in range(INSTANTS)]
         for i, time in enumerate(picks):
-            marks = [*tooth(outlines[name], i == 0)]
-            now = [row for row in rows if row["time"] == time]
+            marks = [*tooth(case.outline, i == 0)]
+            now = [row for row in case.contacts if row["time"] == time]
             for pair in sorted({(row["planet_tooth"], row["side_tooth"]) for row in now}):
                 line = [row for row in now if (row["planet_tooth"], row["side_tooth"]) == pair]
-                marks += line_marks(line, outlines[name]["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
+                marks += line_marks(line, case.outline["tip"]["heel_cone"], lambda pressure: colours(scale(pressure)), 20 if i == 0 else 5)
             share = (time - picks[0]) / ((picks[-1] - picks[0]) or 1.0)
-            panels.append(flank(cones, heights, outlines[name], marks, f"{names[name]}, {100.0 * share:.0f} % of {'the engagement' if whole[name] else 'its part'}, "
-                                f"{1e-3 * force_of(now):.1f} kN in all", xlim=ends))
+            panels.append(flank(cones, heights, case, marks, f"{case.title}, {100.0 * share:.0f} % of "
+                                f"{'the engagement' if case.result['whole'] else 'its part'}, {1e-3 * force_of(now):.1f} kN in all", xlim=ends))
     grid = zip(panels[:INSTANTS], panels[INSTANTS:]) if len(chosen) == 2 else zip(panels[::2], panels[1::2])
     # only for the turn of the documentation
     spin = ("In this direction of spin contact moves from the root of the planet's tooth to its tip; a pair begins with the tip corner of "
             "the side gear and ends with its own. ") if of_documentation else ""
-    picture(grid, f"Lines of contact on the planet's flank while {words_of(data)[0]}, "
-            f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(data)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
+    picture(grid, f"Lines of contact on the planet's flank while {words_of(cases)[0]}, "
+            f"in steps of {100 // (INSTANTS - 1)} %, {teeth_of(cases)}, with the loads of all pairs of the mesh, drawn on one flank. Teeth are straight, so a line runs along "
             f"a ray through the apex. Strips thinner than {2.0 * THINNEST:g} mm are drawn that wide. {spin}White marks: centroid of "
             "each line's load, a circle for the pair that is followed and a square for its neighbours.",
-            folder / "contact_lines.png", (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, shaded=True, legend="upper center",
+            file, (2.4 if len(chosen) == 2 else 3.0) * high + 1.8, shaded=True, legend="upper center",
             bar={"norm": scale, "cmap": colours, "label": "Hertz pressure, MPa", "shrink": 0.5, "aspect": 40, "extend": "max"})
 
 
