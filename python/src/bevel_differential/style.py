@@ -29,7 +29,7 @@ MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
 WIDTH = 13.0
 DPI = 130
 # ratio of the ends of a short logarithmic axis
-SHORT = 30.0
+SHORT = 100.0
 COLOURS = 256
 # caption: characters per inch of width, height of a line in inches, font size
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11

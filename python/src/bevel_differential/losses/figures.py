@@ -103,10 +103,13 @@ def _loss_panels(result, of_speed, title, losses):
     up, power = Axis(f"{title}\n{of_torque.label}"), scaled_axis("power loss", "W", losses)
     losses = [power.values(loss.T) for loss in losses]
     low, top = float(np.min(losses)), float(np.max(losses))
+    colours = {"cmap": shades((RED, 0.03), (RED, 0.75)), "vmin": low, "vmax": top}
     for loss, (warmth, *_, text) in zip(losses, _looks(result)):
+        # all panels of a row share a colour bar
+        bar = {"label": power.label} if warmth == temperatures(result)[-1] else None
         yield Panel(of_speed, up, [
             Mark("imshow", loss, extent=(speed[0], speed[-1], torque[0], torque[-1]), origin="lower", aspect="auto", interpolation="bilinear",
-                 cmap=shades((RED, 0.03), (RED, 0.75)), vmin=low, vmax=top, bar={"label": power.label} if warmth == temperatures(result)[-1] else None),
+                 bar=bar, **colours),
             Mark(_contours, speed, torque, loss, _round_levels(low, top))], text, grid="")
 
 

@@ -87,12 +87,13 @@ def tooth(outline, names=False):
     toe, heel = tip["toe_cone"], tip["heel_cone"]
     yield Mark("fill", [toe, heel, heel, toe], [root["toe_height"], root["heel_height"], tip["heel_height"], tip["toe_height"]], fill=False,
                ec=TEXT, lw=1.3, zorder=4)
-    for mark, form, name in [("pitch", "-.", "pitch line"), ("base", ":", "base circle: end of the involute"), ("start", "--", "rigid contact begins")]:
+    for mark, form, name in [("pitch", "-.", "pitch line"), ("base", ":", "base circle: end of the involute"),
+                             ("start", "--", "rigid contact begins")]:
         yield curve([toe, heel], [outline[mark]["toe_height"], outline[mark]["heel_height"]], name, TEXT, form, lw=0.9, zorder=4)
     if names:
-        for x, y, name, rotation, align in [(toe - 0.25, 0.0, "toe", 90, ("right", "center")), (heel + 0.25, 0.0, "heel", 90, ("left", "center")),
-                                            (0.5 * (toe + heel), 0.5 * (tip["toe_height"] + tip["heel_height"]) + 0.35, "tip", 0, ("center", "baseline"))]:
-            yield Mark("text", x, y, name, rotation=rotation, ha=align[0], va=align[1], fontsize=9.5)
+        yield Mark("text", toe - 0.25, 0.0, "toe", rotation=90, ha="right", va="center", fontsize=9.5)
+        yield Mark("text", heel + 0.25, 0.0, "heel", rotation=90, ha="left", va="center", fontsize=9.5)
+        yield Mark("text", 0.5 * (toe + heel), 0.5 * (tip["toe_height"] + tip["heel_height"]) + 0.35, "tip", ha="center", fontsize=9.5)
 
 
 def flank(x, y, case, marks, title="", **look):

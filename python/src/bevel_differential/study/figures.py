@@ -68,7 +68,8 @@ def speeds_in_turn(run):
     marks = [curve(record["time"], np.degrees(record[f"{name}.speed"]), name, colour) for name, colour in [SIDES[0], ("carrier", GREY), SIDES[1]]]
     for speed, sign in [(left, "+"), (right, "−")]:
         marks += [Mark("axhline", speed, **THEORY),
-                  Mark("text", 0.99 * DURATION, speed + 0.09 * span, f"theory ω₀ {sign} ωₚ zₚ/zₛ = {speed:.0f} deg/s", ha="right", va="center")]
+                  Mark("text", 0.99 * DURATION, speed + 0.09 * span, f"theory ω₀ {sign} ωₚ zₚ/zₛ = {speed:.0f} deg/s", ha="right",
+                       va="center")]
     return Panel("time, s", "speed, deg/s", [*marks, Mark(in_rpm)], f"Turn, {run.case.vehicle_speed:.0f} km/h: {DURATION:g} s",
                  legend="upper left", columns=3, xlim=(0, DURATION), ylim=(right - 0.2 * span, left + 0.42 * span))
 
@@ -154,9 +155,9 @@ def forces_in_time(straight, turning):
                                                    (straight, "straight ahead", NORMAL, THEORY)]:
         record = run.record[run.record["time"] >= RECORD - end]
         mean = run.spectrum[name][0]
-        force = record[name] - mean
+        time, force = 1e3 * (record["time"] - RECORD + end), record[name] - mean
         ends += [force.min(), force.max()]
-        marks.append(Mark("plot", 1e3 * (record["time"] - RECORD + end), force, label=f"{case}, {label} (mean {spaced(mean)} N)", **{"color": colour, **look}))
+        marks.append(Mark("plot", time, force, label=f"{case}, {label} (mean {spaced(mean)} N)", **{"color": colour, **look}))
     low, high = min(ends), max(ends)
     return Panel("time, ms", "force − mean, N", marks, "Forces over three teeth, about their means", legend="upper center", columns=3,
                  xlim=(0, 1e3 * end), ylim=(low - 0.05 * (high - low), high + 0.32 * (high - low)))
