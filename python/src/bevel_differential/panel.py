@@ -24,11 +24,11 @@ INK, TEXT, FAINT = "#111111", "#333333", "#666666"
 CYCLE = [BLUE, RED, GREEN, OCHRE, VIOLET, BROWN, GREY, "#d98cb3"]
 SMALL = 10
 
-# axes along which the data of a mark are counted, by the method of matplotlib that draws it
+# axes whose units the first data of a mark have, by the method of matplotlib that draws it; other data are not converted
 ALONG = {"plot": "xy", "step": "xy", "bar": "xy", "text": "xy", "axvline": "x", "axhline": "y", "axvspan": "xx", "vlines": "xyy",
-         "fill_between": "xyy", "pcolormesh": "xy"}
+         "fill_between": "xyy", "pcolormesh": "xy", "stackplot": "x"}
 # ratio of the ends of a logarithmic axis up to which its numbers are plain
-MOST_DECADES = 1e9
+WIDEST = 1e9
 # legends outside a panel; all others are at a location of matplotlib
 OUTSIDE = {"right": {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}, "above": {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}}
 
@@ -54,8 +54,8 @@ def scaled_axis(name: str, unit: str, values: Iterable[np.ndarray]) -> Axis:
 
 
 class Mark:
-    """Something drawn in a panel. `kind`: method of matplotlib's axes, or a function of the axes. `data`: its arguments, in the units of
-    the data. `bar`: label and options of a colour bar. `look`: options of the method."""
+    """Something drawn in a panel. `kind`: method of matplotlib's axes, or a function of the axes. `data`: its arguments, which
+    the axes of the panel convert to their units (`ALONG`). `bar`: label and options of a colour bar. `look`: options of the method."""
 
     def __init__(self, kind: str | Callable[..., Any], *data: Any, bar: Mapping[str, Any] | None = None, **look: Any):
         self.kind, self.data, self.bar, self.look = kind, data, bar, look
@@ -114,7 +114,7 @@ class Panel:
             if name not in self.grid:
                 axes.grid(False, axis=name)
             low, high = axis.get_view_interval()
-            if axis.get_scale() == "log" and high < MOST_DECADES * low:
+            if axis.get_scale() == "log" and high < WIDEST * low:
                 style.plain_decades(axis)
         if self.legend and axes.get_legend_handles_labels()[0]:
             axes.legend(**OUTSIDE.get(self.legend, {"loc": self.legend}), ncols=self.columns)

@@ -35,7 +35,8 @@ COLOURS = 256
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
 
 STYLE = {
-    "font.size": 11.5, "axes.titlesize": 11.0, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 11.5, "legend.fontsize": 10.5,
+    "font.size": 11.5, "axes.titlesize": 11.0, "axes.titleweight": "bold", "axes.titlelocation": "left", "axes.labelsize": 11.5,
+    "legend.fontsize": 10.5,
     "axes.prop_cycle": cycler(color=CYCLE), "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
     "axes.spines.top": False, "axes.spines.right": False, "legend.framealpha": 0.8, "legend.edgecolor": "white", "lines.linewidth": 1.7,
     "figure.facecolor": "white", "savefig.dpi": DPI, "figure.titlesize": 12.5, "figure.titleweight": "bold",
