@@ -171,6 +171,8 @@ export function largestPower(record, table) {
   for (const names of places.values()) {
     const columns = names.map((name) => record.column(name));
     for (let i = 1; i < times.length; i += 1) {
+      // a jump of an input has two rows at one time
+      if (times[i] === times[i - 1]) continue;
       const gained = columns.reduce((sum, column) => sum + column[i] - column[i - 1], 0);
       most = Math.max(most, gained / (times[i] - times[i - 1]));
     }

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Vector3 } from "three";
-import { rolls } from "./colouring.js";
+import { largestPower, rolls } from "./colouring.js";
 import { along, COLUMNS, contactOf, isInSeam, largestPressure, Pattern, ROWS } from "./contact.js";
 import { Assembly } from "./differential.js";
 import { Record } from "./record.js";
@@ -87,6 +87,13 @@ test("planets roll after they have turned half a pitch, but not while they stand
   assert.equal(rolling([0, 0.4 * TURN, 0.4 * TURN])[1], false);
   assert.ok(rolling([0, 0.4, -0.4, 0.4, -0.4].map((share) => share * TURN)).every((each) => !each));
   assert.equal(rolling([0, 2 * TURN, 2 * TURN, 2 * TURN])[3], false);
+});
+
+test("the largest heating power counts no jump of an input, which has two rows at one time", () => {
+  const names = ["heat.clutch", "heat.brake"];
+  const table = { outputs: () => names.map((name) => ({ name })) };
+  const heated = record(names, [[0, 0, 0], [1, 2, 0], [1, 2, 0], [2, 3, 8], [4, 3, 9]]);
+  assert.equal(largestPower(heated, table), 8);
 });
 
 const VALUES = {
