@@ -20,7 +20,9 @@ use super::block::Block;
 use super::complex::{Complex, ComplexBlock};
 use super::linear::Shape;
 use super::method::combine;
-use super::{ErrorNorm, Extension, Linearisation, Method, Point, SecondOrder, StepOutput, TimedPoint, Trial};
+use super::{
+    ErrorNorm, Extension, Linearisation, Matrix, Method, Point, SecondOrder, Statistics, StepOutput, TimedPoint, Trial,
+};
 
 /// The method.
 pub struct Radau;
@@ -72,78 +74,20 @@ impl Method for Radau {
         norm: &ErrorNorm<N>,
         StepOutput { counts, extension }: StepOutput<N>,
     ) -> Option<Trial<N, S::Rates>> {
-        let per_h = 1.0 / h;
-        let shape = Shape::of(system);
-        let mut real = Block::EMPTY;
+        let (per_h, shape, mut real) = (1.0 / h, Shape::of(system), Block::EMPTY);
         real.fill(system, shape, lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
         let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
-
-        // stages
-        let (mut z, mut w, mut f) = ([Point::ZERO; 3], [Point::ZERO; 3], [slope; 3]);
-        if system.is_driven() {
-            let drift = system.drift(start, time);
-            for i in 0..3 {
-                for j in 0..N {
-                    f[i].v[j] += C[i] * h * drift[j];
-                }
-            }
-        }
-        let (mut last, mut iterations_left) = (f64::INFINITY, ITERATIONS);
-        let enough = LEFT_OVER.max(ROUNDING * norm.size(start));
-        loop {
-            let mut change = [Point::ZERO; 3];
-            for i in 0..3 {
-                combine(&mut change[i], &INVERSE[i], 1.0, &f);
-            }
-            combine(&mut change[0], &[-GAMMA], per_h, &w);
-            combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
-            combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
-            let [first, re, im] = &mut change;
-            real.solve(system, shape, first);
-            complex.solve(system, &lin.by_position, re, im);
-            for i in 0..3 {
-                combine(&mut w[i], &[1.0], 1.0, &change[i..]);
-            }
-            for i in 0..3 {
-                z[i] = Point::ZERO;
-                combine(&mut z[i], &T[i], 1.0, &w);
-            }
-
-            // each change is smaller than the last by about the same factor: the remaining changes are a geometric
-            // series
-            let size = norm.size(&change[0]).max(norm.size(&change[1])).max(norm.size(&change[2]));
-            let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
-            if !sum.is_finite() {
-                return None;
-            }
-            iterations_left -= 1;
-            let shrink = size / last;
-            let to_come = size * shrink / (1.0 - shrink);
-            if size <= ROUNDING * norm.size(start)
-                || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1)
-            {
-                break;
-            }
-            if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(iterations_left)) > enough {
-                return None;
-            }
-            last = size;
-            for i in 0..3 {
-                let at = shifted(start, &z[i]);
-                f[i] = Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time + C[i] * h).0 };
-            }
-            counts.evaluations += 3;
-        }
+        let newton = Newton { system, start, time, h, norm, real, complex, by_position: &lin.by_position };
+        let z = newton.stages(slope, counts)?;
 
         let mut defect = Point::ZERO;
         combine(&mut defect, &ESTIMATE, per_h, &z);
         let mut error = shifted(&slope, &defect);
-        real.solve(system, shape, &mut error);
+        newton.real.solve(system, shape, &mut error);
         if norm.size(&error) > 1.0 {
-            let at = shifted(start, &error);
-            error = shifted(&Point { q: system.rates(&at.v), v: system.evaluate_at(&at, time).0 }, &defect);
-            real.solve(system, shape, &mut error);
+            error = shifted(&newton.slope(&error, 0.0), &defect);
+            newton.real.solve(system, shape, &mut error);
             counts.evaluations += 1;
         }
         let mut coefficients = [Point::ZERO; 3];
@@ -154,8 +98,114 @@ impl Method for Radau {
         let size = norm.judge(&error, &end);
         *extension = Extension { start: *start, end, coefficients };
         let trial = Trial { error, size, halfway: None };
-        let solve = |defect: &mut Point<N>| real.solve(system, shape, defect);
+        let solve = |defect: &mut Point<N>| newton.real.solve(system, shape, defect);
         Some(trial.with_midpoint_check(system, (extension, time, h), norm, counts, solve))
+    }
+}
+
+/// Simplified Newton iteration for the stages of a step.
+struct Newton<'a, S: ?Sized, const N: usize> {
+    system: &'a S,
+    start: &'a Point<N>,
+    time: f64,
+    h: f64,
+    norm: &'a ErrorNorm<N>,
+    /// Inverse of γ/h − J.
+    real: Block<N>,
+    /// Inverse of (α + iβ)/h − J.
+    complex: ComplexBlock<N>,
+    by_position: &'a Matrix<N>,
+}
+
+/// Result of an iteration.
+enum Progress {
+    Converged,
+    Continues,
+    Diverges,
+}
+
+impl<const N: usize, S: SecondOrder<N> + ?Sized> Newton<'_, S, N> {
+    /// Returns Z of the three stages, from the `slope` at the start. Returns `None` if the iteration does not converge.
+    fn stages(&self, slope: Point<N>, counts: &mut Statistics) -> Option<[Point<N>; 3]> {
+        let (mut z, mut w, mut f) = ([Point::ZERO; 3], [Point::ZERO; 3], self.linearised(slope));
+        let (mut last, mut iterations_left) = (f64::INFINITY, ITERATIONS);
+        loop {
+            let change = self.change(&f, &w);
+            for i in 0..3 {
+                combine(&mut w[i], &[1.0], 1.0, &change[i..]);
+            }
+            for i in 0..3 {
+                z[i] = Point::ZERO;
+                combine(&mut z[i], &T[i], 1.0, &w);
+            }
+            let size = self.norm.size(&change[0]).max(self.norm.size(&change[1])).max(self.norm.size(&change[2]));
+            let sum: f64 = change.iter().map(|c| c.q.iter().chain(&c.v).sum::<f64>()).sum();
+            if !sum.is_finite() {
+                return None;
+            }
+            iterations_left -= 1;
+            match self.progress(size, last, iterations_left) {
+                Progress::Converged => return Some(z),
+                Progress::Diverges => return None,
+                Progress::Continues => {}
+            }
+            last = size;
+            for i in 0..3 {
+                f[i] = self.slope(&z[i], C[i] * self.h);
+            }
+            counts.evaluations += 3;
+        }
+    }
+
+    /// Slopes of the three stages for the motion that is linearised at the start, where it has this `slope`.
+    fn linearised(&self, slope: Point<N>) -> [Point<N>; 3] {
+        let mut f = [slope; 3];
+        if self.system.is_driven() {
+            let drift = self.system.drift(self.start, self.time);
+            for i in 0..3 {
+                for j in 0..N {
+                    f[i].v[j] += C[i] * self.h * drift[j];
+                }
+            }
+        }
+        f
+    }
+
+    /// Slope at the point `z` after the start, at the time `later` [s].
+    fn slope(&self, z: &Point<N>, later: f64) -> Point<N> {
+        let at = shifted(self.start, z);
+        Point { q: self.system.rates(&at.v), v: self.system.evaluate_at(&at, self.time + later).0 }
+    }
+
+    /// ΔW for the slopes `f` of the stages.
+    fn change(&self, f: &[Point<N>; 3], w: &[Point<N>; 3]) -> [Point<N>; 3] {
+        let (per_h, mut change) = (1.0 / self.h, [Point::ZERO; 3]);
+        for i in 0..3 {
+            combine(&mut change[i], &INVERSE[i], 1.0, f);
+        }
+        combine(&mut change[0], &[-GAMMA], per_h, w);
+        combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
+        combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
+        let [first, re, im] = &mut change;
+        self.real.solve(self.system, Shape::of(self.system), first);
+        self.complex.solve(self.system, self.by_position, re, im);
+        change
+    }
+
+    /// Progress after a change of this `size`, where the change before it had the size `last`. Each change is smaller
+    /// than the last by about the same factor, so the remaining changes are a geometric series.
+    fn progress(&self, size: f64, last: f64, iterations_left: i32) -> Progress {
+        let rounding = ROUNDING * self.norm.size(self.start);
+        let enough = LEFT_OVER.max(rounding);
+        let shrink = size / last;
+        let to_come = size * shrink / (1.0 - shrink);
+        if size <= rounding || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1) {
+            Progress::Converged
+        } else if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(iterations_left)) > enough {
+            Progress::Diverges
+        } else {
+            Progress::Continues
+        }
     }
 }
 

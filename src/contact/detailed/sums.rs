@@ -136,39 +136,52 @@ impl Sums {
                 (moves, along)
             });
             let friction = pair_friction.map(|pair_friction| {
-                let (mut share, mut coefficient) = (0.0, 0.0);
-                for point in pair_friction.whole.unwrap_or(std::slice::from_ref(node)) {
-                    let (sliding, torque) = (pair_friction.at(point, damped.total), point.weight * damped.total);
-                    let h = if SLOPES {
-                        let h = pair_friction.law.signed(&sliding.with_slopes());
-                        let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
-                        let per_load = point.weight / (point.width * point.cone);
-                        let factor = point.weight * (h.v + damped.total * by_load * per_load);
-                        add::<OPEN>(&mut self.by[3], factor, per_cone, by);
-                        let lever = torque * point.cone;
-                        self.friction_by[0] += lever * by_sliding;
-                        self.friction_by[1] += lever * by_sum_speed;
-                        self.friction_by[2] += lever * by_radius;
-                        if let Some((moves, [along, load])) = along {
-                            // sliding, rolling and radius are proportional to R, the load per width to R T
-                            let turning = by_sliding * pair_friction.speeds[0] + by_sum_speed * pair_friction.speeds[1];
-                            let h_along =
-                                turning + by_radius * pair_friction.geometry.radius + by_load * load * node.cone;
-                            let by_motion = weight * along * h.v + torque * h_along;
-                            move_with(&mut self.by[3], moves, node, torque * h.v, by_motion);
-                        }
-                        h.v
-                    } else {
-                        pair_friction.law.signed(&sliding)
-                    };
-                    self.friction += torque * h;
-                    share += point.weight;
-                    coefficient += point.weight * h;
-                }
-                (coefficient / share, pair_friction.at(node, damped.total))
+                let loaded = (node, damped.total);
+                self.add_friction::<SLOPES, OPEN>(pair_friction, loaded, by, along.as_ref())
             });
             look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
         }
+    }
+
+    /// Adds the friction at a `node`, whose torque is `total` per unit of weight, with the derivatives `by` depth, s and rate.
+    /// `along` contains the motion of the node, and the derivatives of torque and load along the face. Returns the signed coefficient of friction and the sliding of the flanks.
+    #[inline(always)]
+    fn add_friction<const SLOPES: bool, const OPEN: bool>(
+        &mut self,
+        pair_friction: &PairFriction,
+        (node, total): (&Node, f64),
+        by: [f64; 3],
+        along: Option<&(&Moves, [f64; 2])>,
+    ) -> (f64, Sliding<f64>) {
+        let (mut share, mut coefficient) = (0.0, 0.0);
+        for point in pair_friction.whole.unwrap_or(std::slice::from_ref(node)) {
+            let (sliding, torque) = (pair_friction.at(point, total), point.weight * total);
+            let h = if SLOPES {
+                let h = pair_friction.law.signed(&sliding.with_slopes());
+                let [by_sliding, by_sum_speed, by_load, by_radius] = h.d;
+                let per_load = point.weight / (point.width * point.cone);
+                let factor = point.weight * (h.v + total * by_load * per_load);
+                add::<OPEN>(&mut self.by[3], factor, node.per_cone, by);
+                let lever = torque * point.cone;
+                self.friction_by[0] += lever * by_sliding;
+                self.friction_by[1] += lever * by_sum_speed;
+                self.friction_by[2] += lever * by_radius;
+                if let Some(&(moves, [along, load])) = along {
+                    // sliding, rolling and radius are proportional to R, the load per width to R T
+                    let turning = by_sliding * pair_friction.speeds[0] + by_sum_speed * pair_friction.speeds[1];
+                    let h_along = turning + by_radius * pair_friction.geometry.radius + by_load * load * node.cone;
+                    let by_motion = node.weight * along * h.v + torque * h_along;
+                    move_with(&mut self.by[3], moves, node, torque * h.v, by_motion);
+                }
+                h.v
+            } else {
+                pair_friction.law.signed(&sliding)
+            };
+            self.friction += torque * h;
+            share += point.weight;
+            coefficient += point.weight * h;
+        }
+        (coefficient / share, pair_friction.at(node, total))
     }
 }
 
