@@ -10,8 +10,9 @@ from fmpy import read_model_description, simulate_fmu
 
 FOLDERS = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("python/src", "fmu-build/python")]
 sys.path[:0] = FOLDERS
-# for processes started by tests
+# for processes started by tests; all scenes and commands use the FMU of the environment variable FMU
 os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)
+os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(os.environ.get("FMU", ""))
 
 from bevel_differential import Differential, Fmu  # noqa: E402
 from driving import Drive  # noqa: E402
@@ -28,10 +29,10 @@ def pytest_configure(config):
     config.addinivalue_line("filterwarnings", "ignore::bevel_differential.values.DifferentialWarning")
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="session", autouse=True)
 def fmu_file():
     """Path of the .fmu file, from the environment variable FMU."""
-    path = os.environ.get("FMU", "")
+    path = os.environ["BEVEL_DIFFERENTIAL_FMU"]
     if not os.path.isfile(path):
         pytest.exit("FMU does not name the packaged .fmu; use: cargo run -p lab --release -- test-python", returncode=2)
     return path

@@ -20,7 +20,7 @@ from bevel_differential.want import Statistic, figures
 LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
-def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_path):
+def test_the_cheapest_setting_is_found_and_reproduces_its_figures(tmp_path):
     found = accuracy("clunk", "left.shaft_torque:max", "1%", file=tmp_path / "chosen.toml")
     assert isinstance(found, Accuracy) and found.wants == ["left.shaft_torque:max"] and found.within == 0.01
     assert found.use.run.place == "chosen" and found.use.run.error <= 0.01 < found.cheaper.run.error
@@ -28,7 +28,7 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(fmu_file, tmp_
     assert "half_shaft" in found.needed and found.needed["half_shaft"] > 0.01
     # the setting, run through the FMU, has the promised figure
     (tmp_path / "chosen.toml").write_text(found.answer["file"], encoding="utf-8")
-    with Scene.load(tmp_path / "chosen.toml", fmu=fmu_file) as chosen:
+    with Scene.load(tmp_path / "chosen.toml") as chosen:
         peak = chosen.run(["left.shaft_torque"])["left.shaft_torque"][1:].max()
         assert chosen.values["solver.relative_tolerance"] == found.use.set["solver.relative_tolerance"]
     assert peak == pytest.approx(found.values["left.shaft_torque:max"], rel=0.01)
@@ -55,8 +55,8 @@ def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, 
     assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["py"]
 
 
-def test_a_scene_as_an_object_is_the_scene_of_the_file(fmu_file):
-    with Scene.load("limited_slip", fmu=fmu_file) as scene:
+def test_a_scene_as_an_object_is_the_scene_of_the_file():
+    with Scene.load("limited_slip") as scene:
         told = [ask({"ask": "plan", "of": about(what)})["text"] for what in (scene, "limited_slip")]
     # paths and measured times differ
     lines = [[line for line in text.splitlines() if not line.startswith(("  file", "  cost  "))] for text in told]
@@ -116,9 +116,8 @@ def test_figures_are_those_of_closed_forms():
             Statistic.parse(word)
 
 
-def test_fixed_steps_of_a_scene_are_kept_and_written(fmu_file, tmp_path, monkeypatch, capsys):
+def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"], encoding="utf-8")
     question = {"want": "left.shaft_torque:mean", "within": "1%", "set": {"solver.method": "fixed_step"}}
     found = accuracy("turn.toml", **question)

@@ -12,8 +12,7 @@ TORQUE = "carrier.torque_command"
 
 
 @pytest.fixture(autouse=True)
-def with_fmu(fmu_file, monkeypatch, tmp_path):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def with_fmu(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 

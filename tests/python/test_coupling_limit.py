@@ -262,12 +262,12 @@ def test_wrong_uses_are_named(scene):
     assert not any("not loaded" in str(one.message) for one in warned)
 
 
-def test_the_command_prints_what_python_returns_and_draws_it(scene, fmu_file, tmp_path, capsys):
-    words = ["coupling", "one_wheel_on_ice", "--set", "scene.start=equilibrium", "--fmu", fmu_file, "--host"]
+def test_the_command_prints_what_python_returns_and_draws_it(scene, tmp_path, capsys):
+    words = ["coupling", "one_wheel_on_ice", "--set", "scene.start=equilibrium", "--host"]
     assert main([*words, "right:k=9000,c=12,J=1,reads=both", "--master", "gauss-seidel", "--input", "lines", "--plot",
                  str(tmp_path / "a.png")]) == DONE
     said = capsys.readouterr().out
-    with Scene.load("one_wheel_on_ice", fmu_file) as loaded:
+    with Scene.load("one_wheel_on_ice") as loaded:
         loaded.set({"scene.start": "equilibrium"})
         made = coupling(loaded, [Host.spring("right", 9000.0, 12.0, 1.0, "both")], GAUSS_SEIDEL, LINES)
     assert f"longest stable step: {made.limit * 1e3:.3g} ms (gauss-seidel, inputs on lines)" in said
@@ -284,8 +284,8 @@ def test_without_a_damper_no_step_is_stable_one_step_later():
 
 
 @pytest.mark.parametrize("left", [Tyre(damping=1e4), Tyre(damping=200.0, inertia=0.3)], ids=["at rest", "at speed"])
-def test_a_car_is_stable_up_to_its_longest_step(left, fmu_file, monkeypatch):
-    car = Car({"scene.gear_contact": "ideal"}, left=left, right=Tyre(), fmu=fmu_file)
+def test_a_car_is_stable_up_to_its_longest_step(left, monkeypatch):
+    car = Car({"scene.gear_contact": "ideal"}, left=left, right=Tyre())
     longest = car.longest_step()
     with pytest.raises(DifferentialError, match="the car is stable with steps up to"):
         car.run(step=1.001 * longest)
@@ -301,7 +301,7 @@ def test_a_car_is_stable_up_to_its_longest_step(left, fmu_file, monkeypatch):
     assert swell[0] < 0.1 and swell[1] > 10.0 * swell[0], swell
 
 
-def test_a_motion_that_grows_without_a_cut_has_no_influence_on_the_limit(fmu, capsys, tmp_path, fmu_file):
+def test_a_motion_that_grows_without_a_cut_has_no_influence_on_the_limit(fmu, capsys, tmp_path):
     """Without friction, planets leave some positions of their teeth as a ball leaves the top of a hill."""
     text = """description = "launch without friction"
 stop_time = "0.4 s"
@@ -328,6 +328,6 @@ right.load_torque = 200.0
             found[gears] = made.departure, made.limit
     assert found["tooth"][0] > 0.0 and found["lumped"][0] == 0.0
     assert 0.0 < found["tooth"][1] == pytest.approx(found["lumped"][1], rel=0.05)
-    command = ["coupling", str(tmp_path / "launch.toml"), "--fmu", str(fmu_file), "--at", "0.3 s", "--master", "gauss-seidel"]
+    command = ["coupling", str(tmp_path / "launch.toml"), "--at", "0.3 s", "--master", "gauss-seidel"]
     assert main([*command, *(word for port in ("left", "right") for word in ("--host", f"{port}:k=17400,c=10,J=79,reads=both"))]) == DONE
     assert "the teeth do not rest at this time" in capsys.readouterr().out

@@ -22,11 +22,11 @@ VISCOUS = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited
 
 
 @pytest.fixture
-def mapped(fmu_file):
+def mapped():
     """mapped(values, torques, differences): map of a scene with these values."""
     def measured(values, torques, differences):
         levels = dict(zip(VARIABLES, (torques, [10.0, 40.0], differences, [TEMPERATURE])))
-        with Scene("clutches", set=values, fmu=fmu_file) as scene:
+        with Scene("clutches", set=values) as scene:
             return losses(scene, levels, bound=Bound(10.0, 1000.0), unseen=0, workers=0)
 
     return measured
@@ -114,12 +114,12 @@ def test_without_limited_slip_the_tables_are_left_out_with_the_reason(mapped, ta
 
 
 @pytest.mark.parametrize("switch, said", [("true", False), ("false", True)])
-def test_the_command_says_what_it_leaves_out(switch, said, fmu_file, tmp_path, capsys):
+def test_the_command_says_what_it_leaves_out(switch, said, tmp_path, capsys):
     file = tmp_path / "map.m"
     assert main(["losses", "torque_bias", "--quick", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
                  "effects.thrust_friction=false", "--set", f"effects.limited_slip={switch}", "--set", "limited_slip.preload=40 N.m",
                  "--set", "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9",
-                 "--temperature", "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file), "--fmu", fmu_file]) == 0
+                 "--temperature", "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file)]) == 0
     words = f"{file} has no tables of the coupling torque: effects.limited_slip is off"
     assert (words in capsys.readouterr().out) is said
     assert ("TTin" in file.read_text(encoding="utf-8")) is not said

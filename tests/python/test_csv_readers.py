@@ -41,8 +41,7 @@ COMMANDS = {
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch, fmu_file):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(fmu_file))
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
     (tmp_path / "other.toml").write_text(SCENE.replace("835.0", "836.0"), encoding="utf-8")

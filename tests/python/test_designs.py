@@ -160,8 +160,8 @@ def test_conditions_have_units_and_report_the_size_of_a_violation(fmu):
         Condition.parse(fmu, "left.speed = 3")
 
 
-def test_figures_of_a_task_count_from_its_start_on(fmu_file):
-    with Scene.load("study_turning", fmu=fmu_file) as scene:
+def test_figures_of_a_task_count_from_its_start_on():
+    with Scene.load("study_turning") as scene:
         row = Task(scene, ["left.speed:mean", "planet[1].left_transmission_error:mesh_order_1"], start=0.14).evaluate(0, {})
         record = scene.run(["left.speed"])
     later = record[record["time"] > 0.1395]
@@ -170,8 +170,8 @@ def test_figures_of_a_task_count_from_its_start_on(fmu_file):
     assert row.figures["planet[1].left_transmission_error:mesh_order_1"] > 0.0
 
 
-def test_a_design_that_fails_is_a_row_and_the_next_one_runs(fmu_file):
-    with Scene.load("study_turning", fmu=fmu_file) as scene:
+def test_a_design_that_fails_is_a_row_and_the_next_one_runs():
+    with Scene.load("study_turning") as scene:
         task = Task(scene, ["left.speed"], ["left.speed >= 0 rad/s"])
         good = task.evaluate(0, {})
         bad = task.evaluate(1, {"geometry.module": -1.0})

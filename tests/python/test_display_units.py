@@ -18,8 +18,7 @@ COMMANDED = 954.0 / 6.0  # 954 deg/s in rpm: 360 deg per turn
 
 
 @pytest.fixture(autouse=True)
-def with_fmu(fmu_file, monkeypatch, tmp_path):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def with_fmu(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
@@ -56,7 +55,7 @@ def test_a_unit_that_no_shown_value_has_gives_a_warning(command, tmp_path, capsy
     assert said.count("warning: --unit mm: no shown value has this unit") == 1 and "--unit rpm" not in said
 
 
-def test_a_run_prints_draws_and_writes_the_chosen_units(fmu_file, tmp_path, capsys):
+def test_a_run_prints_draws_and_writes_the_chosen_units(tmp_path, capsys):
     file = tmp_path / "run.csv"
     scene = a_file(tmp_path)
     assert main(["run", scene, "--unit", "rpm", "--unit", "kN·m", "--csv", str(file), "--plot", "run.svg"]) == 0
@@ -197,7 +196,7 @@ def test_a_report_is_in_the_units(tmp_path):
 
 
 def test_temperatures_have_offsets_and_their_differences_none(fmu_file):
-    with Differential(fmu=fmu_file) as turning:
+    with Differential() as turning:
         record = turning.run(outputs=OUTPUTS, stop=0.002)
         oil, flash = (turning.fmu.variable(f"temperature.{name}") for name in ("oil", "flash"))
     assert oil.shown_in("K").shown(353.15) == ("K", 353.15) and oil.shown_in("degC").shown(353.15)[1] == pytest.approx(80.0)
@@ -210,7 +209,7 @@ def test_temperatures_have_offsets_and_their_differences_none(fmu_file):
 
 
 def test_python_takes_units_for_one_call_or_for_all(fmu_file, tmp_path):
-    scene = Scene("turn", stop=0.01, outputs=["left.speed"], set={"carrier.speed_command": "60 rpm"}, fmu=fmu_file)
+    scene = Scene("turn", stop=0.01, outputs=["left.speed"], set={"carrier.speed_command": "60 rpm"})
     with scene:
         record = scene.run()
         assert cells(scene.summary(record), "left.speed")[0] == "deg/s"
@@ -218,8 +217,7 @@ def test_python_takes_units_for_one_call_or_for_all(fmu_file, tmp_path):
         assert scene.plot(record, display_units=["rpm"]).axes[0].get_ylabel() == "speed, rpm"
         names, found = columns(scene.to_csv(record, tmp_path / "turn.csv", ["rpm"]))
         assert found["left.speed [rpm]"] == pytest.approx(RPM * record["left.speed"], rel=4e-16)
-    with Scene("turn", stop=0.01, outputs=["left.speed"], set={"carrier.speed_command": "60 rpm"}, display_units=["rpm"],
-               fmu=fmu_file) as preferring:
+    with Scene("turn", stop=0.01, outputs=["left.speed"], set={"carrier.speed_command": "60 rpm"}, display_units=["rpm"]) as preferring:
         own = preferring.run()
         assert cells(preferring.summary(own), "left.speed")[0] == "rpm"
         # records stay in SI
@@ -228,21 +226,21 @@ def test_python_takes_units_for_one_call_or_for_all(fmu_file, tmp_path):
         assert copied.fmu.variable("left.speed").shown(1.0)[0] == "rpm"
     with Scene.load("study_straight", fmu=Fmu.of(fmu_file).displaying(["rpm"])) as loaded:
         assert loaded.fmu.variable("left.speed").shown(1.0)[0] == "rpm"
-    with Differential(fmu=fmu_file, display_units=["rpm"]) as straight:
+    with Differential(display_units=["rpm"]) as straight:
         assert straight.plot(straight.run(outputs=["left.speed"], stop=0.002)).axes[0].get_ylabel() == "speed, rpm"
 
 
 @pytest.mark.parametrize(("units", "message"), [
     (["rmp"], "did you mean rpm"), (["rpm", "deg/s"], "rpm and deg/s are units of the same quantity"), (["furlong"], "known: m, mm, um, in, km, rad"),
     (["1"], "there is no unit")])
-def test_unknown_units_are_errors_everywhere(units, message, tmp_path, capsys, fmu_file):
+def test_unknown_units_are_errors_everywhere(units, message, tmp_path, capsys):
     options = [part for unit in units for part in ("--unit", unit)]
     for command in (["run", a_file(tmp_path), *options], ["plan", a_file(tmp_path), *options], ["report", a_file(tmp_path), *options],
                     ["run", a_file(tmp_path, "own.toml", str(units).replace("'", '"'))]):
         assert main(command) != 0, command
         assert message in capsys.readouterr().err, command
     with pytest.raises(DifferentialError, match=re.escape(message)):
-        Scene("turn", display_units=units, fmu=fmu_file)
+        Scene("turn", display_units=units)
 
 
 def test_units_of_the_same_kind_are_shared(fmu_file):

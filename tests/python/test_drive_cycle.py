@@ -16,8 +16,8 @@ MOST_ATTEMPTS = 12
 
 
 @pytest.fixture(scope="module")
-def hour(fmu_file):
-    with Scene.load("drive_cycle", fmu=fmu_file) as scene:
+def hour():
+    with Scene.load("drive_cycle") as scene:
         outputs = [*scene.outputs, "warm_up.stored", "warm_up.given_off", "heat.contact", "solver.steps", "solver.rejected"]
         return scene.run(outputs)
 
@@ -53,8 +53,8 @@ def test_an_hour_takes_few_steps(hour):
     assert attempts < MOST_ATTEMPTS * (len(hour) - 1)
 
 
-def test_in_the_first_minute_pairs_of_teeth_give_the_heats_of_lumped_ones(fmu_file):
-    with Scene.load("drive_cycle", fmu=fmu_file) as scene:
+def test_in_the_first_minute_pairs_of_teeth_give_the_heats_of_lumped_ones():
+    with Scene.load("drive_cycle") as scene:
         lumped, teeth = scene.run(HEATS, stop="60 s"), scene.run(HEATS, TEETH, stop="60 s")
     for name in HEATS:
         assert lumped[name][-1] > 40.0

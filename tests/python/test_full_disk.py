@@ -163,7 +163,6 @@ def test_a_full_disk(case, disk, inputs, fmu_file, monkeypatch, capsys, tmp_path
             pytest.skip("no disk may be mounted here, and Rust's own writer cannot be changed")
         folder = tmp_path / "folder"
         folder.mkdir()
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     prepared(folder, case, monkeypatch)
     if disk is None:
         def full(*_, **__):
@@ -180,7 +179,6 @@ def test_a_full_disk(case, disk, inputs, fmu_file, monkeypatch, capsys, tmp_path
 def test_a_folder_that_may_not_be_written_to(case, disk, inputs, fmu_file, monkeypatch, capsys):
     if disk is None:
         pytest.skip("no disk may be mounted here, and root may write into all folders")
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     prepared(disk, case, monkeypatch)
     assert mount("-o", "remount,ro", str(disk))
     before = content(disk)

@@ -21,8 +21,8 @@ def test_values_of_all_kinds_are_read_as_they_were_written(fmu):
         assert opened.get("effects.strength") is True
 
 
-def test_a_run_call_by_call_has_the_bits_of_a_record(fmu, fmu_file):
-    with Differential(TURN, fmu=fmu_file) as differential:
+def test_a_run_call_by_call_has_the_bits_of_a_record(fmu):
+    with Differential(TURN) as differential:
         record = differential.run(outputs=WATCHED, stop=0.02)
     with fmu.open() as opened:
         opened.initialise(TURN, stop=0.02)

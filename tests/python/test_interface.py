@@ -20,8 +20,8 @@ OUTPUTS = ["left.speed", "right.speed", "planet[1].left_pairs", "left.normal_for
 
 
 @pytest.fixture
-def turn(fmu_file):
-    with Differential(TURN, fmu=fmu_file) as differential:
+def turn():
+    with Differential(TURN) as differential:
         yield differential
 
 
@@ -54,7 +54,7 @@ def test_one_long_step_gives_the_values_at_the_end(turn, fmu_file):
 def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
     times, loads = np.array([0.0, 0.02, 0.02, 0.05]), np.array([100.0, 200.0, 400.0, 300.0])
     signals = np.array(list(zip(times, loads)), [("time", float), ("left.load_torque", float)])
-    with Differential(fmu=fmu_file) as straight:
+    with Differential() as straight:
         by_arrays = straight.run({"left.load_torque": (times, loads)}, ["left.speed", "left.shaft_torque"], 0.05,
                                  input_slopes=False)
         by_record = straight.run(signals, ["left.speed", "left.shaft_torque"], 0.05, input_slopes=False)
@@ -68,12 +68,12 @@ def test_inputs_over_time_ramp_and_jump_as_in_fmpy(fmu_file):
         assert np.allclose(by_arrays[name], there[name], rtol=1e-6, atol=1e-6)
 
 
-def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(fmu_file):
+def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does():
     given = {**theory.CLUTCHES, "left.load_torque": 700.0, "effects.half_shaft": True,
              "inertia.left_end": 1.0, "inertia.right_end": 1.0}
     times, preloads = np.array([0.0, 0.02, 0.02, 0.05]), np.array([50.0, 50.0, 200.0, 300.0])
     names = ["left.speed", "left.shaft_torque", "heat.clutch"]
-    with Differential(given, fmu=fmu_file) as slipping:
+    with Differential(given) as slipping:
         here = slipping.run({"limited_slip.preload": (times, preloads)}, names, 0.06, 1e-3)
         # without the second row at the jump
         here = here[np.append(True, np.diff(here["time"]) > 0.0)]
@@ -92,15 +92,15 @@ def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does(f
         slipping.run({"geometry.module": ([0.0, 1.0], [4e-3, 5e-3])})
 
 
-def test_a_jump_between_points_is_a_point(fmu_file):
-    with Differential(fmu=fmu_file) as straight:
+def test_a_jump_between_points_is_a_point():
+    with Differential() as straight:
         found = straight.run({"left.load_torque": ([0.0, 0.0035, 0.0035], [835.0, 835.0, 0.0])}, stop=0.005)
     assert found["time"].tolist() == [0.0, 0.001, 0.002, 0.003, 0.0035, 0.0035, 0.004, 0.005]
 
 
 @pytest.mark.parametrize("written", ["4.5 mm", (4.5, "mm"), "4500 um", "0.0045", 0.0045, (0.0045, "m"), np.float64(0.0045)])
-def test_a_length_may_be_written_in_many_ways(fmu_file, written):
-    differential = Differential({"geometry.module": written}, fmu=fmu_file)
+def test_a_length_may_be_written_in_many_ways(written):
+    differential = Differential({"geometry.module": written})
     assert differential.values["geometry.module"] == pytest.approx(0.0045, rel=1e-15)
 
 
@@ -136,14 +136,14 @@ def test_impossible_calls_are_refused_immediately(turn, use, parts):
     assert all(part in str(error.value) for part in parts), error.value
 
 
-def test_a_value_with_its_unit_is_not_taken_for_another_unit(fmu_file):
+def test_a_value_with_its_unit_is_not_taken_for_another_unit():
     with pytest.raises(DifferentialError) as refused:
-        Differential({"geometry.module": "450 mm"}, fmu=fmu_file)
+        Differential({"geometry.module": "450 mm"})
     assert str(refused.value) == "geometry.module: 450 mm is outside [0.2, 100] mm"
     with pytest.raises(DifferentialError) as refused:
-        Differential({"geometry.shaft_angle": "80 deg"}, fmu=fmu_file)
+        Differential({"geometry.shaft_angle": "80 deg"})
     assert str(refused.value).startswith("geometry.shaft_angle: 80 deg is not 90 deg, the only possible value. Angle between")
-    with pytest.raises(DifferentialError, match="did you mean 4.5 mm"), Differential({"geometry.module": 4.5}, fmu=fmu_file) as bare:
+    with pytest.raises(DifferentialError, match="did you mean 4.5 mm"), Differential({"geometry.module": 4.5}) as bare:
         bare.run(stop=0.01)
 
 
@@ -158,21 +158,19 @@ def test_the_fmu_s_own_message_reaches_the_user_and_the_instance_goes_on(turn):
 
 
 def test_the_package_finds_the_fmu_by_the_environment(fmu_file, monkeypatch):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     assert Differential().fmu.file == Path(os.path.realpath(fmu_file))
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", "/nowhere.fmu")
     with pytest.raises(DifferentialError, match="no such FMU"):
         Differential()
 
 
-def test_the_example_of_the_package_holds(fmu_file, monkeypatch):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def test_the_example_of_the_package_holds():
     found = doctest.testmod(bevel_differential)
     assert found.attempted > 3 and found.failed == 0
 
 
-def test_warnings_of_a_run_can_be_read(fmu_file):
-    with Differential({"geometry.module": "5 mm"}, fmu=fmu_file) as own_gears:
+def test_warnings_of_a_run_can_be_read():
+    with Differential({"geometry.module": "5 mm"}) as own_gears:
         own_gears.run(stop=0.001)
         assert any("line_weber" in warning for warning in own_gears.warnings), own_gears.warnings
         own_gears.set(contact__law="line_weber", geometry__face_width="15 mm").run(stop=0.001)

@@ -25,9 +25,8 @@ def pipe(monkeypatch):
 
 
 @pytest.mark.parametrize("words", WORDS, ids=" ".join)
-def test_a_command_prints_in_every_encoding(words, pipe, fmu_file, tmp_path, monkeypatch):
+def test_a_command_prints_in_every_encoding(words, pipe, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     for encoding in ENCODINGS if words[0] == "geometry" else ENCODINGS[:1]:
         output, errors = pipe(encoding)
         status = main(words)

@@ -37,8 +37,8 @@ DRAG = {"scene.gear_contact": "ideal", **theory.DRAG, "bearing_drag.carrier_torq
 
 
 @pytest.fixture
-def scene(fmu_file):
-    with Scene("plain", set=CLUTCH, fmu=fmu_file) as made:
+def scene():
+    with Scene("plain", set=CLUTCH) as made:
         yield made
 
 
@@ -148,8 +148,8 @@ def over_kinetic(difference):
 
 
 @pytest.fixture(scope="module")
-def mapped(fmu_file):
-    with Scene("stribeck", set=STRIBECK_CLUTCH, fmu=fmu_file) as made:
+def mapped():
+    with Scene("stribeck", set=STRIBECK_CLUTCH) as made:
         yield losses(made, LEVELS, bound=Bound(0.002, 0.1), unseen=60, workers=0)
 
 
@@ -198,11 +198,11 @@ def test_torques_that_oppose_each_other_or_vanish_have_no_ratio_and_no_locking_e
     assert bias(20.0, 60.0) == bias(60.0, 20.0) == bias(-20.0, -60.0) == (3.0, 50.0)
 
 
-def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file, tmp_path):
+def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(tmp_path):
     """A preload of 60 N·m at ±0.9 N·m moves 130 times the transmitted torque, so a locking effect is not defined."""
     from bevel_differential.losses.tables import save
     levels = dict(zip(VARIABLES, ([-0.92, 0.92, 300.0], [5.0, 40.0], [0.5, 20.0], [TEMPERATURE])))
-    with Scene("plain", set=CLUTCH, fmu=fmu_file) as made:
+    with Scene("plain", set=CLUTCH) as made:
         table = pq.read_table(save(losses(made, levels, unseen=5, workers=0), tmp_path / "map.parquet")).to_pylist()
     effects = [row["locking_effect [%]"] for row in table]
     assert any(effect is not None for effect in effects) and all(effect is None or 0.0 <= effect <= 100.0 for effect in effects)
@@ -213,11 +213,11 @@ def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(fmu_file
             assert row["locking_effect [%]"] == expected, row
 
 
-def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(fmu_file, tmp_path):
+def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(tmp_path):
     """Drag of the bearings by its formula; in overrun, the wheels supply the carrier's output and the loss."""
     from bevel_differential.losses.tables import save_for_simulink
     levels = dict(zip(VARIABLES, ([-300.0, -100.0, 0.0, 100.0, 300.0], [10.0, SPEED], [5.0], [TEMPERATURE])))
-    with Scene("drag", set=DRAG, fmu=fmu_file) as made:
+    with Scene("drag", set=DRAG) as made:
         mapped = losses(made, levels, bound=Bound(10.0, 1000.0), unseen=0, workers=0)
         script = save_for_simulink(mapped, tmp_path / "map.m").read_text(encoding="utf-8")
     found = re.search(r"^eta_tbl = reshape\(\[([^]]*)\], \[([^]]*)\]\);$", script, re.MULTILINE)
@@ -243,35 +243,34 @@ def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(fmu_file
     # an input grows during the scene, slowly, so that inertia adds little to the torque
     ({"scene.carrier_drive": "speed", "left.load_torque": 100.0, "right.load_torque": 200.0}, (0.0, 60.0), 300.0, 60.0),
 ])
-def test_axes_end_at_the_torque_and_the_speed_that_the_scene_reaches(set, table, torque, speed, fmu_file):
+def test_axes_end_at_the_torque_and_the_speed_that_the_scene_reaches(set, table, torque, speed):
     tables = [] if table is None else [("carrier.speed_command", [0.0, 10.0], list(table), None)]
-    with Scene("reached", stop=10.0, step=1.0, set={"scene.gear_contact": "ideal", **set}, tables=tables, fmu=fmu_file) as made:
+    with Scene("reached", stop=10.0, step=1.0, set={"scene.gear_contact": "ideal", **set}, tables=tables) as made:
         asked = SimpleNamespace(torque=None, speed=None, difference=None, temperature=None)
         of_torque, of_speed, *_ = (of.levels() for of in command._axes(made, asked))
     assert of_torque[-1] == pytest.approx(torque, rel=1e-3) and of_speed[-1] == pytest.approx(speed, rel=1e-3)
     assert of_torque[0] == pytest.approx(0.1 * of_torque[-1]) and of_speed[0] == pytest.approx(0.1 * of_speed[-1])
 
 
-def test_a_map_without_drag_says_why_its_efficiencies_are_1(capsys, fmu_file, tmp_path):
+def test_a_map_without_drag_says_why_its_efficiencies_are_1(capsys, tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text('description = "no drag"\nstop_time = 0.01\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\n'
                      'scene.gear_contact = "ideal"\ncarrier.speed_command = 30.0\n', encoding="utf-8")
-    assert main(["losses", str(scene), "--quick", "--unseen", "0", "--difference", "5", "--simulink", str(tmp_path / "map.m"), "--workers", "0",
-                 "--fmu", fmu_file]) == 0
+    assert main(["losses", str(scene), "--quick", "--unseen", "0", "--difference", "5", "--simulink", str(tmp_path / "map.m"), "--workers", "0"]) == 0
     assert "map.m: eta_tbl is 1 everywhere, because the scene has no drag" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("option, value, words", [("--difference", "-1 rad/s..1 rad/s", "above 0"), ("--bound", "2", "2,0.1"),
                                                   ("--temperature", "-200 degC", "oil.temperature"), ("--torque", "3 rad", "N.m")])
-def test_wrong_axes_are_one_line(option, value, words, capsys, fmu_file):
-    assert main(["losses", "torque_bias", f"{option}={value}", "--workers", "0", "--fmu", fmu_file]) != 0
+def test_wrong_axes_are_one_line(option, value, words, capsys):
+    assert main(["losses", "torque_bias", f"{option}={value}", "--workers", "0"]) != 0
     said = capsys.readouterr().err
     assert said.count("\n") == 1 and words in said, said
 
 
 # nothing is lost
 
-def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monkeypatch):
+def test_a_killed_worker_and_an_interrupt_lose_nothing(tmp_path, monkeypatch):
     given, out = {"bound": Bound(0.002, 0.1), "unseen": 20, "out": tmp_path / "runs.parquet"}, []
     levels = LEVELS | {VARIABLES[-1]: [TEMPERATURE]}
 
@@ -282,7 +281,7 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
         workers = [child for child in psutil.Process().children(recursive=True) if "multiprocessing.spawn" in " ".join(child.cmdline())]
         workers[0].send_signal(signal.SIGKILL)
 
-    with Scene("stribeck", set=STRIBECK_CLUTCH, fmu=fmu_file) as made:
+    with Scene("stribeck", set=STRIBECK_CLUTCH) as made:
         whole = losses(made, levels, **given | {"out": None}, workers=0)
         killed = losses(made, levels, **given, tell=kill, workers=2)
         evaluate = PointTask.evaluate
@@ -304,11 +303,11 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(fmu_file, tmp_path, monke
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 
-def test_ctrl_c_on_the_command_keeps_the_finished_rows(fmu_file, tmp_path, capsys):
+def test_ctrl_c_on_the_command_keeps_the_finished_rows(tmp_path, capsys):
     out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
     given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
              "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
-    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2", "--fmu", fmu_file]), stdout=subprocess.PIPE,
+    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2"]), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
@@ -318,7 +317,7 @@ def test_ctrl_c_on_the_command_keeps_the_finished_rows(fmu_file, tmp_path, capsy
     assert running.returncode == 130 and len(lines) == 1 and "--resume" in lines[0], said
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     # so few points do not meet the bound, which is a finding
-    assert main([*given, "--workers", "0", "--resume", "--fmu", fmu_file]) == 3
+    assert main([*given, "--workers", "0", "--resume"]) == 3
     told = capsys.readouterr()
     assert not without_warnings(told.err), told.err
     new = int(re.search(r"^(\d+) runs in", told.out, re.MULTILINE)[1])
@@ -344,10 +343,10 @@ def test_accuracy_chooses_the_model(scene, monkeypatch):
     assert "not measured" in made.error
 
 
-def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
+def test_the_chosen_model_runs_at_the_edge_of_the_map_too():
     """In the middle of the map, teeth may come into contact by jumps; when cold and slow, they would stall."""
     said = []
-    with Scene.load("torque_bias", fmu=fmu_file) as scene:
+    with Scene.load("torque_bias") as scene:
         levels = dict(zip(VARIABLES, ([167.0, 1670.0], [5.0, 50.0], [0.5, 20.0], [253.15, 393.15])))
         made = losses(scene, levels, within="1%", unseen=3, most=16, workers=0, tell=said.append)
         assert said[0].startswith("model: tooth") and "corner contact" in said[0].replace("_", " "), said[0]
@@ -360,13 +359,13 @@ def test_the_chosen_model_runs_at_the_edge_of_the_map_too(fmu_file):
     assert "effects.corner_contact = true" in row.message, row.message
 
 
-def test_temperatures_on_which_nothing_depends_share_their_runs(fmu_file):
+def test_temperatures_on_which_nothing_depends_share_their_runs():
     """The loss of a preload is M times the difference, at any oil temperature; a clutch with a cold factor depends on it."""
     levels = dict(zip(VARIABLES, ([300.0, 900.0], [5.0, 40.0], [0.5, 20.0], [253.15, 293.15, 353.15, 393.15])))
     runs = {}
     for cold in (1.0, 1.3):
         said = []
-        with Scene("oil", set=CLUTCH | {"limited_slip.cold_factor": cold, "effects.strength": False}, fmu=fmu_file) as scene:
+        with Scene("oil", set=CLUTCH | {"limited_slip.cold_factor": cold, "effects.strength": False}) as scene:
             made = losses(scene, levels, unseen=0, workers=0, tell=said.append)
         runs[cold] = made.new
         assert set(levels["oil.temperature"]) <= set(made.lines[3])

@@ -65,20 +65,20 @@ class Tables(HTMLParser):
         return [table[1:] for table in self.tables if table[0][0] == head]
 
 
-def made_map(fmu_file, values, levels, unseen=40, most=400):
-    with Scene("<rich>", description="clutch & drag", set=values, fmu=fmu_file) as scene:
+def made_map(values, levels, unseen=40, most=400):
+    with Scene("<rich>", description="clutch & drag", set=values) as scene:
         return losses(scene, levels, bound=Bound(0.02, 0.1), unseen=unseen, most=most, workers=0)
 
 
 @pytest.fixture(scope="module")
-def mapped(fmu_file):
-    return made_map(fmu_file, RICH, LEVELS)
+def mapped():
+    return made_map(RICH, LEVELS)
 
 
 @pytest.fixture(scope="module")
-def single(fmu_file):
+def single():
     """Map of a single point, whose report is drawn fastest."""
-    return made_map(fmu_file, RICH, {name: values[:1] for name, values in LEVELS.items()}, unseen=0)
+    return made_map(RICH, {name: values[:1] for name, values in LEVELS.items()}, unseen=0)
 
 
 @pytest.fixture(scope="module")
@@ -151,8 +151,8 @@ def test_the_worst_unseen_points_are_rows_of_the_table(text, rows, mapped):
 
 
 @pytest.mark.usefixtures("in_haste")
-def test_temperatures_without_effect_share_a_curve_and_a_map_without_drag_says_so(fmu_file, tmp_path):
-    made = made_map(fmu_file, PLAIN, LEVELS, unseen=5)
+def test_temperatures_without_effect_share_a_curve_and_a_map_without_drag_says_so(tmp_path):
+    made = made_map(PLAIN, LEVELS, unseen=5)
     page = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8"))
     assert "Temperature changes nothing" in page.sections["loss"]
     assert "the scene has no drag" in page.captions["loss_map"]
@@ -160,9 +160,9 @@ def test_temperatures_without_effect_share_a_curve_and_a_map_without_drag_says_s
 
 @pytest.mark.usefixtures("in_haste")
 @pytest.mark.parametrize("axis", range(4))
-def test_an_axis_of_a_single_value_has_its_report(axis, fmu_file, tmp_path):
+def test_an_axis_of_a_single_value_has_its_report(axis, tmp_path):
     levels = {name: values[:1] if axis == place else values for place, (name, values) in enumerate(LEVELS.items())}
-    page = ReportPage(write(made_map(fmu_file, RICH, levels, unseen=3, most=100), tmp_path / "map.html").read_text(encoding="utf-8"))
+    page = ReportPage(write(made_map(RICH, levels, unseen=3, most=100), tmp_path / "map.html").read_text(encoding="utf-8"))
     assert set(page.figures) == (FIGURES if axis > 1 else FIGURES - {"loss_map"})
     assert all(marks and max(marks.values()) >= 1 for marks in page.figures.values())
 
@@ -173,9 +173,9 @@ def test_a_single_point_without_unseen_ones_has_its_report(single, tmp_path):
     assert set(page.figures) == FIGURES - {"loss_map", "error"}
 
 
-def test_warnings_of_runs_and_of_the_map_are_on_the_page(fmu_file, tmp_path):
+def test_warnings_of_runs_and_of_the_map_are_on_the_page(tmp_path):
     values = RICH | {"limited_slip.friction_area": 1e-4, "limited_slip.pv_limit": 1e5}
-    made = made_map(fmu_file, values, LEVELS | {VARIABLES[0]: [900.0], VARIABLES[3]: [300.0]}, unseen=3, most=9)
+    made = made_map(values, LEVELS | {VARIABLES[0]: [900.0], VARIABLES[3]: [300.0]}, unseen=3, most=9)
     assert made.estimate > 1.0
     head = ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
     assert re.search(r"The FMU warns: .*pv.*corners of the map", head), head
@@ -183,12 +183,11 @@ def test_warnings_of_runs_and_of_the_map_are_on_the_page(fmu_file, tmp_path):
     assert ("Allow more by --most" in head) == (made.estimate > 1.0)
 
 
-def test_the_command_writes_the_page_in_addition_to_the_table(fmu_file, tmp_path, capsys):
+def test_the_command_writes_the_page_in_addition_to_the_table(tmp_path, capsys):
     file = tmp_path / "map.html"
     given = [f"--set={name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in PLAIN.items()]
     assert main(["losses", "torque_bias", *given, "--set", "effects.tooth_friction=false", "--set", "effects.thrust_friction=false",
-                 "--torque", "300 N.m", "--speed", "20", "--difference", "1, 5", "--temperature", "350", "--unseen", "3", "--workers", "0",
-                 "--fmu", fmu_file, "--report", str(file)]) == 0
+                 "--torque", "300 N.m", "--speed", "20", "--difference", "1, 5", "--temperature", "350", "--unseen", "3", "--workers", "0", "--report", str(file)]) == 0
     assert f"written: {file}" in capsys.readouterr().out
     assert "3 unseen points" in ReportPage(file.read_text(encoding="utf-8")).sections["head"]
 
@@ -199,18 +198,18 @@ def test_the_page_names_the_model_that_accuracy_chose(single, tmp_path):
 
 
 @pytest.mark.parametrize("file, words", [("nowhere/map.html", "there is no folder"), (".", "it is a folder")])
-def test_a_file_that_cannot_be_written_is_reported_before_the_work(file, words, capsys, fmu_file):
-    assert main(["losses", "torque_bias", "--report", file, "--fmu", fmu_file]) == 2
+def test_a_file_that_cannot_be_written_is_reported_before_the_work(file, words, capsys):
+    assert main(["losses", "torque_bias", "--report", file]) == 2
     said = capsys.readouterr()
     assert said.err.count("\n") == 1 and words in said.err and not said.out
 
 
-def test_a_missing_package_is_reported_before_the_work(monkeypatch, capsys, fmu_file, tmp_path):
+def test_a_missing_package_is_reported_before_the_work(monkeypatch, capsys, tmp_path):
     def missing(name):
         raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
     monkeypatch.setattr(extras, "importlib", SimpleNamespace(import_module=missing))
-    assert main(["losses", "torque_bias", "--report", str(tmp_path / "map.html"), "--fmu", fmu_file]) == 1
+    assert main(["losses", "torque_bias", "--report", str(tmp_path / "map.html")]) == 1
     said = capsys.readouterr()
     assert "extra report" in said.err and not said.out
 
@@ -226,8 +225,8 @@ def test_a_full_disk_leaves_no_half_report(single, tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
-def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, fmu_file, tmp_path):
-    with Scene("rich", set=RICH, fmu=fmu_file, display_units=["rpm", "kN.m", "K"]) as scene:
+def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, tmp_path):
+    with Scene("rich", set=RICH, display_units=["rpm", "kN.m", "K"]) as scene:
         shown = MeasuredMap(**{**mapped.__dict__, "scene": scene})
         text = write(shown, tmp_path / "map.html").read_text(encoding="utf-8")
         draw(shown, tmp_path / "map.svg")

@@ -39,10 +39,10 @@ def write_xlsx(file):
 
 
 @pytest.mark.parametrize("file", ["bench.csv", "bench.xlsx"])
-def test_a_scene_reads_the_columns_that_it_names(file, tmp_path, fmu_file):
+def test_a_scene_reads_the_columns_that_it_names(file, tmp_path):
     {"csv": write_csv, "xlsx": write_xlsx}[file.partition(".")[2]](tmp_path / file)
     (tmp_path / "scene.toml").write_text(SCENE.format(file=file, radius="500 mm"), encoding="utf-8")
-    with Scene.load(tmp_path / "scene.toml", fmu_file) as scene:
+    with Scene.load(tmp_path / "scene.toml") as scene:
         tables = {name: (list(times), list(values)) for name, times, values, _ in scene.tables}
         record = scene.run()
     times = [0.0, 0.01, 0.02]
@@ -52,22 +52,21 @@ def test_a_scene_reads_the_columns_that_it_names(file, tmp_path, fmu_file):
     assert record["carrier.speed_command"][10] == pytest.approx(72.5 / 1.8, rel=1e-6)
 
 
-def test_commands_of_the_library_read_spreadsheets(tmp_path, monkeypatch, fmu_file):
+def test_commands_of_the_library_read_spreadsheets(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(fmu_file))
     write_xlsx(tmp_path / "bench.xlsx")
     (tmp_path / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
     assert main(["plan", "scene.toml", "--python", "script.py"]) == 0
     assert "810.25" in (tmp_path / "script.py").read_text(encoding="utf-8")
 
 
-def test_without_a_reader_the_package_is_named(tmp_path, monkeypatch, fmu_file):
+def test_without_a_reader_the_package_is_named(tmp_path, monkeypatch):
     write_xlsx(tmp_path / "bench.xlsx")
     (tmp_path / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
     for module in ("openpyxl", "python_calamine"):
         monkeypatch.setitem(sys.modules, module, None)
     with pytest.raises(DifferentialError, match="bench.xlsx: a spreadsheet needs the package openpyxl or python-calamine"):
-        Scene.load(tmp_path / "scene.toml", fmu_file)
+        Scene.load(tmp_path / "scene.toml")
 
 
 def test_a_broken_spreadsheet_is_named(tmp_path):
@@ -83,11 +82,11 @@ def test_a_spreadsheet_has_the_cells_of_a_csv_file(tmp_path):
     assert lines_of(tmp_path / "bench.xlsx", texts=texts) == lines_of(tmp_path / "bench.csv", texts=texts)
 
 
-def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(tmp_path, monkeypatch, fmu_file, capsys):
+def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     assert main(["examples"]) == 0
     template = tmp_path / "examples/design/duty_cycle_template.csv"
     head = next(line for line in template.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     assert all(word in head for word in ("torque [N.m]", "speed [km/h]", "duration [h]", "turn_radius [m]"))
-    result = spectrum(template, fmu=fmu_file)
+    result = spectrum(template)
     assert result.hours == pytest.approx(242.0) and np.isfinite(result.life_hours) and result.damage["damage.planet_flank"] > 0.0

@@ -79,8 +79,8 @@ def test_an_end_before_the_start_is_an_error(fmu3, fmu):
         opened.initialise(stop=-1.0)
 
 
-def test_the_package_records_the_start(fmu_file):
-    with Differential(fmu=fmu_file) as differential:
+def test_the_package_records_the_start():
+    with Differential() as differential:
         assert differential.final(OUTPUTS, stop=0) == STARTED
         for step in (1e-3, None):
             record = differential.run(outputs=OUTPUTS, stop="0 ms", step=step)
@@ -112,8 +112,8 @@ def test_designs_are_compared_by_their_starts(fmu, scene_file):
             sweep(scene, **plan, wants=["carrier.speed:mean"])
 
 
-def test_a_car_has_the_speed_with_which_it_starts(fmu_file):
-    car = Car(fmu=fmu_file)
+def test_a_car_has_the_speed_with_which_it_starts():
+    car = Car()
     with pytest.raises(DifferentialError, match="0 or more"):
         car.run(stop=-1.0)
     record = car.run(["carrier.speed"], stop=0.0, speed=10.0)
@@ -131,10 +131,10 @@ def test_commands_take_a_scene_without_length(fmu_file, scene_file, tmp_path, ca
     assert "nan" not in printed.lower()
 
 
-def test_commands_that_need_time_say_so(fmu_file, scene_file, capsys):
+def test_commands_that_need_time_say_so(scene_file, capsys):
     file = str(scene_file(0))
-    for words, message in ((["report", file, "--fmu", fmu_file], "has no duration"),
+    for words, message in ((["report", file], "has no duration"),
                            (["accuracy", file, "--want", "carrier.speed", "--within", "1%"], "too short to judge"),
-                           (["run", file, "--stop", "-1 ms", "--fmu", fmu_file], 'stop_time = "-1 ms": it must be 0 s or more')):
+                           (["run", file, "--stop", "-1 ms"], 'stop_time = "-1 ms": it must be 0 s or more')):
         assert main(words) != 0
         assert message in capsys.readouterr().err

@@ -166,10 +166,10 @@ def test_fmi_3_lists_the_values_that_nobody_set_too(fmu_file):
         assert sum(text.startswith(NOBODY_SET) for text in said) == 1
 
 
-def test_the_study_gives_no_warning_but_its_scene_lists_the_values_that_nobody_set(fmu_file, fmu):
+def test_the_study_gives_no_warning_but_its_scene_lists_the_values_that_nobody_set(fmu):
     for values in ({}, {"left.load_torque": 400.0}, {"scene.gear_contact": "ideal"}):
         assert not [text for text in messages(fmu, "CoSimulation", values) if text.startswith(NOBODY_SET)]
-    with Scene("plain", set={"left.load_torque": 400.0}, fmu=fmu_file) as scene:
+    with Scene("plain", set={"left.load_torque": 400.0}) as scene:
         assert "left.load_torque" not in scene.nobody_set() and "right.load_torque = 835 N.m" in scene.nobody_set()
         assert "nobody" not in scene.plan_text()
 
@@ -197,7 +197,7 @@ def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):
     assert tried > 80
 
 
-def test_the_plan_and_the_report_list_unset_values_by_effect(fmu_file, tmp_path):
+def test_the_plan_and_the_report_list_unset_values_by_effect(tmp_path):
     of = about("limited_slip")
     planned = [line.split("not set", 1)[1].strip() for line in ask({"ask": "plan", "of": of})["text"].splitlines() if " not set " in line]
     groups = {line.partition(": ")[0]: line for line in planned}
@@ -206,7 +206,7 @@ def test_the_plan_and_the_report_list_unset_values_by_effect(fmu_file, tmp_path)
     # the loads are set, and change later
     assert "drives and loads" not in groups and "lock" not in groups
     page = tmp_path / "page.html"
-    assert main(["report", "limited_slip", "--fmu", fmu_file, "--quick", "--out", str(page)]) == 0
+    assert main(["report", "limited_slip", "--quick", "--out", str(page)]) == 0
     text = page.read_text(encoding="utf-8")
     assert "Values that act and that nobody set" in text and groups["half_shaft"] in text
 
@@ -227,8 +227,8 @@ def short(action):
     return [str(one.message) for one in caught if "start values of the study" in str(one.message)]
 
 
-def test_python_warns_of_their_number_in_one_line_and_lists_them(fmu_file):
-    with Differential({"geometry.module": "5 mm", "contact.law": "line"}, fmu=fmu_file) as differential:
+def test_python_warns_of_their_number_in_one_line_and_lists_them():
+    with Differential({"geometry.module": "5 mm", "contact.law": "line"}) as differential:
         found = listed(differential.nobody_set())
         assert found["right.load_torque"] == "835 N.m" and "geometry.module" not in found
         line, = short(lambda: differential.run(stop=0.002))
@@ -238,9 +238,9 @@ def test_python_warns_of_their_number_in_one_line_and_lists_them(fmu_file):
 def test_accepted_start_values_are_not_mentioned(fmu_file):
     own = {"geometry.module": "5 mm", "scene.gear_contact": "ideal"}
     accepted = ["right.load_torque", "inertia.carrier"]
-    whole = listed(Differential(own, fmu=fmu_file).nobody_set())
-    for kind in (lambda **more: Differential(own, fmu=fmu_file, **more),
-                 lambda **more: Scene("own", outputs=["left.speed"], stop=0.002, set=own, fmu=fmu_file, **more)):
+    whole = listed(Differential(own).nobody_set())
+    for kind in (lambda **more: Differential(own, **more),
+                 lambda **more: Scene("own", outputs=["left.speed"], stop=0.002, set=own, **more)):
         with kind(accept_start_values=accepted) as some, kind(accept_start_values=True) as every:
             assert short(lambda: some.run(stop=0.002))[0].startswith(f"{len(whole) - 2} start values")
             assert set(listed(some.nobody_set())) == set(whole) - set(accepted)
@@ -253,13 +253,13 @@ def test_accepted_start_values_are_not_mentioned(fmu_file):
 
 
 @pytest.mark.parametrize("accepted, left", [("true", ""), ('["geometry.side_teeth", "inertia.carrier"]', "2 fewer"), ("false", "all"), (None, "all")])
-def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, fmu_file, tmp_path, capsys):
+def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_path, capsys):
     file = tmp_path / "own.toml"
     key = "" if accepted is None else f"accept_start_values = {accepted}\n"
     file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\n{key}[set]\ngeometry.module = "5 mm"\n'
                     'scene.gear_contact = "ideal"\n', encoding="utf-8")
-    with Scene.load(file, fmu=fmu_file) as scene:
-        whole = len(listed(Differential(scene.values, fmu=fmu_file).nobody_set()))
+    with Scene.load(file) as scene:
+        whole = len(listed(Differential(scene.values).nobody_set()))
         count = {"": 0, "2 fewer": whole - 2, "all": whole}[left]
         # the scene keeps it when it is sent to workers and to the library
         for kept in (scene, Scene(**scene.__getstate__())):
@@ -267,7 +267,7 @@ def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, fmu_f
             assert len(short(lambda: ask({"ask": "plan", "of": about(kept)}))) == bool(count)
     for command in (["run", str(file)], ["sweep", "--scene", str(file), "--vary", "left.load_torque=1, 2", "--plan", "grid", "--want",
                                          "left.speed", "--workers", "0"]):
-        assert main([*command, "--fmu", fmu_file]) == 0
+        assert main([*command]) == 0
         lines = [line for line in capsys.readouterr().err.splitlines() if "nobody set" in line]
         # the sweep varies one of the values
         less = command[0] == "sweep"
@@ -276,14 +276,14 @@ def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, fmu_f
 
 @pytest.mark.parametrize("accepted, part", [('["geometry.modul"]', "did you mean geometry.module"), ('["left.speed"]', "left.speed is an output"),
                                             ("3", "true, false, or a list"), ("[3]", "3 is not a name")])
-def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, tmp_path, fmu_file):
+def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, tmp_path):
     file = tmp_path / "own.toml"
     file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\naccept_start_values = {accepted}\n',
                     encoding="utf-8")
     with pytest.raises(DifferentialError, match=part):
-        Scene.load(file, fmu=fmu_file)
+        Scene.load(file)
     with pytest.raises(DifferentialError, match="calculated|did you mean geometry.module|is a list|list of names"):
-        Differential(fmu=fmu_file, accept_start_values={"3": "geometry.module", "[3]": "x"}.get(accepted, [accepted[2:-2]]))
+        Differential(accept_start_values={"3": "geometry.module", "[3]": "x"}.get(accepted, [accepted[2:-2]]))
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])
@@ -309,11 +309,11 @@ def test_an_oil_temperature_set_while_the_oil_warms_up_is_reported_to_change_not
             assert (opened.get("temperature.oil") == 341.0) == given
 
 
-def test_a_car_lists_the_values_that_nobody_gave(fmu_file):
+def test_a_car_lists_the_values_that_nobody_gave():
     motor = Motor(9.5, peak=300.0)
     assert set(motor.unset) == {"inertia", "knee", "lag"}
     assert Motor(*[1.0] * 5).unset == {} and set(Tyre().unset) == set(Tyre.described())
-    car = Car({"scene.gear_contact": "ideal"}, motor=motor, body=Body(mass=1700.0), fmu=fmu_file)
+    car = Car({"scene.gear_contact": "ideal"}, motor=motor, body=Body(mass=1700.0))
     assert car.unset["body.track"] == 1.5 and "body.mass" not in car.unset and "motor.ratio" not in car.unset
     with pytest.warns(DifferentialWarning, match="nobody set.*motor.inertia = 0.03.*left_tyre.radius = 0.334") as caught:
         for _ in range(2):
@@ -321,4 +321,4 @@ def test_a_car_lists_the_values_that_nobody_gave(fmu_file):
     assert sum("values of a passenger car" in str(one.message) for one in caught) == 1
     with warnings.catch_warnings():
         warnings.filterwarnings("error", ".*values of a passenger car")
-        Car({"scene.gear_contact": "ideal"}, fmu=fmu_file).run(stop=0.01)
+        Car({"scene.gear_contact": "ideal"}).run(stop=0.01)

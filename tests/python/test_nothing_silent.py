@@ -78,8 +78,8 @@ def test_values_set_to_their_start_values_give_no_warning(fmu):
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
-def test_the_shipped_scenes_set_only_values_that_have_an_effect(name, fmu_file):
-    with Scene.load(SCENES / f"{name}.toml", fmu=fmu_file) as scene:
+def test_the_shipped_scenes_set_only_values_that_have_an_effect(name):
+    with Scene.load(SCENES / f"{name}.toml") as scene:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", DifferentialWarning)
             scene.run(stop=0.02 if name != "hil" else 5.5)
@@ -122,8 +122,8 @@ def test_the_log_is_of_the_category_of_warnings_and_quiet_without_it(through_fmp
     assert not lines
 
 
-def test_python_warns_and_keeps_what_was_said(fmu_file):
-    with Differential({"left.brake_torque": "200 N.m"}, fmu=fmu_file) as differential:
+def test_python_warns_and_keeps_what_was_said():
+    with Differential({"left.brake_torque": "200 N.m"}) as differential:
         with pytest.warns(DifferentialWarning, match="left.brake_torque: 200 N.m.*effects.wheel_brake = true") as caught:
             differential.run(stop=0.002)
         assert {one.filename for one in caught} == {__file__}
@@ -145,9 +145,9 @@ def test_the_plan_of_a_scene_names_unused_values_of_the_start_and_of_later_setti
     assert said == ["limited_slip.preload", "left.brake_torque", "right.brake_torque"]
 
 
-def test_the_commands_and_the_report_warn_once(fmu_file, tmp_path, capsys):
+def test_the_commands_and_the_report_warn_once(tmp_path, capsys):
     said = "left.brake_torque: 200 N.m changes nothing in this scene. It acts only if effects.wheel_brake = true (now: false)"
-    scene = ["study_turning", "--set", "left.brake_torque=200 N.m", "--fmu", fmu_file]
+    scene = ["study_turning", "--set", "left.brake_torque=200 N.m"]
     with warnings.catch_warnings():
         warnings.simplefilter("error", DifferentialWarning)
         assert main(["run", *scene, "--stop", "5 ms"]) == 0
@@ -164,13 +164,13 @@ CAR = {"wheel_radius": "334 mm", "track": "1.55 m", "scene.gear_contact": "lumpe
 
 
 @pytest.fixture
-def cycle(fmu_file, tmp_path):
+def cycle(tmp_path):
     """cycle(lines, parameters): damage of a duty cycle."""
 
     def of(lines, **parameters):
         file = tmp_path / "cycle.csv"
         file.write_text("\n".join(lines), encoding="utf-8")
-        return spectrum(file, CAR | {name.replace("__", "."): value for name, value in parameters.items()}, fmu=fmu_file)
+        return spectrum(file, CAR | {name.replace("__", "."): value for name, value in parameters.items()})
 
     return of
 
@@ -182,9 +182,9 @@ def test_a_duty_cycle_gives_its_torque_to_a_carrier_that_is_driven_by_torque(cyc
     assert found == pytest.approx(cycle(lines).damage, rel=2e-3) and found["damage.planet"] > 0.0
 
 
-def test_a_duty_cycle_refuses_unused_values_by_name(cycle, fmu_file):
+def test_a_duty_cycle_refuses_unused_values_by_name(cycle):
     with pytest.raises(DifferentialError, match="event 'braked': left.brake_torque: 90 N.m.*effects.wheel_brake = true"):
         cycle([f"{HEAD},left.brake_torque [N.m]", "braked,4,20,18,2,450,90"])
     with pytest.raises(DifferentialError, match="event 'one': left.load_torque: .*scene.left_drive = torque"):
         spectrum([Event("one", 1.0, 1.0, values={"left.load_torque": 100.0, "right.load_torque": 100.0, "left.speed_command": 50.0,
-                                                 "carrier.speed_command": 50.0})], {"scene.left_drive": "speed"}, fmu=fmu_file)
+                                                 "carrier.speed_command": 50.0})], {"scene.left_drive": "speed"})

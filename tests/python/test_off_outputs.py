@@ -41,21 +41,21 @@ def said(action):
 
 
 @pytest.mark.parametrize("output, why, on", CASES)
-def test_every_way_to_run_warns_of_an_output_of_an_effect_that_is_off(output, why, on, fmu_file):
+def test_every_way_to_run_warns_of_an_output_of_an_effect_that_is_off(output, why, on):
     for values, count in ((IDEAL, 1), ({**IDEAL, **on}, 0)):
-        scene = Scene("a", stop=1e-3, outputs=[output], set=values, fmu=fmu_file)
-        ways = [scene.run, scene.final, lambda: compare(scene, Scene("b", stop=1e-3, outputs=[output], set=on, fmu=fmu_file)),
-                lambda: Differential(values, fmu=fmu_file).run(outputs=[output], stop=1e-3),
-                lambda: Differential(values, fmu=fmu_file).final([output], stop=1e-3),
+        scene = Scene("a", stop=1e-3, outputs=[output], set=values)
+        ways = [scene.run, scene.final, lambda: compare(scene, Scene("b", stop=1e-3, outputs=[output], set=on)),
+                lambda: Differential(values).run(outputs=[output], stop=1e-3),
+                lambda: Differential(values).final([output], stop=1e-3),
                 lambda: ask({"ask": "plan", "of": about(scene)})]
         for way in ways:
             found = said(way)
             assert len(found) == count and all(output in text and why in text for text in found), found
 
 
-def test_all_outputs_of_effects_are_found(fmu, fmu_file, outputs):
+def test_all_outputs_of_effects_are_found(fmu, outputs):
     """With all effects off, an output of an effect keeps its value of the start; other outputs are not named."""
-    with Scene("all", stop=1e-3, outputs=outputs, fmu=fmu_file) as scene:
+    with Scene("all", stop=1e-3, outputs=outputs) as scene:
         found = scene.off_outputs().names
         assert {"damage.side_flank", "stress.root_side_max", "left.speed_peak_to_peak", "coupling.energy_ratio", "temperature.oil"} <= set(found)
         assert not {"left.speed", "efficiency", "geometry.contact_ratio", "left.normal_force", "heat.contact"} & set(found)
@@ -66,16 +66,16 @@ def test_all_outputs_of_effects_are_found(fmu, fmu_file, outputs):
             assert instance.read(found) == before
 
 
-def test_a_command_that_comes_later_closes_the_lock(fmu_file):
+def test_a_command_that_comes_later_closes_the_lock():
     for course in ({"changes": [(5e-4, {"lock.command": 1.0})]}, {"tables": [("lock.command", [0.0, 1e-3], [0.0, 1.0], None)]}):
-        assert not said(Scene("later", stop=1e-3, outputs=["heat.clutch"], set=IDEAL, fmu=fmu_file, **course).run)
-    differential = Differential(IDEAL, fmu=fmu_file)
+        assert not said(Scene("later", stop=1e-3, outputs=["heat.clutch"], set=IDEAL, **course).run)
+    differential = Differential(IDEAL)
     assert not said(lambda: differential.run({"lock.command": ([0.0, 1e-3], [0.0, 1.0])}, ["heat.clutch"], 1e-3))
     assert said(lambda: differential.run({"lock.command": 0.0}, ["heat.clutch"], 1e-3))
 
 
-def test_a_car_warns_and_knows_the_commands_of_its_controller(fmu_file):
-    car = Car(IDEAL, fmu=fmu_file)
+def test_a_car_warns_and_knows_the_commands_of_its_controller():
+    car = Car(IDEAL)
     assert len(said(lambda: car.run(["heat.clutch"], 0.01))) == 1
     assert not said(lambda: car.run(["heat.clutch"], 0.01, controller=lambda time, values: {"lock.command": 0.5}))
 
@@ -94,25 +94,25 @@ def off(tmp_path):
 
 
 def test_searches_and_tolerances_refuse(off, fmu_file):
-    for load in (lambda: Problem.load(off / "search.toml", fmu_file), lambda: Plan.load(off / "tolerance.toml", fmu_file)):
+    for load in (lambda: Problem.load(off / "search.toml"), lambda: Plan.load(off / "tolerance.toml", fmu_file)):
         with pytest.raises(DifferentialError, match=re.escape(STRENGTH)):
             load()
     for name in ("search.toml", "tolerance.toml"):
         (off / name).write_text((off / name).read_text(encoding="utf-8") + "[set]\neffects.strength = true\n", encoding="utf-8")
-    assert Problem.load(off / "search.toml", fmu_file).wants and Plan.load(off / "tolerance.toml", fmu_file).notes == []
+    assert Problem.load(off / "search.toml").wants and Plan.load(off / "tolerance.toml", fmu_file).notes == []
 
 
-def test_a_richer_model_that_switches_strength_off_is_refused(off, fmu_file):
+def test_a_richer_model_that_switches_strength_off_is_refused(off):
     text = (off / "search.toml").read_text(encoding="utf-8")
     (off / "search.toml").write_text(f'{text}[set]\neffects.strength = true\n[[confirm]]\nname = "without"\neffects.strength = false\n',
                                      encoding="utf-8")
     with pytest.raises(DifferentialError, match=re.escape(STRENGTH)):
-        Problem.load(off / "search.toml", fmu_file)
+        Problem.load(off / "search.toml")
 
 
-def test_conditions_of_sweeps_refuse_and_wants_warn(off, fmu_file):
+def test_conditions_of_sweeps_refuse_and_wants_warn(off):
     vary = {"left.load_torque": "700, 800"}
-    with Scene.load(off / "scene.toml", fmu_file) as scene:
+    with Scene.load(off / "scene.toml") as scene:
         with pytest.raises(DifferentialError, match=re.escape(STRENGTH)):
             sweep(scene, vary, "grid", wants=["left.speed"], conditions=["safety.root_min >= 1"], workers=0)
         assert len(said(lambda: sweep(scene, vary, "grid", wants=["safety.root_min"], workers=0))) == 1

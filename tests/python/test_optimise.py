@@ -54,15 +54,15 @@ def folder(tmp_path):
 
 
 @pytest.fixture
-def two(folder, fmu_file):
-    return Problem.load(folder / "two.toml", fmu_file)
+def two(folder):
+    return Problem.load(folder / "two.toml")
 
 
-def changed(folder, fmu_file, old, new):
+def changed(folder, old, new):
     """Problem with a replaced piece of its file."""
     assert old in TWO
     (folder / "changed.toml").write_text(TWO.replace(old, new), encoding="utf-8")
-    return Problem.load(folder / "changed.toml", fmu_file)
+    return Problem.load(folder / "changed.toml")
 
 
 def found(problem, out, workers=0):
@@ -125,7 +125,7 @@ def test_checks_refuse_what_the_fmu_refuses_or_warns_of(fmu_file):
     fmu, draw = Fmu.of(fmu_file), np.random.default_rng(4)
     starts = {name: value for name, value in fmu.starts().items() if name.startswith("geometry.")}
     sound = 0
-    with Scene("gears", stop=1e-4, step=1e-4, outputs=["geometry.contact_ratio"], fmu=fmu_file) as scene:
+    with Scene("gears", stop=1e-4, step=1e-4, outputs=["geometry.contact_ratio"]) as scene:
         for _ in range(400):
             values = {**starts, "geometry.module": draw.uniform(2e-3, 6e-3), "geometry.planet_teeth": int(draw.integers(6, 16)),
                       "geometry.side_teeth": int(draw.integers(9, 26)), "geometry.planet_count": int(draw.integers(2, 5)),
@@ -240,11 +240,11 @@ def test_a_generation_that_was_interrupted_keeps_the_numbers_of_its_designs(two,
     assert [(row.run, row.values, row.figures) for row in on] == [(row.run, row.values, row.figures) for row in whole]
 
 
-def test_a_range_of_a_search_has_no_count(folder, fmu_file):
+def test_a_range_of_a_search_has_no_count(folder):
     file = folder / "two.toml"
     file.write_text(file.read_text(encoding="utf-8").replace("3.5 mm..6 mm", "3.5 mm..6 mm:4"), encoding="utf-8")
     with pytest.raises(DifferentialError, match="leave the count out"):
-        Problem.load(file, fmu_file)
+        Problem.load(file)
 
 
 def test_a_value_that_changes_nothing_does_not_make_a_design_wrong(two):
@@ -308,8 +308,8 @@ def test_dominance_and_knee_of_a_known_front():
     assert len(thin) == 5 and {thin[0].run, thin[-1].run} == {0, 8}
 
 
-def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
-    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+def test_front_points_are_confirmed_by_the_richest_model(tmp_path):
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml")
     task = DesignTask(problem)
     good = {"geometry.planet_teeth": 13, "geometry.side_teeth": 20, "geometry.planet_count": 4, "geometry.module": 3.7e-3,
             "geometry.pressure_angle": 0.37, "geometry.face_width": 13e-3, "geometry.planet_addendum": 1.34,
@@ -333,8 +333,8 @@ def test_front_points_are_confirmed_by_the_richest_model(fmu_file, tmp_path):
     assert not told.models[model].refused and list(told.models) == [model]
 
 
-def test_loads_of_pins_and_washers_are_the_largest_over_all_planets_and_the_whole_run(fmu_file):
-    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+def test_loads_of_pins_and_washers_are_the_largest_over_all_planets_and_the_whole_run():
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml")
     # four planets between 10 and 18 teeth mesh half a pitch apart, and their loads swing in each mesh cycle of 160 ms
     design = {"geometry.planet_teeth": 10, "geometry.side_teeth": 18, "geometry.planet_count": 4, "geometry.module": 4e-3,
               "geometry.pressure_angle": 0.40, "geometry.face_width": 13e-3, "geometry.planet_addendum": 1.2,
@@ -360,8 +360,8 @@ def test_loads_of_pins_and_washers_are_the_largest_over_all_planets_and_the_whol
             assert row.figures[f"{quantity}:final"] == pytest.approx(expected, rel=2e-3), (quantity, stop)
 
 
-def test_a_fast_mesh_cycle_is_read_at_more_points(fmu_file):
-    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+def test_a_fast_mesh_cycle_is_read_at_more_points():
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml")
     # the sides turn fifty times faster against each other, so that a step of the scene is a third of a mesh cycle
     problem.scene.stop, problem.scene.step = 0.04, 0.02
     problem.scene.set({"left.speed_command": "7000 deg/s", "right.speed_command": "-5000 deg/s"})
@@ -376,8 +376,8 @@ def test_a_fast_mesh_cycle_is_read_at_more_points(fmu_file):
     assert row.figures["pin.shear:final"] == pytest.approx(expected, rel=0.02)
 
 
-def test_a_run_without_a_whole_mesh_cycle_is_not_a_quiet_design(fmu_file):
-    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml", fmu_file)
+def test_a_run_without_a_whole_mesh_cycle_is_not_a_quiet_design():
+    problem = Problem.load(REPOSITORY / "examples/design/study_gears.toml")
     problem.scene.stop = 0.05
     row = DesignTask(problem, thorough=True).evaluate(0, problem.compare["the study's gears"])
     assert "no whole mesh cycle passes" in row.message and not row.feasible
@@ -412,21 +412,21 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
     ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "needs a unique name"]),
     ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
 ])
-def test_errors_in_a_file_name_the_fault(folder, fmu_file, old, new, parts):
+def test_errors_in_a_file_name_the_fault(folder, old, new, parts):
     with pytest.raises(DifferentialError) as error:
-        changed(folder, fmu_file, old, new)
+        changed(folder, old, new)
     assert all(part in str(error.value) for part in parts), error.value
 
 
-def test_all_errors_of_a_file_are_reported_at_once(folder, fmu_file):
+def test_all_errors_of_a_file_are_reported_at_once(folder):
     wrong = TWO.replace("gears.mass", "gears.mas").replace("95 mm", "95 kg").replace("6 mm..20", "60 mm..20")
     with pytest.raises(DifferentialError) as error:
-        changed(folder, fmu_file, TWO, wrong)
+        changed(folder, TWO, wrong)
     assert len(str(error.value).splitlines()) == 3
 
 
-def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
-    problem = changed(folder, fmu_file, "<= 95 mm", "<= 20 mm").sized(population=8, generations=2)
+def test_without_feasible_designs_the_checks_give_the_reasons(folder):
+    problem = changed(folder, "<= 95 mm", "<= 20 mm").sized(population=8, generations=2)
     with pytest.raises(DifferentialError) as error:
         found(problem, folder / "out")
     lines = str(error.value).splitlines()
@@ -441,13 +441,13 @@ def test_without_feasible_designs_the_checks_give_the_reasons(folder, fmu_file):
     assert lines[-1].startswith("Widen the ranges")
 
 
-def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
+def test_results_are_neither_overwritten_nor_mixed(two, folder):
     small = two.sized(population=8, generations=2)
     found(small, folder / "out")
     with pytest.raises(DifferentialError, match="continue with --resume"):
         Store(folder / "out", small)
     with pytest.raises(DifferentialError, match="another problem"):
-        Store(folder / "out", changed(folder, fmu_file, "95 mm", "94 mm").sized(population=8), resume=True)
+        Store(folder / "out", changed(folder, "95 mm", "94 mm").sized(population=8), resume=True)
     with pytest.raises(DifferentialError, match="no results to continue from"):
         Store(folder / "elsewhere", small, resume=True)
     (folder / "out/evaluations.parquet").write_bytes(b"not a table")
@@ -455,15 +455,15 @@ def test_results_are_neither_overwritten_nor_mixed(two, folder, fmu_file):
         Store(folder / "out", small, resume=True)
 
 
-def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder, fmu_file, monkeypatch):
+def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder, monkeypatch):
     def stop(line="", **_):
         if line.startswith("generation 2 "):
             raise KeyboardInterrupt
 
     monkeypatch.setattr(optimise_command, "print", stop, raising=False)
     given = [folder / "two.toml", "--out", folder / "out", "--workers", "0", "--population", "12", "--generations", "4"]
-    assert main(["optimise", *map(str, given), "--fmu", fmu_file]) == 130
-    front_of_two, _ = found(Problem.load(folder / "two.toml", fmu_file).sized(population=12, generations=2), folder / "two")
+    assert main(["optimise", *map(str, given)]) == 130
+    front_of_two, _ = found(Problem.load(folder / "two.toml").sized(population=12, generations=2), folder / "two")
     assert set(pd.read_csv(folder / "out/front.csv")["run"]) == {row.run for row in front_of_two}
     assert not list((folder / "out").glob("*.part"))
 
@@ -497,20 +497,20 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, cap
     # another test covers files for CAD
     monkeypatch.setattr(cad, "available", lambda: False)
     monkeypatch.chdir(folder)
-    assert main(["optimise", *given, "--resume", "--fmu", fmu_file]) == 0
+    assert main(["optimise", *given, "--resume"]) == 0
     assert "gears in out" in capsys.readouterr().out
-    whole, _ = found(Problem.load(folder / "two.toml", fmu_file).sized(population=12, generations=4), folder / "whole")
+    whole, _ = found(Problem.load(folder / "two.toml").sized(population=12, generations=4), folder / "whole")
     after = pd.read_csv(folder / "out/front.csv")
     assert set(after["run"]) <= {row.run for row in whole} and len(after) == min(64, len(whole))
     assert "the study's gears" in (folder / "out/choice.md").read_text(encoding="utf-8")
     assert (folder / "out/front.png").stat().st_size > 10_000
 
 
-def test_wrong_use_of_the_command_ends_with_a_status(folder, fmu_file, capsys, monkeypatch):
+def test_wrong_use_of_the_command_ends_with_a_status(folder, capsys, monkeypatch):
     monkeypatch.chdir(folder)
     for given, part in [(["none.toml"], "none.toml"), (["two.toml", "--population", "1"], "population = 1"),
                         (["two.toml", "--resume"], "leave out --resume"), (["two.toml", "--sead", "1"], "--sead")]:
-        status = main(["optimise", *given, "--fmu", fmu_file, "--workers", "0"])
+        status = main(["optimise", *given, "--workers", "0"])
         assert status not in (0, 130) and part in capsys.readouterr().err
 
 

@@ -32,12 +32,12 @@ def test_the_shipped_scenes_are_known():
 
 
 @pytest.mark.parametrize("name", [*SCENES, *TEXTS])
-def test_a_scene_has_the_bits_of_the_command(name, fmu_file, tmp_path, everything):
+def test_a_scene_has_the_bits_of_the_command(name, tmp_path, everything):
     if name in TEXTS:
         everything.write_text(TEXTS[name], encoding="utf-8")
     what = name if name in SCENES else everything
     changes = SHORTER.get(name, {})
-    with Scene.load(what, fmu=fmu_file) as scene:
+    with Scene.load(what) as scene:
         scene.stop = changes.get("stop_time", scene.stop)
         record = scene.run()
         with pickle.loads(pickle.dumps(scene)) as copy:
@@ -45,16 +45,16 @@ def test_a_scene_has_the_bits_of_the_command(name, fmu_file, tmp_path, everythin
     assert np.array_equal(np.array(record.tolist(), float), by_itself(what, tmp_path, changes))
 
 
-def test_a_record_is_written_and_read_back_to_the_same_bits(fmu_file, tmp_path):
-    with Scene.load("study_turning", fmu=fmu_file) as scene:
+def test_a_record_is_written_and_read_back_to_the_same_bits(tmp_path):
+    with Scene.load("study_turning") as scene:
         record = scene.run(stop="20 ms")
         file = scene.to_csv(record, tmp_path / "turn.csv")
     found = np.genfromtxt(file, delimiter=",", names=True, deletechars="")
     assert all(np.array_equal(found[name], record[name]) for name in record.dtype.names)
 
 
-def test_the_summary_is_in_the_usual_units(fmu_file):
-    with Scene.load("study_straight", fmu=fmu_file) as scene:
+def test_the_summary_is_in_the_usual_units():
+    with Scene.load("study_straight") as scene:
         line = next(line for line in scene.summary(scene.run()).splitlines() if line.startswith("left.speed "))
     assert line.split()[1] == "deg/s" and float(line.split()[3]) == pytest.approx(2861.0, abs=1e-2)
 
@@ -76,20 +76,20 @@ def test_the_summary_is_in_the_usual_units(fmu_file):
     ("step = \"1 ms\"", "step = \"1 ms\"\ninput_slopes = \"yes\"", ["input_slopes", "yes", "true or false"]),
     ("description =", "description ", ["everything.toml"]),
 ])
-def test_errors_in_a_file_are_named(old, new, parts, everything, fmu_file):
+def test_errors_in_a_file_are_named(old, new, parts, everything):
     text = everything.read_text(encoding="utf-8")
     assert old in text
     everything.write_text(text.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
-        Scene.load(everything, fmu=fmu_file)
+        Scene.load(everything)
     assert all(part in str(error.value) for part in parts), error.value
 
 
-def test_missing_keys_are_listed_together_with_other_errors(fmu_file, tmp_path):
+def test_missing_keys_are_listed_together_with_other_errors(tmp_path):
     file = tmp_path / "bare.toml"
     file.write_text("[set]\ngeometry.modul = 1\n", encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
-        Scene.load(file, fmu=fmu_file)
+        Scene.load(file)
     first, second = str(error.value).splitlines()
     assert "missing: description, stop_time, step, outputs" in first and "did you mean geometry.module" in second
 
@@ -101,17 +101,17 @@ def test_missing_keys_are_listed_together_with_other_errors(fmu_file, tmp_path):
     (",90", "", ["line 6", "1 cells", "2"]),
     ("11.1", "1.1", ["is earlier than in the line above"]),
 ])
-def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything, fmu_file):
+def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything):
     file = everything.parent / "cycle.csv"
     file.write_text(CYCLE.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
-        Scene.load(everything, fmu=fmu_file)
+        Scene.load(everything)
     assert all(part in str(error.value) for part in parts), error.value
 
 
-def test_an_unknown_scene_is_answered_with_the_known_ones(fmu_file):
+def test_an_unknown_scene_is_answered_with_the_known_ones():
     with pytest.raises(DifferentialError, match="did you mean clunk.*study_straight"):
-        Scene.load("clonk", fmu=fmu_file)
+        Scene.load("clonk")
 
 
 @pytest.mark.parametrize("table, parts", [
@@ -119,18 +119,18 @@ def test_an_unknown_scene_is_answered_with_the_known_ones(fmu_file):
     (("left.load_torque", [0.0, 1.0], [1.0, 2.0], -1.0), ["period", "more than 0"]),
     (("left.load_torque", [0.0, 1.0], [1.0], None), ["2 times for 1 values"]),
 ])
-def test_errors_in_tables_from_python_are_named(fmu_file, table, parts):
+def test_errors_in_tables_from_python_are_named(table, parts):
     with pytest.raises(DifferentialError) as error:
-        Scene(outputs=["left.speed"], tables=[table], fmu=fmu_file)
+        Scene(outputs=["left.speed"], tables=[table])
     assert all(part in str(error.value) for part in parts), error.value
 
 
 @pytest.mark.parametrize("input_slopes", [False, True])
-def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slopes, fmu_file):
+def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slopes):
     # rad/s over s: a ramp, a kink within a step, a jump at 50 ms, and all of it again from 80 ms, where the value also jumps
     step, times, speeds, period = 8e-3, [0.0, 0.03, 0.05, 0.05, 0.08], [10.0, 40.0, 30.0, 20.0, 60.0], 0.08
     with Scene(stop=0.16, step=step, outputs=["carrier.angle", "carrier.speed"], set={"scene.gear_contact": "ideal"},
-               tables=[("carrier.speed_command", times, speeds, period)], input_slopes=input_slopes, fmu=fmu_file) as scene:
+               tables=[("carrier.speed_command", times, speeds, period)], input_slopes=input_slopes) as scene:
         record = scene.run()
         assert scene.contents().get("input_slopes", False) == input_slopes
     begins, ends = record["time"][:-1], record["time"][1:]
@@ -148,6 +148,6 @@ def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slo
         assert turned == pytest.approx(integral if input_slopes else speed(begin) * (end - begin), rel=1e-7), begin
 
 
-def test_a_wrong_choice_of_slopes_is_refused(fmu_file):
+def test_a_wrong_choice_of_slopes_is_refused():
     with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
-        Scene(outputs=["left.speed"], input_slopes="yes", fmu=fmu_file)
+        Scene(outputs=["left.speed"], input_slopes="yes")

@@ -27,9 +27,8 @@ def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_
 
 
 @pytest.mark.parametrize("names", [["aligned"], ["planet_out", "hypoid_forward"], ["aligned", "mine"]])
-def test_pictures_of_scenes_say_nothing_about_the_documentation_s_cases(names, tmp_path, monkeypatch, fmu_file):
+def test_pictures_of_scenes_say_nothing_about_the_documentation_s_cases(names, tmp_path, monkeypatch):
     """The documentation's cases have names, which a user's scene file may have, too."""
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     figures = []
     monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
     for name in names:

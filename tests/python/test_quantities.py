@@ -20,13 +20,13 @@ BORE = {"geometry.planet_bore": "12 mm"}
 
 
 @pytest.fixture
-def scene(tmp_path, fmu_file):
+def scene(tmp_path):
     (tmp_path / "scene.toml").write_text(SCENE, encoding="utf-8")
-    with Scene.load(tmp_path / "scene.toml", fmu_file) as loaded:
+    with Scene.load(tmp_path / "scene.toml") as loaded:
         yield loaded.set(BORE)
 
 
-def test_a_run_records_quantities_by_their_formulas(scene, fmu_file):
+def test_a_run_records_quantities_by_their_formulas(scene):
     names = ["geometry.planet_mass", "gears.mass", "geometry.side_mass", "pin.shear", "envelope.diameter"]
     record = scene.run(names)
     assert record.dtype.names == ("time", *names)
@@ -37,14 +37,14 @@ def test_a_run_records_quantities_by_their_formulas(scene, fmu_file):
     assert record["pin.shear"][-1] == pytest.approx(16.0 * largest / (3.0 * math.pi * 0.012**2), rel=1e-12)
     assert scene.final(names) == {name: record[name][-1] for name in names}
     assert "pin.shear" in scene.summary(record) and "MPa" in scene.summary(record)
-    plain = Differential({**scene.values}, fmu=fmu_file).run(outputs=["envelope.diameter"], stop=1e-3)
+    plain = Differential({**scene.values}).run(outputs=["envelope.diameter"], stop=1e-3)
     assert np.all(plain["envelope.diameter"] == record["envelope.diameter"][0])
 
 
-def test_a_scene_file_names_quantities_among_its_outputs(tmp_path, fmu_file):
+def test_a_scene_file_names_quantities_among_its_outputs(tmp_path):
     text = SCENE.replace("outputs = [", 'outputs = ["gears.mass", ', 1).replace("stop_time = 0.001", "stop_time = 0.02")
     (tmp_path / "scene.toml").write_text(text, encoding="utf-8")
-    with Scene.load(tmp_path / "scene.toml", fmu_file) as scene:
+    with Scene.load(tmp_path / "scene.toml") as scene:
         assert scene.outputs[0] == "gears.mass" and len(scene.outputs) > 1
         record = scene.run()
         assert list(record.dtype.names) == ["time", *scene.outputs] and record["gears.mass"][0] > 0.0
@@ -56,7 +56,7 @@ def test_a_scene_file_names_quantities_among_its_outputs(tmp_path, fmu_file):
         accuracy(tmp_path / "scene.toml", "pin.shear:max")
 
 
-def test_loads_of_quantities_are_the_largest_so_far_since_rating_began(fmu_file):
+def test_loads_of_quantities_are_the_largest_so_far_since_rating_began():
     """The carrier torque rises, falls, and rises less."""
     course = [("carrier.torque_command", [0.0, 0.01, 0.02, 0.03, 0.04], [0.0, 900.0, 100.0, 600.0, 600.0], None)]
     for sign in (1.0, -1.0):
@@ -65,7 +65,7 @@ def test_loads_of_quantities_are_the_largest_so_far_since_rating_began(fmu_file)
                   "scene.right_drive": "speed", "half_shaft.left_damping": 50.0, "half_shaft.right_damping": 50.0,
                   "left.speed_command": 0.0, "right.speed_command": 0.0}
         for since in (0.0, 0.022):
-            scene = Scene("pin", stop=0.04, step=1e-3, tables=tables, set={**values, "strength.rate_from": since}, fmu=fmu_file)
+            scene = Scene("pin", stop=0.04, step=1e-3, tables=tables, set={**values, "strength.rate_from": since})
             record = scene.run(["pin.shear", "planet[1].pin_force", "planet[2].pin_force"])
             shear, force = record["pin.shear"], np.maximum(record["planet[1].pin_force"], record["planet[2].pin_force"])
             rated = record["time"] >= since
@@ -76,19 +76,19 @@ def test_loads_of_quantities_are_the_largest_so_far_since_rating_began(fmu_file)
 
 
 @pytest.mark.parametrize("name", sorted(QUANTITIES.keys() - {"gears.mass"}))
-def test_sweeps_and_comparisons_have_the_quantities_of_searches(name, scene, fmu_file, tmp_path):
+def test_sweeps_and_comparisons_have_the_quantities_of_searches(name, scene, tmp_path):
     (tmp_path / "search.toml").write_text(f'description = "d"\nscene = "scene.toml"\nobjectives = ["minimise gears.mass", "minimise {name}"]\n'
                                           '[set]\ngeometry.planet_bore = "12 mm"\n[vary]\ngeometry.module = "4 mm..5 mm"\n', encoding="utf-8")
-    row = DesignTask(Problem.load(tmp_path / "search.toml", fmu_file), thorough=True).evaluate(0, {"geometry.module": 4.25e-3})
+    row = DesignTask(Problem.load(tmp_path / "search.toml"), thorough=True).evaluate(0, {"geometry.module": 4.25e-3})
     result = sweep(scene, {"geometry.module": "4.25 mm"}, "grid", wants=[name, "gears.mass"], workers=0).table.to_pylist()[0]
     assert result[f"{name}:final"] == pytest.approx(row.figures[f"{name}:final"], rel=1e-9), result["message"]
     assert result["gears.mass:final"] == pytest.approx(row.figures["gears.mass:final"], rel=1e-12)
     assert name in str(compare(scene, scene, outputs=[name], values={"geometry.module": "4.25 mm"}))
 
 
-def test_suggestions_are_of_the_same_kind(fmu, scene, capsys, fmu_file):
+def test_suggestions_are_of_the_same_kind(fmu, scene, capsys):
     for action in (lambda: sweep(scene, {"left.load_torque": "1, 2"}, "grid", wants=["gear.mass"], workers=0), lambda: scene.run(["gear.mass"]),
-                   lambda: Scene("s", outputs=["gear.mass"], fmu=fmu_file)):
+                   lambda: Scene("s", outputs=["gear.mass"])):
         with pytest.raises(DifferentialError, match=r"did you mean gears\.mass\?"):
             action()
     # a parameter of a similar name is not suggested for an output, and no output for a parameter
@@ -102,7 +102,7 @@ def test_suggestions_are_of_the_same_kind(fmu, scene, capsys, fmu_file):
         scene.set({"gears.mass": 1.0})
     with fmu.open() as instance, pytest.raises(DifferentialError, match="gears.mass.*single calls cannot read it"):
         instance.get("gears.mass")
-    assert main(["run", "study_turning", "--stop", "2 ms", "--output", "gears.mass", "--fmu", fmu_file]) == 0
+    assert main(["run", "study_turning", "--stop", "2 ms", "--output", "gears.mass"]) == 0
     assert "gears.mass" in capsys.readouterr().out
 
 
@@ -112,9 +112,9 @@ def test_conditions_show_the_limit_as_it_was_written(fmu):
         assert str(Condition.parse(fmu, written)) == shown
 
 
-def test_a_statistic_that_cannot_be_formed_leaves_only_its_own_cell_empty(fmu_file):
+def test_a_statistic_that_cannot_be_formed_leaves_only_its_own_cell_empty():
     # in 0.05 s, the carrier turns 0.24 times at 30 rad/s and 1.2 times at 150 rad/s
-    with Scene("turns", stop=0.05, step=1e-3, set={"scene.gear_contact": "ideal"}, fmu=fmu_file) as scene:
+    with Scene("turns", stop=0.05, step=1e-3, set={"scene.gear_contact": "ideal"}) as scene:
         result = sweep(scene, {"carrier.speed_command": "30, 150"}, "grid", wants=["left.speed:mean", "carrier.torque:shaft_order_1"],
                        conditions=["left.speed:mean > 1"], workers=0)
     first, second = result.table.to_pylist()

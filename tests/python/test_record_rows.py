@@ -19,19 +19,19 @@ FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "left.lo
 STEP = [0.0, 0.5, 0.5], [100.0, 100.0, 0.0], None
 
 
-def jumping(kind, fmu_file, sign=1.0, step=0.1):
+def jumping(kind, sign=1.0, step=0.1):
     """Scene whose torque is 100 N·m for 0.5 s, and then 0."""
     given = {"changes": [(0.5, {"carrier.torque_command": 0.0})]} if kind == "change" else {
         "tables": [("carrier.torque_command", STEP[0], [sign * value for value in STEP[1]], None)]}
     start = {"carrier.torque_command": sign * 100.0} if kind == "change" else {}
-    return Scene(kind, stop=1.0, step=step, outputs=[TORQUE, POWER], set=FREE | start, fmu=fmu_file, **given)
+    return Scene(kind, stop=1.0, step=step, outputs=[TORQUE, POWER], set=FREE | start, **given)
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("kind", ["change", "table"])
 @pytest.mark.parametrize("step", [0.1, 0.3])
-def test_a_jump_has_two_rows_and_the_mean_across_it_is_exact(kind, step, sign, fmu_file, tmp_path):
-    with jumping(kind, fmu_file, sign, step) as scene:
+def test_a_jump_has_two_rows_and_the_mean_across_it_is_exact(kind, step, sign, tmp_path):
+    with jumping(kind, sign, step) as scene:
         record = scene.run()
         at = np.flatnonzero(record["time"] == 0.5)
         assert record[TORQUE][at].tolist() == [sign * 100.0, 0.0]
@@ -49,10 +49,10 @@ def test_a_jump_has_two_rows_and_the_mean_across_it_is_exact(kind, step, sign, f
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("step", [0.02, 0.25])
-def test_run_report_sweep_comparison_and_accuracy_have_the_same_figures_with_the_first_point(step, sign, fmu_file):
+def test_run_report_sweep_comparison_and_accuracy_have_the_same_figures_with_the_first_point(step, sign):
     # from 300 N·m down to 0 within 0.5 s: the first point is the largest
     table = "carrier.torque_command", [0.0, 0.5], [sign * 300.0, 0.0], None
-    with Scene("falling", stop=1.0, step=step, outputs=[TORQUE], tables=[table], set=FREE, fmu=fmu_file) as scene:
+    with Scene("falling", stop=1.0, step=step, outputs=[TORQUE], tables=[table], set=FREE) as scene:
         mean, least, most = sign * 75.0, min(sign * 300.0, 0.0), max(sign * 300.0, 0.0)
         wants = [f"{TORQUE}:{word}" for word in ("mean", "min", "max")]
         shown = [float(cell) for cell in scene.summary(scene.run()).splitlines()[1].split()[2:5]]
@@ -65,8 +65,8 @@ def test_run_report_sweep_comparison_and_accuracy_have_the_same_figures_with_the
         assert found["values"] == pytest.approx([mean, least, most], abs=1e-6)
 
 
-def test_a_figure_from_a_jump_on_does_not_contain_the_values_before_it(fmu_file):
-    with jumping("change", fmu_file) as scene:
+def test_a_figure_from_a_jump_on_does_not_contain_the_values_before_it():
+    with jumping("change") as scene:
         wants = [f"{TORQUE}:{word}" for word in ("mean", "max", "rms")]
         assert list(Task(scene, wants, start=0.5).evaluate(0, {}).figures.values()) == [0.0] * 3
         # from a time between two points, and from the start, which counts
@@ -75,10 +75,10 @@ def test_a_figure_from_a_jump_on_does_not_contain_the_values_before_it(fmu_file)
         assert speeds["carrier.speed:min"] == 0.0
 
 
-def test_equal_scenes_with_a_jump_and_other_steps_do_not_differ_at_the_jump(fmu_file, tmp_path):
+def test_equal_scenes_with_a_jump_and_other_steps_do_not_differ_at_the_jump(tmp_path):
     from bevel_differential.comparison.picture import _apart
 
-    with jumping("change", fmu_file, step=0.1) as first, jumping("table", fmu_file, step=0.05) as second:
+    with jumping("change", step=0.1) as first, jumping("table", step=0.05) as second:
         found = compare(first, second)
         assert _apart(found, TORQUE)[0] < 1e-9 and _apart(found, POWER)[0] < 1e-6
         assert [row[3] for row in found.table()] == pytest.approx([row[4] for row in found.table()], rel=1e-9)

@@ -33,8 +33,7 @@ value = {[sign * value for value in TABLE[1]]}
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch, fmu_file):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(fmu_file))
+def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -31,8 +31,7 @@ WHOLE = ("study_turning", "locked")
 
 
 @pytest.fixture(autouse=True)
-def with_fmu(fmu_file, monkeypatch, tmp_path):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def with_fmu(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
@@ -43,9 +42,9 @@ def in_haste(patch):
 
 
 @cache
-def text_of(name, fmu_file):
+def text_of(name):
     """Report of a shipped scene."""
-    with Scene.load(name, fmu=fmu_file) as scene, pytest.MonkeyPatch.context() as patch:
+    with Scene.load(name) as scene, pytest.MonkeyPatch.context() as patch:
         if name not in WHOLE:
             in_haste(patch)
         scene.stop = LONGEST.get(name, scene.stop)
@@ -53,8 +52,8 @@ def text_of(name, fmu_file):
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
-def test_every_scene_has_a_report_whose_figures_show_something(name, fmu_file):
-    text = text_of(name, fmu_file)
+def test_every_scene_has_a_report_whose_figures_show_something(name):
+    text = text_of(name)
     page = ReportPage(text)
     assert len(text.encode()) < MOST_BYTES
     assert set(page.figures) == ALL - WITHOUT.get(name, set())
@@ -75,16 +74,16 @@ def test_a_quick_report_omits_the_parts_that_need_other_runs(monkeypatch):
     assert "700 N·m" in page.sections["setup"]
 
 
-def test_texts_of_a_scene_are_escaped_and_not_markup(fmu_file, monkeypatch):
+def test_texts_of_a_scene_are_escaped_and_not_markup(monkeypatch):
     in_haste(monkeypatch)
-    scene = Scene("a<b>", description="<script>alert(1)</script>", stop=0.01, outputs=["left.speed"], fmu=fmu_file)
+    scene = Scene("a<b>", description="<script>alert(1)</script>", stop=0.01, outputs=["left.speed"])
     with scene:
         text = write(scene, "report.html", quick=True).read_text(encoding="utf-8")
     assert "<script" not in text and "&lt;script&gt;" in text and "a&lt;b&gt;" in text
 
 
-def test_effects_that_are_off_are_tried_and_refusals_come_from_the_fmu(fmu_file):
-    worth = ReportPage(text_of("study_turning", fmu_file)).sections["worth"]
+def test_effects_that_are_off_are_tried_and_refusals_come_from_the_fmu():
+    worth = ReportPage(text_of("study_turning")).sections["worth"]
     assert "effects.body_compliance: does not work with contact.law = impact" in worth
     assert re.search(r"tooth_errors\s+changes nothing beyond the solver's tolerance \(tooth_errors.accuracy_grade", worth)
     assert re.search(r"half_shaft\s+changes nothing [^.]*\(.*inertia.left_end", worth)

@@ -15,8 +15,8 @@ def cycle(fmu_file, tmp_path):
     return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
 
 
-def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
-    result = spectrum(DUTY_CYCLE, fmu=fmu_file)
+def test_the_example_is_complete_and_sorted(tmp_path):
+    result = spectrum(DUTY_CYCLE)
     table = result.table()
     assert len(table) == len(result.events) == 22
     assert np.all(np.diff(table["share"]) <= 0.0)
@@ -32,10 +32,10 @@ def test_the_example_is_complete_and_sorted(fmu_file, tmp_path):
     assert counts.shape == (8, 8) and counts.sum() == pytest.approx(result.slow.count.sum())
 
 
-def test_the_table_of_the_docs_is_that_of_the_example(fmu_file):
+def test_the_table_of_the_docs_is_that_of_the_example():
     text = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
     written = text.partition("<!-- duty cycle begin")[2].partition("<!-- duty cycle end")[0].splitlines()[1:]
-    lines = iter(spectrum(DUTY_CYCLE, fmu=fmu_file).markdown())
+    lines = iter(spectrum(DUTY_CYCLE).markdown())
     # the worst events in their order
     assert len(written) > 10 and all(line in lines for line in written)
 
@@ -117,9 +117,9 @@ def test_errors_in_a_history_are_reported_with_their_place(cycle, tmp_path, line
     assert all(part in str(error.value) for part in ["history.csv", *parts]), error.value
 
 
-def test_the_command_reports_results_and_has_one_line_for_an_error(fmu_file, tmp_path, capsys):
+def test_the_command_reports_results_and_has_one_line_for_an_error(tmp_path, capsys):
     table, picture = tmp_path / "table.csv", tmp_path / "picture.png"
-    good = [str(DUTY_CYCLE), "--fmu", fmu_file, "--csv", str(table), "--plot", str(picture), "--set", "contact.law=line"]
+    good = [str(DUTY_CYCLE), "--csv", str(table), "--plot", str(picture), "--set", "contact.law=line"]
     assert main(["spectrum", *good]) == 0
     assert "life by the" in capsys.readouterr().out and table.is_file() and picture.is_file()
     assert main(["spectrum", str(DUTY_CYCLE), "--set", "track"]) == 2 and "write NAME=VALUE" in capsys.readouterr().err
@@ -128,7 +128,7 @@ def test_the_command_reports_results_and_has_one_line_for_an_error(fmu_file, tmp
                         ([str(DUTY_CYCLE), "--scene", "nowhere"], "no scene file 'nowhere'"),
                         ([str(DUTY_CYCLE), "--set", "scene.gear_contact=ideal"], "it needs scene.gear_contact"),
                         ([str(DUTY_CYCLE), "--plot", str(tmp_path / "p.xyz")], "p.xyz")]:
-        assert main(["spectrum", *wrong, "--fmu", fmu_file]) == 2
+        assert main(["spectrum", *wrong]) == 2
         message = capsys.readouterr().err.strip().splitlines()[-1]
         assert message.startswith("bevel-differential") and part in message, message
 
@@ -181,8 +181,8 @@ def test_a_missing_speed_is_refused(cycle, driven, name):
         cycle(*lines, parameters={"scene.carrier_drive": driven})
 
 
-def test_events_from_python_need_their_loads_too(fmu_file):
+def test_events_from_python_need_their_loads_too():
     from bevel_differential.spectrum import Event
 
     with pytest.raises(DifferentialError, match="left.load_torque: event 'one'.*nobody gives"):
-        spectrum([Event("one", 1.0, 1.0, values={"carrier.speed_command": 50.0})], fmu=fmu_file)
+        spectrum([Event("one", 1.0, 1.0, values={"carrier.speed_command": 50.0})])

@@ -97,9 +97,8 @@ def units(fmu_file, tmp_path_factory):
 
 
 @pytest.fixture
-def prepared(fmu_file, units, tmp_path, monkeypatch):
+def prepared(units, tmp_path, monkeypatch):
     """prepared(status): a folder with the files of the command lines, and the conditions in which a command ends with this status."""
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
     monkeypatch.chdir(tmp_path)
     for name, text in FILES.items():
         Path(name).write_text(text, encoding="utf-8")

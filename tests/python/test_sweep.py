@@ -32,8 +32,8 @@ PLAN = {"vary": VARY, "plan": "lhs", "runs": RUNS, "seed": 1, "wants": WANTS, "c
 
 
 @pytest.fixture(scope="module")
-def scene(fmu_file):
-    with Scene.load("study_turning", fmu=fmu_file) as loaded:
+def scene():
+    with Scene.load("study_turning") as loaded:
         yield loaded
 
 
@@ -244,13 +244,13 @@ def errors(text):
     return without_warnings(text).splitlines()
 
 
-def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(fmu_file, tmp_path, capsys):
+def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path, capsys):
     # a mean over two thousand steps, so that the interrupt comes before the end
     scene = tmp_path / "turn.toml"
     scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
-    running = subprocess.Popen(changed_command(0.1, [*arguments(scene, out, wants), "--fmu", fmu_file]), stdout=subprocess.PIPE,
+    running = subprocess.Popen(changed_command(0.1, [*arguments(scene, out, wants)]), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
@@ -262,22 +262,22 @@ def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(fmu_file,
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
     # a resumed sweep may have other workers; gears that cannot be assembled give the status 3
-    assert main([*arguments(scene, out, wants, "--resume", "--workers", "0"), "--fmu", fmu_file]) == 3
+    assert main([*arguments(scene, out, wants, "--resume", "--workers", "0")]) == 3
     told = capsys.readouterr()
     assert not errors(told.err) and f"{kept} runs were kept from before" in told.out
-    with Scene.load(scene, fmu=fmu_file) as loaded:
+    with Scene.load(scene) as loaded:
         whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=0)
     assert SweepResult.load(out).digest() == whole.digest()
 
 
-def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(fmu_file, scene, tmp_path):
+def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(scene, tmp_path):
     out = tmp_path / "found.parquet"
     given = arguments("study_turning", out, WANTS)
     given[given.index("--runs") + 1], given[given.index("--workers") + 1] = "50", "0"
-    full = subprocess.run(changed_command(0.0, [*given, "--fmu", fmu_file], most=7000), capture_output=True, text=True, timeout=120)
+    full = subprocess.run(changed_command(0.0, [*given], most=7000), capture_output=True, text=True, timeout=120)
     assert full.returncode == 1 and len(errors(full.stderr)) == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
-    assert main([*given, "--resume", "--fmu", fmu_file]) == 3
+    assert main([*given, "--resume"]) == 3
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
 
 
@@ -336,9 +336,9 @@ def test_plan_json_of_the_parts_is_the_metadata(scene, tmp_path, monkeypatch):
     assert json.loads((tmp_path / "found.parquet.parts" / "plan.json").read_text())["plan"] == "lhs"
 
 
-def test_a_script_without_a_guard_is_told_so_and_does_not_wait_for_itself(fmu_file, tmp_path):
+def test_a_script_without_a_guard_is_told_so_and_does_not_wait_for_itself(tmp_path):
     (tmp_path / "all.py").write_text("import sys\nfrom bevel_differential.command import main\nsys.exit(main())\n", encoding="utf-8")
     command = [sys.executable, "all.py", "sweep", "--scene", "clunk", "--vary", "left.load_torque=1 N.m,2 N.m", "--plan", "grid",
-               "--want", "left.speed", "--fmu", os.fspath(fmu_file), "--workers", "2", "--out", "all.parquet"]
+               "--want", "left.speed", "--workers", "2", "--out", "all.parquet"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 1 and "if __name__" in done.stderr and "another command writes there" not in done.stderr

@@ -12,7 +12,7 @@ def test_the_front_has_the_designs_that_no_other_one_dominates():
     assert front(costs[:, :1]).tolist() == [True] + [False] * 6
 
 
-def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectives(fmu_file, tmp_path, monkeypatch):
+def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectives(tmp_path, monkeypatch):
     """On ideal gears without friction, both torques follow the carrier's torque, so the front is known."""
     from bevel_differential import style
     figures = []
@@ -20,7 +20,7 @@ def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectiv
     words = ["sweep", "--scene", "torque_bias", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
              "effects.thrust_friction=false", "--stop", "2 ms", "--vary", "carrier.torque_command=100, 200, 300, 400", "--vary",
              "solver.method=adaptive, fixed_step", "--plan", "grid", "--want", "carrier.speed", "--condition", "left.shaft_torque <= 180",
-             "--workers", "0", "--fmu", fmu_file, "--plot", str(tmp_path / "a.png")]
+             "--workers", "0", "--plot", str(tmp_path / "a.png")]
     assert main([*words, "--objective", "maximise left.shaft_torque", "--objective", "minimise carrier.torque"]) == 0
     assert main(words) == 0
     both, matrix = figures

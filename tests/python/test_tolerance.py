@@ -88,8 +88,8 @@ def total(x):
 
 
 @pytest.fixture
-def turn(fmu_file):
-    with Scene(stop=0.12, set=TURN, outputs=["torque_bias_ratio"], fmu=fmu_file) as scene:
+def turn():
+    with Scene(stop=0.12, set=TURN, outputs=["torque_bias_ratio"]) as scene:
         yield scene
 
 
@@ -261,8 +261,8 @@ def test_without_tolerances_all_runs_are_nominal(turn):
     assert "does not vary" in result.indices[f"{name}:final"]
 
 
-def transmission_errors(values, side, grade, fmu_file):
-    with Scene(stop=0.08, set=values, outputs=["left.speed"], fmu=fmu_file) as scene:
+def transmission_errors(values, side, grade):
+    with Scene(stop=0.08, set=values, outputs=["left.speed"]) as scene:
         reader = Reader(scene)
         graded = ("accuracy_grade", "planet_runout", "side_runout")
         factors = [*(reader.read(f"tooth_errors.{name}", f"grade {grade}") for name in graded),
@@ -272,15 +272,15 @@ def transmission_errors(values, side, grade, fmu_file):
         return result_of(study, Task(scene, study.wants, start=0.02)).base.figures[str(wanted)]
 
 
-def test_mirror_images_have_the_same_spread(fmu_file):
-    left, right = transmission_errors(TURN, "left", 7, fmu_file), transmission_errors(MIRRORED, "right", 7, fmu_file)
+def test_mirror_images_have_the_same_spread():
+    left, right = transmission_errors(TURN, "left", 7), transmission_errors(MIRRORED, "right", 7)
     assert not np.array_equal(left, right)
     assert stats.ks_2samp(left, right).pvalue > 0.05
-    assert stats.ks_2samp(left, transmission_errors(MIRRORED, "right", 10, fmu_file)).pvalue < 1e-4
+    assert stats.ks_2samp(left, transmission_errors(MIRRORED, "right", 10)).pvalue < 1e-4
 
 
-def test_a_file_gives_the_same_results_with_any_workers_and_plausible_ones(files, fmu_file):
-    plan = Plan.load(files, fmu=fmu_file)
+def test_a_file_gives_the_same_results_with_any_workers_and_plausible_ones(files):
+    plan = Plan.load(files)
     results = []
     for workers in (0, 2):
         with Farm(workers=workers) as farm:
@@ -298,8 +298,7 @@ def test_a_file_gives_the_same_results_with_any_workers_and_plausible_ones(files
     assert np.argmax(indices.total) == results[0].names.index("tooth_friction.coefficient")
 
 
-def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_path, capsys):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def test_the_command_prints_and_writes_all(files, tmp_path, capsys):
     parser = argparse.ArgumentParser()
     command.add_arguments(parser)
     picture, runs = tmp_path / "a.png", tmp_path / "a.csv"
@@ -340,22 +339,22 @@ def test_the_command_prints_and_writes_all(files, fmu_file, monkeypatch, tmp_pat
     ("runs = 8", "set.tooth_errors.runout_by_grade = true", ["tooth_errors.side_runout", "runout_by_grade"]),
     ("[factors]", "[factors.more]", ["more.tooth_errors", "no such variable"]),
 ])
-def test_errors_in_a_file_are_named(old, new, parts, files, fmu_file):
+def test_errors_in_a_file_are_named(old, new, parts, files):
     text = files.read_text(encoding="utf-8")
     assert old in text
     files.write_text(text.replace(old, new, 1), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
-        Plan.load(files, fmu=fmu_file)
+        Plan.load(files)
     assert all(part in str(error.value) for part in [files.name, *parts]), error.value
 
 
-def test_a_wrong_factor_is_one_error_also_where_an_alternative_names_it(files, fmu_file):
+def test_a_wrong_factor_is_one_error_also_where_an_alternative_names_it(files):
     files.write_text(FILE.replace("accuracy_grade = \"grade 7\"", "accuracy_grade = \"grade 12\""), encoding="utf-8")
     with pytest.raises(DifferentialError) as error:
-        Plan.load(files, fmu=fmu_file)
+        Plan.load(files)
     assert len(str(error.value).splitlines()) == 1
 
 
-def test_gears_that_do_not_vary_are_noted(files, fmu_file):
+def test_gears_that_do_not_vary_are_noted(files):
     files.write_text(FILE.replace("tooth_errors.seed = \"seed\"", ""), encoding="utf-8")
-    assert "all gears have the same teeth" in Plan.load(files, fmu=fmu_file).notes[0]
+    assert "all gears have the same teeth" in Plan.load(files).notes[0]

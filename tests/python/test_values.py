@@ -42,13 +42,13 @@ FRAME = 'description = "d"\nstop_time = "1 ms"\nstep = "1 ms"\noutputs = ["left.
 
 
 @pytest.mark.parametrize(("name", "text", "toml", "number"), GOOD)
-def test_every_reader_gives_the_same_number(name, text, toml, number, fmu, fmu_file, tmp_path):
+def test_every_reader_gives_the_same_number(name, text, toml, number, fmu, tmp_path):
     start = fmu.variable("scene.start").literals
     number = start["rolling"] if name == "scene.start" else number
     file = tmp_path / "scene.toml"
     file.write_text(f"{FRAME}{name} = {toml}\n", encoding="utf-8")
     of_package = fmu.variable(name).number(text)
-    with Scene.load(file, fmu_file) as scene:
+    with Scene.load(file) as scene:
         of_file = scene.values[name]
     set_later = ask({"ask": "scene", "of": about(file, {name: text})})["set"][name]
     of_command = fmu.variable(name).number(set_later)
@@ -57,22 +57,21 @@ def test_every_reader_gives_the_same_number(name, text, toml, number, fmu, fmu_f
 
 
 @pytest.mark.parametrize(("name", "text", "why"), WRONG)
-def test_every_reader_refuses_with_the_same_reason(name, text, why, fmu, fmu_file, tmp_path):
+def test_every_reader_refuses_with_the_same_reason(name, text, why, fmu, tmp_path):
     file = tmp_path / "scene.toml"
     file.write_text(f"{FRAME}{name} = \"{text}\"\n", encoding="utf-8")
     plain = tmp_path / "plain.toml"
     plain.write_text(FRAME, encoding="utf-8")
-    for call in (lambda: fmu.variable(name).number(text), lambda: Differential({name: text}, fmu=fmu_file),
-                 lambda: Scene.load(file, fmu_file), lambda: ask({"ask": "plan", "of": about(plain, {name: text})})):
+    for call in (lambda: fmu.variable(name).number(text), lambda: Differential({name: text}),
+                 lambda: Scene.load(file), lambda: ask({"ask": "plan", "of": about(plain, {name: text})})):
         with pytest.raises(DifferentialError) as error:
             call()
         assert why in str(error.value) and name in str(error.value)
 
 
 @pytest.mark.parametrize("command", [["plan", "{}"], ["loads", "{}", "--out", "l.csv"], ["geometry", "--out", "g"], ["run", "{}"]])
-def test_commands_take_a_whole_number_with_decimals(command, fmu_file, tmp_path, monkeypatch):
+def test_commands_take_a_whole_number_with_decimals(command, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(fmu_file))
     (tmp_path / "scene.toml").write_text(f"{FRAME}scene.gear_contact = \"lumped\"\n".replace("lumped", "tooth"), encoding="utf-8")
     words = [word.format("scene.toml") for word in command]
     assert main([*words, "--set", "geometry.planet_teeth=12.0"]) == 0

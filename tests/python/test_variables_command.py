@@ -13,12 +13,12 @@ EXTRAS = ("matplotlib", "dask", "pandas", "pyarrow", "scipy", "jinja2")
 
 
 @pytest.fixture
-def listed(fmu_file, capsys, monkeypatch):
+def listed(capsys, monkeypatch):
     """listed(arguments...): the lines that the command prints."""
     monkeypatch.delenv("COLUMNS", raising=False)
 
     def run(*arguments):
-        assert main(["variables", *arguments, "--fmu", fmu_file]) == 0
+        assert main(["variables", *arguments]) == 0
         return capsys.readouterr().out.splitlines()
 
     return run
@@ -102,8 +102,8 @@ def test_variables_that_act_in_a_scene_are_those_of_the_fmu(listed, fmu, tmp_pat
     assert not wrong and silent > 10
 
 
-def test_a_wrong_scene_is_reported(fmu_file, capsys):
-    assert main(["variables", "--acting", "study_strait", "--fmu", fmu_file]) != 0
+def test_a_wrong_scene_is_reported(capsys):
+    assert main(["variables", "--acting", "study_strait"]) != 0
     assert "did you mean 'study_straight'" in capsys.readouterr().err
 
 
@@ -116,7 +116,7 @@ def test_the_smallest_installation_is_enough(fmu_file):
 
 # suggestions
 
-def test_wrong_names_of_all_kinds_get_suggestions(fmu, fmu_file, capsys):
+def test_wrong_names_of_all_kinds_get_suggestions(fmu, capsys):
     for call, words in [
         (lambda: fmu.variable("planet.count"), "(did you mean geometry.planet_count?)"),
         (lambda: fmu.variable("carier.speed"), "(did you mean carrier.speed?)"),
@@ -132,8 +132,8 @@ def test_wrong_names_of_all_kinds_get_suggestions(fmu, fmu_file, capsys):
         assert words in str(error.value)
     for arguments, words in [(["optimize"], "did you mean optimise"), (["variable"], "did you mean variables"),
                              (["run", "study_strait"], "did you mean study_straight"),
-                             (["run", "clunk", "--set", "planet.count=3", "--fmu", fmu_file], "did you mean geometry.planet_count"),
-                             (["run", "clunk", "--output", "wheel.speed", "--fmu", fmu_file], "left.wheel_speed")]:
+                             (["run", "clunk", "--set", "planet.count=3"], "did you mean geometry.planet_count"),
+                             (["run", "clunk", "--output", "wheel.speed"], "left.wheel_speed")]:
         assert main(arguments) != 0
         assert words in capsys.readouterr().err
 

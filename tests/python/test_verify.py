@@ -53,7 +53,7 @@ def test_the_shipped_unit_passes_in_all_scenes(fmu_file, tmp_path, capsys, versi
     assert all(any(re.match(rf"{name} .* passed$", line) for line in lines) for name in SCENES)
     rows = list(csv.DictReader(file.read_text().splitlines()))
     for name, scene in SCENES.items():
-        outputs = Scene.load(scene, fmu=fmu_file).outputs
+        outputs = Scene.load(scene).outputs
         assert sorted(row["variable"] for row in rows if row["scene"] == name) == sorted(outputs)
     assert all(abs(float(row["value"]) - float(row["expected"])) <= float(row["tolerance"]) for row in rows)
 
@@ -64,7 +64,7 @@ def test_the_shipped_unit_passes_in_all_scenes(fmu_file, tmp_path, capsys, versi
     ("one_wheel_on_ice", "inertia.left_end", "left.wheel_speed"),
     ("rattle", "carrier.speed_command", None),
 ])
-def test_changed_physics_is_reported_with_scene_variable_time_and_deviation(unit, fmu_file, capsys, scene, name, variable):
+def test_changed_physics_is_reported_with_scene_variable_time_and_deviation(unit, capsys, scene, name, variable):
     def changed(text):
         parameter = re.compile(rf'(name="{re.escape(name)}".*?value=")([^"]+)(")', re.DOTALL)
         return parameter.sub(lambda found: f"{found[1]}{1.02 * float(found[2])}{found[3]}", text, count=1)
@@ -75,7 +75,7 @@ def test_changed_physics_is_reported_with_scene_variable_time_and_deviation(unit
     lines = capsys.readouterr().out.splitlines()
     said = [line for line in lines if line.startswith(f"{scene}: {variable or ''}")]
     found = re.search(r": (\S+) at (\S+) s is (\S+) .*expected (\S+) within (\S+): (\S+) times the tolerance$", said[0])
-    assert found and 0.0 <= float(found[2]) <= Scene.load(scene, fmu=fmu_file).stop
+    assert found and 0.0 <= float(found[2]) <= Scene.load(scene).stop
     value, expected, tolerance, ratio = map(float, found.groups()[2:])
     assert ratio == pytest.approx(abs(value - expected) / tolerance, rel=0.1) and ratio > 10.0
     # the other scenes still pass
@@ -196,10 +196,10 @@ def test_the_evidence_of_the_repository_is_that_of_the_command(fmu_file, tmp_pat
 
 
 @pytest.mark.parametrize("name", sorted(SCENES))
-def test_results_are_those_of_the_scenes(fmu_file, name):
+def test_results_are_those_of_the_scenes(name):
     """The package simulates a scene and reads its inputs with other code than the command, and gives equal results."""
     # the results are those of hosts that hold inputs between communication points
-    with Scene(**(read_scene(SCENES[name]) | {"input_slopes": False}), fmu=fmu_file) as scene:
+    with Scene(**(read_scene(SCENES[name]) | {"input_slopes": False})) as scene:
         scene.stop = min(scene.stop, LONGEST)
         record = scene.run()
     result, allowed = result_of(KEPT, name), {variable: value for (of, variable), value in tolerances_in(KEPT).items() if of == name}

@@ -83,8 +83,7 @@ def test_all_commands_are_covered():
 
 
 @pytest.mark.parametrize("command", RUNS)
-def test_a_command_prints_each_warning_once_to_standard_error(command, folder, fmu_file, monkeypatch, capsys):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+def test_a_command_prints_each_warning_once_to_standard_error(command, folder, capsys):
     arguments, expected = RUNS[command]
     assert main([command, *(text.format(folder) for text in arguments)]) == 0
     printed = capsys.readouterr()
@@ -110,16 +109,16 @@ def test_a_sweep_passes_on_warnings_of_its_first_run_and_others_with_their_desig
     assert "DifferentialWarning" not in done.stderr
 
 
-def test_the_package_passes_on_the_same_warnings_about_the_line_that_called_it(folder, fmu_file):
-    with Scene.load(folder / "scene.toml", fmu=fmu_file) as scene, pytest.warns(DifferentialWarning) as caught:
+def test_the_package_passes_on_the_same_warnings_about_the_line_that_called_it(folder):
+    with Scene.load(folder / "scene.toml") as scene, pytest.warns(DifferentialWarning) as caught:
         scene.run()
         assert [str(one.message) for one in caught] == scene.warnings and len(scene.warnings) >= 3
     assert {one.filename for one in caught} == {__file__}
 
 
-def test_a_car_passes_on_warnings(fmu_file):
+def test_a_car_passes_on_warnings():
     with pytest.warns(DifferentialWarning, match="geometry.face_width") as caught:
-        Car({"scene.gear_contact": "lumped", "geometry.face_width": "22 mm"}, fmu=fmu_file, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
+        Car({"scene.gear_contact": "lumped", "geometry.face_width": "22 mm"}, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
             request=10.0, stop=0.002)
     assert {one.filename for one in caught} == {__file__}
 
@@ -132,10 +131,10 @@ def test_verify_names_the_scenes_of_each_warning_and_prints_it_once(fmu_file, tm
     assert RIM not in printed.out
 
 
-def test_optimise_passes_on_the_warning_of_its_start_and_of_its_first_run(folder, fmu_file, capsys):
+def test_optimise_passes_on_the_warning_of_its_start_and_of_its_first_run(folder, capsys):
     (folder / "problem.toml").write_text(PROBLEM, encoding="utf-8")
     status = main(["optimise", str(folder / "problem.toml"), "--out", str(folder / "out"), "--population", "4", "--generations", "1",
-                   "--starts", "1", "--quick", "--workers", "0", "--fmu", fmu_file])
+                   "--starts", "1", "--quick", "--workers", "0"])
     printed = capsys.readouterr()
     assert status == 0, printed.err
     said = [line for line in printed.err.splitlines() if line.startswith("warning: ")]
