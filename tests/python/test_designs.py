@@ -8,6 +8,7 @@ from bevel_differential import DifferentialError, Fmu, Scene
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
 from bevel_differential.want import Condition, Statistic, Want
+from refusals import refused
 
 SEEDS = {"tooth_errors.seed": "seed"}
 VARIED = {"left.load_torque": "700 N.m..900 N.m", "contact.law": "line, line_weber", "geometry.planet_teeth": "8..11", **SEEDS}
@@ -85,30 +86,29 @@ def test_a_share_of_zero_has_a_finite_value(fmu):
 
 
 @pytest.mark.parametrize("vary, arguments, parts", [
-    ({"left.load_torqe": "1..2"}, ("random", 5), ["left.load_torqe", "did you mean left.load_torque"]),
-    ({"left.speed": "1..2"}, ("random", 5), ["left.speed", "cannot be varied"]),
-    ({"left.load_torque": "900 N.m..700 N.m"}, ("random", 5), ["left.load_torque", "range"]),
-    ({"left.load_torque": "7 ft..9 ft"}, ("random", 5), ["left.load_torque", "unit ft of"]),
-    ({"left.load_torque": "normal(1)"}, ("random", 5), ["normal needs 2 numbers"]),
-    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), ["do not define a distribution"]),
-    ({"left.load_torque": "lognormal(1, 1 N.m)"}, ("random", 5), ["1 N.m", "not a plain number"]),
-    ({"left.load_torque": "1..2:one"}, ("grid",), ["2 values or more"]),
-    ({"left.load_torque": "1..2"}, ("grid",), ["left.load_torque", "FROM..TO:11"]),
-    ({"left.load_torque": "normal(1, 1)"}, ("grid",), ["left.load_torque", "grid"]),
-    ({"contact.law": "lin"}, ("random", 5), ["contact.law", "did you mean line"]),
-    ({"contact.law": "1..2"}, ("random", 5), ["contact.law"]),
-    ({"left.load_torque": "seed"}, ("random", 5), ["left.load_torque", "whole numbers"]),
-    ({"left.load_torque": "1..2:4"}, ("grid", 5), ["4 runs, not 5"]),
-    ({"left.load_torque": "1..2"}, ("lhs",), ["number of runs"]),
-    ({"left.load_torque": "1..2"}, ("lhs", 0), ["number of runs"]),
-    ({"left.load_torque": "1..2"}, ("sobl", 4), ["sobl", "did you mean sobol"]),
-    ({"left.load_torque": "1..2"}, ("random", 4, -1), ["seed", "-1"]),
-    ({}, ("random", 4), ["nothing varies"]),
+    ({"left.load_torqe": "1..2"}, ("random", 5), "left.load_torqe … did you mean left.load_torque"),
+    ({"left.speed": "1..2"}, ("random", 5), "left.speed … cannot be varied"),
+    ({"left.load_torque": "900 N.m..700 N.m"}, ("random", 5), "left.load_torque … range"),
+    ({"left.load_torque": "7 ft..9 ft"}, ("random", 5), "left.load_torque … unit ft of"),
+    ({"left.load_torque": "normal(1)"}, ("random", 5), "normal needs 2 numbers"),
+    ({"left.load_torque": "normal(1, -1)"}, ("random", 5), "do not define a distribution"),
+    ({"left.load_torque": "lognormal(1, 1 N.m)"}, ("random", 5), "1 N.m … not a plain number"),
+    ({"left.load_torque": "1..2:one"}, ("grid",), "2 values or more"),
+    ({"left.load_torque": "1..2"}, ("grid",), "left.load_torque … FROM..TO:11"),
+    ({"left.load_torque": "normal(1, 1)"}, ("grid",), "left.load_torque … grid"),
+    ({"contact.law": "lin"}, ("random", 5), "contact.law … did you mean line"),
+    ({"contact.law": "1..2"}, ("random", 5), "contact.law"),
+    ({"left.load_torque": "seed"}, ("random", 5), "left.load_torque … whole numbers"),
+    ({"left.load_torque": "1..2:4"}, ("grid", 5), "4 runs, not 5"),
+    ({"left.load_torque": "1..2"}, ("lhs",), "number of runs"),
+    ({"left.load_torque": "1..2"}, ("lhs", 0), "number of runs"),
+    ({"left.load_torque": "1..2"}, ("sobl", 4), "sobl … did you mean sobol"),
+    ({"left.load_torque": "1..2"}, ("random", 4, -1), "seed … -1"),
+    ({}, ("random", 4), "nothing varies"),
 ])
 def test_an_invalid_plan_gives_the_reason(plan, vary, arguments, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         plan(vary, *arguments).designs()
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 # a wave with a mean, 3 whole periods of 0.25 s, with steps so fine that the trapezoidal rule is exact to 1e-5
@@ -143,20 +143,19 @@ def test_an_order_that_cannot_be_counted_gives_the_reason(phase, message):
 
 
 @pytest.mark.parametrize("text, parts", [
-    ("left.sped", ["left.sped", "did you mean left.speed"]), ("left.speed:meen", ["meen", "did you mean mean"]),
-    ("left.lod_torque:mean", ["did you mean left.load_torque"]), ("left.speed:mesh_order_0", ["mesh_order_0"]),
+    ("left.sped", "left.sped … did you mean left.speed"), ("left.speed:meen", "meen … did you mean mean"),
+    ("left.lod_torque:mean", "did you mean left.load_torque"), ("left.speed:mesh_order_0", "mesh_order_0"),
 ])
 def test_an_invalid_want_gives_the_reason(fmu, text, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         Want.parse(fmu, text)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 def test_conditions_have_units_and_report_the_size_of_a_violation(fmu):
     condition = Condition.parse(fmu, "left.speed:max <= 180 deg/s")
     assert condition.holds(3.14) and not condition.holds(3.15)
     assert condition.excess(1.1 * np.pi) == pytest.approx(0.1) and condition.excess(0.9 * np.pi) == pytest.approx(-0.1)
-    with pytest.raises(DifferentialError, match="safety.root_min >= 1.2"):
+    with refused("safety.root_min >= 1.2"):
         Condition.parse(fmu, "left.speed = 3")
 
 

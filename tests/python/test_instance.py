@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from bevel_differential import Differential, DifferentialError, Fmu
 from driving import TURN
+from refusals import refused
 
 DISCARD, ERROR = 2, 3
 WATCHED = ["left.speed", "planet[1].left_normal_force", "solver.steps"]
@@ -67,18 +68,18 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
         assert second.time == pytest.approx(8e-3, rel=1e-12)
         with pytest.raises(DifferentialError, match="stop time 0.008 s$"):
             second.step(1e-3)
-        with pytest.raises(DifferentialError, match="stop time 0.005 s of the restored state; .* fmi2SetupExperiment"):
+        with refused("stop time 0.005 s of the restored state;  …  fmi2SetupExperiment"):
             endless.initialise(TURN).restore(first.save()).step(1e-3)
 
 
 def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
     with fmu.open() as opened:
         opened.initialise()
-        with pytest.raises(DifferentialError, match="left.load_torque.* N.m is outside") as refused:
+        with refused("left.load_torque …  N.m is outside") as refused:
             opened.set({"left.load_torque": 1e30})
         # for hosts, the log also names the call
         assert refused.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {refused.value}"
-        with pytest.raises(DifferentialError, match="assembly condition") as refused:
+        with refused("assembly condition") as refused:
             opened.initialise({"geometry.planet_count": 3})
         assert refused.value.status == ERROR
         assert pickle.loads(pickle.dumps(refused.value)).status == ERROR
@@ -123,9 +124,9 @@ def test_times_of_steps_may_have_units(fmu):
             if size == 1e-3:
                 expected = found
         assert found == expected
-        with pytest.raises(DifferentialError, match="step = '1 mm'"):
+        with refused("step = '1 mm'"):
             opened.step("1 mm")
-        with pytest.raises(DifferentialError, match="left.load_torque: its rate is '1 N.m'"):
+        with refused("left.load_torque: its rate is '1 N.m'"):
             opened.set_slopes({"left.load_torque": "1 N.m"})
 
 
@@ -186,7 +187,7 @@ def test_another_machine_takes_its_own_copy_of_the_same_fmu_and_no_other(fmu, fm
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(copy))
     assert pickle.loads(packed).file == copy.resolve()
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(other))
-    with pytest.raises(DifferentialError, match="gone.fmu.*install the same wheel"):
+    with refused("gone.fmu … install the same wheel"):
         pickle.loads(packed)
 
 
@@ -196,5 +197,5 @@ def test_truth_values_of_numpy_are_true_or_false(fmu):
 
 
 def test_a_unit_of_fmi_3_is_refused_with_the_name_of_the_other(fmu3):
-    with pytest.raises(DifferentialError, match=r"BevelDifferential3\.fmu: it is a unit of FMI 3\.0, and this package runs FMI 2\.0"):
+    with refused("BevelDifferential3.fmu: it is a unit of FMI 3.0, and this package runs FMI 2.0"):
         Fmu.of(fmu3).open()

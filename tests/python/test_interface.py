@@ -13,6 +13,7 @@ from fmpy import simulate_fmu
 
 import bevel_differential
 from bevel_differential import Differential, DifferentialError
+from refusals import refused
 
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": (954, "deg/s")}
 TURN_FMPY = {"scene.planet_spin": 2, "spin.command": (200.0, "deg/s"), "carrier.speed_command": (954.0, "deg/s")}
@@ -88,7 +89,7 @@ def test_a_tunable_parameter_over_time_does_what_setting_it_between_steps_does()
                 there = instance.read(names)
                 assert there == pytest.approx([here[name][row + 1] for name in names], rel=1e-6, abs=1e-9)
     assert abs(here["left.speed"][-1] - held["left.speed"][-1]) > 1e-4
-    with pytest.raises(DifferentialError, match="geometry.module: it is a fixed parameter; give it by `set` or `values`"):
+    with refused("geometry.module: it is a fixed parameter; give it by `set` or `values`"):
         slipping.run({"geometry.module": ([0.0, 1.0], [4e-3, 5e-3])})
 
 
@@ -114,26 +115,25 @@ def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
 
 
 @pytest.mark.parametrize("use, parts", [
-    (lambda d: d.set({"geometry.modul": 1.0}), ["geometry.modul", "did you mean geometry.module"]),
-    (lambda d: d.set({"geometry.module": "4 ft"}), ["geometry.module", "unit ft of", "mm"]),
-    (lambda d: d.set({"geometry.module": "wide"}), ["geometry.module", "wide", "does not begin with a number"]),
-    (lambda d: d.set({"geometry.module": float("nan")}), ["geometry.module", "finite"]),
-    (lambda d: d.set({"geometry.planet_teeth": 10.5}), ["geometry.planet_teeth", "whole"]),
-    (lambda d: d.set(contact__law="lin"), ["contact.law", "impact, line, line_weber", "did you mean line"]),
-    (lambda d: d.set({"effects.strength": 2}), ["effects.strength", "true or false"]),
-    (lambda d: d.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
-    (lambda d: d.run(outputs=["left.sped"]), ["left.sped", "did you mean left.speed"]),
-    (lambda d: d.run({"left.speed": 1.0}), ["left.speed", "not an input"]),
-    (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), ["left.load_torque", "2 times for 1"]),
-    (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), ["left.load_torque", "must not fall"]),
-    (lambda d: d.run(stop=-0.1), ["stop"]),
-    (lambda d: d.run(step="1 fortnight"), ["step", "fortnight"]),
-    (lambda d: d.run(step=-1e-3), ["step"]),
+    (lambda d: d.set({"geometry.modul": 1.0}), "geometry.modul … did you mean geometry.module"),
+    (lambda d: d.set({"geometry.module": "4 ft"}), "geometry.module … unit ft of … mm"),
+    (lambda d: d.set({"geometry.module": "wide"}), "geometry.module … wide … does not begin with a number"),
+    (lambda d: d.set({"geometry.module": float("nan")}), "geometry.module … finite"),
+    (lambda d: d.set({"geometry.planet_teeth": 10.5}), "geometry.planet_teeth … whole"),
+    (lambda d: d.set(contact__law="lin"), "contact.law … impact, line, line_weber … did you mean line"),
+    (lambda d: d.set({"effects.strength": 2}), "effects.strength … true or false"),
+    (lambda d: d.set({"left.speed": 1.0}), "left.speed … cannot be set"),
+    (lambda d: d.run(outputs=["left.sped"]), "left.sped … did you mean left.speed"),
+    (lambda d: d.run({"left.speed": 1.0}), "left.speed … not an input"),
+    (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), "left.load_torque … 2 times for 1"),
+    (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), "left.load_torque … must not fall"),
+    (lambda d: d.run(stop=-0.1), "stop"),
+    (lambda d: d.run(step="1 fortnight"), "step … fortnight"),
+    (lambda d: d.run(step=-1e-3), "step"),
 ])
 def test_impossible_calls_are_refused_immediately(turn, use, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         use(turn)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 def test_a_value_with_its_unit_is_not_taken_for_another_unit():
@@ -143,13 +143,13 @@ def test_a_value_with_its_unit_is_not_taken_for_another_unit():
     with pytest.raises(DifferentialError) as refused:
         Differential({"geometry.shaft_angle": "80 deg"})
     assert str(refused.value).startswith("geometry.shaft_angle: 80 deg is not 90 deg, the only possible value. Angle between")
-    with pytest.raises(DifferentialError, match="did you mean 4.5 mm"), Differential({"geometry.module": 4.5}) as bare:
+    with refused("did you mean 4.5 mm"), Differential({"geometry.module": 4.5}) as bare:
         bare.run(stop=0.01)
 
 
 def test_the_fmu_s_own_message_reaches_the_user_and_the_instance_goes_on(turn):
     expected = turn.run(outputs=OUTPUTS, stop=0.01)
-    with pytest.raises(DifferentialError, match=r"geometry.module: -0.0045 m is outside \["):
+    with refused("geometry.module: -0.0045 m is outside ["):
         Differential({**TURN, "geometry.module": -4.5e-3}, fmu=turn.fmu.file).run()
     turn.set({"geometry.module": -4.5e-3})
     with pytest.raises(DifferentialError):
@@ -160,7 +160,7 @@ def test_the_fmu_s_own_message_reaches_the_user_and_the_instance_goes_on(turn):
 def test_the_package_finds_the_fmu_by_the_environment(fmu_file, monkeypatch):
     assert Differential().fmu.file == Path(os.path.realpath(fmu_file))
     monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", "/nowhere.fmu")
-    with pytest.raises(DifferentialError, match="no such FMU"):
+    with refused("no such FMU"):
         Differential()
 
 

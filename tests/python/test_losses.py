@@ -13,7 +13,7 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 import theory
-from bevel_differential import DifferentialError, Scene, losses as package
+from bevel_differential import Scene, losses as package
 from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
@@ -25,6 +25,7 @@ from bevel_differential.losses.tables import HEAD, bias
 from bevel_differential.values import Quantity
 from interrupts import changed_command, with_interrupts
 from warned_lines import without_warnings
+from refusals import refused
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
 CLUTCH = {"scene.gear_contact": "ideal", **theory.CLUTCHES, "limited_slip.preload": PRELOAD,
@@ -104,7 +105,7 @@ def test_tooth_errors_are_averaged_until_all_teeth_have_met(scene):
 
 
 def test_a_point_refused_by_the_fmu_is_reported_with_its_values(scene):
-    with pytest.raises(DifferentialError, match=r"(?s)at 300 N.m, 5 rad/s.*oil.viscosity_100"):
+    with refused("at 300 N.m, 5 rad/s … oil.viscosity_100"):
         losses(scene.set({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True}), LEVELS,
                workers=0)
 

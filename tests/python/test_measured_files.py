@@ -5,10 +5,11 @@ import sys
 import numpy as np
 import openpyxl
 import pytest
-from bevel_differential import DifferentialError, Scene, spreadsheet
+from bevel_differential import Scene, spreadsheet
 from bevel_differential.command import main
 from bevel_differential.csv_table import lines_of
 from bevel_differential.spectrum import spectrum
+from refusals import refused
 
 SCENE = """description = "measured"
 stop_time = "20 ms"
@@ -65,13 +66,13 @@ def test_without_a_reader_the_package_is_named(tmp_path, monkeypatch):
     (tmp_path / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
     for module in ("openpyxl", "python_calamine"):
         monkeypatch.setitem(sys.modules, module, None)
-    with pytest.raises(DifferentialError, match="bench.xlsx: a spreadsheet needs the package openpyxl or python-calamine"):
+    with refused("bench.xlsx: a spreadsheet needs the package openpyxl or python-calamine"):
         Scene.load(tmp_path / "scene.toml")
 
 
 def test_a_broken_spreadsheet_is_named(tmp_path):
     (tmp_path / "bench.xlsx").write_bytes(b"PK\x03\x04 broken")
-    with pytest.raises(DifferentialError, match="bench.xlsx: it cannot be read as a spreadsheet"):
+    with refused("bench.xlsx: it cannot be read as a spreadsheet"):
         spreadsheet.csv_text(tmp_path / "bench.xlsx")
 
 

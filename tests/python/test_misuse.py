@@ -12,6 +12,7 @@ from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import sweep
 from bevel_differential.tolerance.plan import Plan as Tolerances
 from bevel_differential.want import Condition
+from refusals import refused
 
 SPIN, TORQUE = "spin.command", "left.load_torque"
 WIDE = """description = "a backlash below 0"
@@ -38,7 +39,7 @@ def driven(fmu_file):
 
 @pytest.mark.parametrize("text", ["1..200 deg/s", "1 deg/s..200", "1, 2 deg/s", "uniform(1, 2 deg/s)", "normal(4, 0.1 deg/s)"])
 def test_a_unit_of_only_some_numbers_is_an_error(fmu, text):
-    with pytest.raises(DifferentialError, match="write it at each number"):
+    with refused("write it at each number"):
         Space.parse(fmu, {SPIN: text})
 
 
@@ -60,38 +61,38 @@ def test_figures_need_two_points(driven):
     Task(driven, ["left.speed:peak_to_peak"], start=0.008)
     Task(driven, ["left.speed"], start=0.0099)
     for start in (0.0085, 0.009, 0.0099):
-        with pytest.raises(DifferentialError, match="less than two steps"):
+        with refused("less than two steps"):
             Task(driven, ["left.speed:peak_to_peak"], start=start)
 
 
 def test_the_limit_of_a_time_is_a_time(fmu):
     assert Condition.parse(fmu, "left.speed:time_of_peak > 20 ms").limit == 0.02
-    with pytest.raises(DifferentialError, match="units that do: s, ms, us, min, h"):
+    with refused("units that do: s, ms, us, min, h"):
         Condition.parse(fmu, "left.speed:time_of_peak > 20 deg/s")
 
 
 def test_a_grid_never_repeats_a_whole_number_and_stays_small(fmu):
     teeth = Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "grid").designs()
     assert [values["geometry.planet_teeth"] for _, values in teeth] == [10, 13, 17, 20]
-    with pytest.raises(DifferentialError, match="leave the count 4 out"):
+    with refused("leave the count 4 out"):
         Plan.parse(Space.parse(fmu, {"geometry.planet_teeth": "10..20:4"}), "lhs", 4)
-    with pytest.raises(DifferentialError, match="only 3 whole numbers"):
+    with refused("only 3 whole numbers"):
         Space.parse(fmu, {"geometry.planet_teeth": "18..20:9"})
     for vary in ({SPIN: "0..1:1000000000000000"}, {"tooth_errors.seed": "0..2000000000"}):
-        with pytest.raises(DifferentialError, match="are more than"):
+        with refused("are more than"):
             Plan.parse(Space.parse(fmu, vary), "grid")
 
 
 @pytest.mark.parametrize("value", [3_000_000_000, -2**31 - 1, 1e300])
 def test_whole_numbers_beyond_those_of_fmi_are_an_error(fmu, value):
-    with pytest.raises(DifferentialError, match="must be a whole number from -2147483648 to 2147483647"):
+    with refused("must be a whole number from -2147483648 to 2147483647"):
         fmu.variable("tooth_errors.seed").number(value)
 
 
 @pytest.mark.parametrize("content", [b"", b"no archive"])
 def test_a_file_that_is_not_an_fmu_is_reported(tmp_path, content):
     (tmp_path / "my.fmu").write_bytes(content)
-    with pytest.raises(DifferentialError, match="not an FMU"):
+    with refused("not an FMU"):
         Fmu.of(tmp_path / "my.fmu")
 
 
@@ -138,7 +139,7 @@ def test_wrong_kinds_in_a_plan_file_are_reported(tmp_path, capsys, line):
 
 def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
     (tmp_path / "wide.toml").write_text(WIDE)
-    with pytest.raises(DifferentialError, match="geometry.backlash: . of .* draws are outside 0 mm to"):
+    with refused("geometry.backlash: . of  …  draws are outside 0 mm to"):
         Tolerances.load(tmp_path / "wide.toml")
 
 
@@ -149,15 +150,15 @@ def test_a_closed_instance_reports_that_and_not_an_old_warning(fmu):
         instance.initialise()
         assert instance.messages
     for use in (lambda: instance.get("left.speed"), lambda: instance.step(1e-3), instance.reset, instance.save):
-        with pytest.raises(DifferentialError, match="the instance is closed"):
+        with refused("the instance is closed"):
             use()
 
 
 def test_outputs_are_a_list_without_repetition(fmu_file):
     with Differential(fmu=fmu_file) as straight:
-        with pytest.raises(DifferentialError, match="names are a list"):
+        with refused("names are a list"):
             straight.run(outputs="left.speed", stop=0.01)
-        with pytest.raises(DifferentialError, match="left.speed: it is recorded twice"):
+        with refused("left.speed: it is recorded twice"):
             straight.run(outputs=["left.speed", "right.speed", "left.speed"], stop=0.01)
         with pytest.raises(DifferentialError, match="more than 1e[+]08 steps"):
             straight.run(stop=1e9, step=1e-9)

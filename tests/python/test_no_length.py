@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
-from bevel_differential import Differential, DifferentialError, Scene
+from bevel_differential import Differential, Scene
 from bevel_differential.command import main
 from bevel_differential.designs.sweep import sweep
 from bevel_differential.vehicle import Car
 from fmi3 import Unit3
 from fmpy import simulate_fmu
+from refusals import refused
 
 # the study at its start: a wheel's shaft torque equals its load, and without a difference everything turns with the carrier
 STARTED = {"left.shaft_torque": 835.0, "right.shaft_torque": 835.0}
@@ -75,7 +76,7 @@ def test_an_end_before_the_start_is_an_error(fmu3, fmu):
         with pytest.raises(Exception, match="fmi3EnterInitializationMode"):
             unit.raw.enterInitializationMode(startTime=1.0, stopTime=0.5)
         assert "stop time 0.5 s is before the start time 1 s" in unit.messages[-1][1]
-    with fmu.open() as opened, pytest.raises(DifferentialError, match="stop = -1.0: it is 0 or more"):
+    with fmu.open() as opened, refused("stop = -1.0: it is 0 or more"):
         opened.initialise(stop=-1.0)
 
 
@@ -87,7 +88,7 @@ def test_the_package_records_the_start():
             assert record.tolist() == [(0.0, *STARTED.values())]
         table = ([0.0, 0.0, 1.0], [100.0, 300.0, 400.0])
         assert differential.run({"left.load_torque": table}, ["left.load_torque"], 0.0)["left.load_torque"].tolist() == [300.0]
-        with pytest.raises(DifferentialError, match="stop = -0.5: it is 0 or more, s"):
+        with refused("stop = -0.5: it is 0 or more, s"):
             differential.run(stop=-0.5)
 
 
@@ -108,13 +109,13 @@ def test_designs_are_compared_by_their_starts(fmu, scene_file):
         plan = {"vary": {"carrier.speed_command": "10..60"}, "runs": 3, "workers": 0}
         found = sweep(scene, **plan, wants=["carrier.speed"]).frame()
         assert found["carrier.speed:final"].tolist() == found["carrier.speed_command"].tolist()
-        with pytest.raises(DifferentialError, match="less than two steps"):
+        with refused("less than two steps"):
             sweep(scene, **plan, wants=["carrier.speed:mean"])
 
 
 def test_a_car_has_the_speed_with_which_it_starts():
     car = Car()
-    with pytest.raises(DifferentialError, match="0 or more"):
+    with refused("0 or more"):
         car.run(stop=-1.0)
     record = car.run(["carrier.speed"], stop=0.0, speed=10.0)
     assert record["time"].tolist() == [0.0]

@@ -26,6 +26,7 @@ from bevel_differential.quantities import QUANTITIES
 from bevel_differential.optimise.report import compared_with_front, below_one, scene_text, write_gears
 from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
+from refusals import refused
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 # two variables: the module and the face width
@@ -243,7 +244,7 @@ def test_a_generation_that_was_interrupted_keeps_the_numbers_of_its_designs(two,
 def test_a_range_of_a_search_has_no_count(folder):
     file = folder / "two.toml"
     file.write_text(file.read_text(encoding="utf-8").replace("3.5 mm..6 mm", "3.5 mm..6 mm:4"), encoding="utf-8")
-    with pytest.raises(DifferentialError, match="leave the count out"):
+    with refused("leave the count out"):
         Problem.load(file)
 
 
@@ -397,25 +398,24 @@ def test_a_chosen_design_is_a_scene_and_gears_for_cad(two, folder):
 
 
 @pytest.mark.parametrize("old, new, parts", [
-    ("safety.root_min\"]", "safety.root_mim\"]", ["safety.root_mim", "did you mean safety.root_min"]),
-    ("\"minimise gears.mass\"", "\"smallest gears.mass\"", ["smallest", "maximise OUTPUT"]),
-    ("\"minimise gears.mass\", ", "", ["two or more"]),
-    ("\"minimise gears.mass\"", "\"minimise gears.mass:mean\"", ["gears.mass", "without a statistic"]),
-    ("3.5 mm..6 mm", "6 mm..3.5 mm", ["geometry.module", "ends at or before"]),
-    ("\"3.5 mm..6 mm\"", "\"normal(0.004, 0.001)\"", ["geometry.module", "not over a distribution"]),
-    ("geometry.module = \"3.5 mm..6 mm\"\ngeometry.face_width = \"6 mm..20 mm\"\n", "", ["vary is missing"]),
-    ("<= 95 mm", "<= 95 kg", ["envelope.diameter", "kg"]),
-    ("population = 40", "population = 2", ["population = 2", "4 or more"]),
-    ("seed = 3", "sead = 3", ["sead", "did you mean seed"]),
-    ("[vary]", "[follow]\ngeometry.module = { from = \"geometry.face_width\" }\n[vary]", ["geometry.module", "varies as well"]),
-    ("[vary]", "[[confirm]]\nname = \"a\"\nconditions = [\"left.speed < 1\"]\n[vary]", ["left.speed", "replaces no condition"]),
-    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", ["[[confirm]]", "needs a unique name"]),
-    ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", ["geometry.module", "from"]),
+    ("safety.root_min\"]", "safety.root_mim\"]", "safety.root_mim … did you mean safety.root_min"),
+    ("\"minimise gears.mass\"", "\"smallest gears.mass\"", "smallest … maximise OUTPUT"),
+    ("\"minimise gears.mass\", ", "", "two or more"),
+    ("\"minimise gears.mass\"", "\"minimise gears.mass:mean\"", "gears.mass … without a statistic"),
+    ("3.5 mm..6 mm", "6 mm..3.5 mm", "geometry.module … ends at or before"),
+    ("\"3.5 mm..6 mm\"", "\"normal(0.004, 0.001)\"", "geometry.module … not over a distribution"),
+    ("geometry.module = \"3.5 mm..6 mm\"\ngeometry.face_width = \"6 mm..20 mm\"\n", "", "vary is missing"),
+    ("<= 95 mm", "<= 95 kg", "envelope.diameter … kg"),
+    ("population = 40", "population = 2", "population = 2 … 4 or more"),
+    ("seed = 3", "sead = 3", "sead … did you mean seed"),
+    ("[vary]", "[follow]\ngeometry.module = { from = \"geometry.face_width\" }\n[vary]", "geometry.module … varies as well"),
+    ("[vary]", "[[confirm]]\nname = \"a\"\nconditions = [\"left.speed < 1\"]\n[vary]", "left.speed … replaces no condition"),
+    ("[vary]", "[[confirm]]\nname = \"a\"\n[[confirm]]\nname = \"a\"\n[vary]", "[[confirm]] … needs a unique name"),
+    ("[vary]", "[follow]\ngeometry.module = { of = \"geometry.face_width\" }\n[vary]", "geometry.module … from"),
 ])
 def test_errors_in_a_file_name_the_fault(folder, old, new, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         changed(folder, old, new)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 def test_all_errors_of_a_file_are_reported_at_once(folder):
@@ -444,14 +444,14 @@ def test_without_feasible_designs_the_checks_give_the_reasons(folder):
 def test_results_are_neither_overwritten_nor_mixed(two, folder):
     small = two.sized(population=8, generations=2)
     found(small, folder / "out")
-    with pytest.raises(DifferentialError, match="continue with --resume"):
+    with refused("continue with --resume"):
         Store(folder / "out", small)
-    with pytest.raises(DifferentialError, match="another problem"):
+    with refused("another problem"):
         Store(folder / "out", changed(folder, "95 mm", "94 mm").sized(population=8), resume=True)
-    with pytest.raises(DifferentialError, match="no results to continue from"):
+    with refused("no results to continue from"):
         Store(folder / "elsewhere", small, resume=True)
     (folder / "out/evaluations.parquet").write_bytes(b"not a table")
-    with pytest.raises(DifferentialError, match="no results to continue from"):
+    with refused("no results to continue from"):
         Store(folder / "out", small, resume=True)
 
 

@@ -9,6 +9,7 @@ from test_scenes import CYCLE, EVERYTHING, SCENES, SHORTER, TEXTS
 
 from bevel_differential import DifferentialError, Scene, shipped_scenes
 from bevel_differential.answers import about, ask
+from refusals import refused
 
 
 @pytest.fixture
@@ -60,29 +61,28 @@ def test_the_summary_is_in_the_usual_units():
 
 
 @pytest.mark.parametrize("old, new, parts", [
-    ("stop_time = \"20.3 ms\"", "stop_time = \"20.3 mm\"", ["stop_time", "ms"]),
-    ("stop_time = \"20.3 ms\"", "", ["missing: stop_time", "a scene has description, stop_time, step and outputs"]),
-    ("step =", "stop =", ["unknown field `stop`", "`step`"]),
-    ("[[table]]", "[[table]]\ngeometry.module = \"5 mm\"", ["unknown field `geometry`", "belong in the table [set]"]),
-    ("geometry.planet_teeth", "geometry.planet_tooth", ["[set]", "geometry.planet_tooth", "did you mean geometry.planet_teeth"]),
-    ("\"0.1 N.m\"", "\"0.1 kg\"", ["right.load_torque", "unit kg", "N.m"]),
-    ("time = \"3.7 ms\"", "time = \"30.7 ms\"", ["0.0307 s", "outside"]),
-    ("tooth_friction.coefficient = 0.07", "tooth_friction.static_ratio = 1.2", ["tooth_friction.static_ratio is fixed"]),
-    ("\"700 N.m\", 100.3", "\"700 N.m\"", ["[[table]]", "3 times and 2 values"]),
-    ("\"700 N.m\"", "\"heavy\"", ["[[table]]", "right.load_torque", "heavy"]),
-    ("left.load_torque = 300", "right.load_torque = 300", ["0.01 s", "right.load_torque follows a table"]),
-    ("cycle.csv", "circle.csv", ["circle.csv"]),
-    ("\"carrier.torque\"", "\"carrier.tork\"", ["outputs", "carrier.tork", "did you mean carrier.torque"]),
-    ("step = \"1 ms\"", "step = \"1 ms\"\ninput_slopes = \"yes\"", ["input_slopes", "yes", "true or false"]),
-    ("description =", "description ", ["everything.toml"]),
+    ("stop_time = \"20.3 ms\"", "stop_time = \"20.3 mm\"", "stop_time … ms"),
+    ("stop_time = \"20.3 ms\"", "", "missing: stop_time … a scene has description, stop_time, step and outputs"),
+    ("step =", "stop =", "unknown field `stop` … `step`"),
+    ("[[table]]", "[[table]]\ngeometry.module = \"5 mm\"", "unknown field `geometry` … belong in the table [set]"),
+    ("geometry.planet_teeth", "geometry.planet_tooth", "[set] … geometry.planet_tooth … did you mean geometry.planet_teeth"),
+    ("\"0.1 N.m\"", "\"0.1 kg\"", "right.load_torque … unit kg … N.m"),
+    ("time = \"3.7 ms\"", "time = \"30.7 ms\"", "0.0307 s … outside"),
+    ("tooth_friction.coefficient = 0.07", "tooth_friction.static_ratio = 1.2", "tooth_friction.static_ratio is fixed"),
+    ("\"700 N.m\", 100.3", "\"700 N.m\"", "[[table]] … 3 times and 2 values"),
+    ("\"700 N.m\"", "\"heavy\"", "[[table]] … right.load_torque … heavy"),
+    ("left.load_torque = 300", "right.load_torque = 300", "0.01 s … right.load_torque follows a table"),
+    ("cycle.csv", "circle.csv", "circle.csv"),
+    ("\"carrier.torque\"", "\"carrier.tork\"", "outputs … carrier.tork … did you mean carrier.torque"),
+    ("step = \"1 ms\"", "step = \"1 ms\"\ninput_slopes = \"yes\"", "input_slopes … yes … true or false"),
+    ("description =", "description ", "everything.toml"),
 ])
 def test_errors_in_a_file_are_named(old, new, parts, everything):
     text = everything.read_text(encoding="utf-8")
     assert old in text
     everything.write_text(text.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         Scene.load(everything)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 def test_missing_keys_are_listed_together_with_other_errors(tmp_path):
@@ -95,34 +95,32 @@ def test_missing_keys_are_listed_together_with_other_errors(tmp_path):
 
 
 @pytest.mark.parametrize("old, new, parts", [
-    ("103.3", "fast", ["cycle.csv, line 3", "carrier.speed_command", "fast"]),
-    ("[rpm]", "[kg]", ["cycle.csv", "kg", "rpm"]),
-    ("time [ms]", "clock [ms]", ["no column time"]),
-    (",90", "", ["line 6", "1 cells", "2"]),
-    ("11.1", "1.1", ["is earlier than in the line above"]),
+    ("103.3", "fast", "cycle.csv, line 3 … carrier.speed_command … fast"),
+    ("[rpm]", "[kg]", "cycle.csv … kg … rpm"),
+    ("time [ms]", "clock [ms]", "no column time"),
+    (",90", "", "line 6 … 1 cells … 2"),
+    ("11.1", "1.1", "is earlier than in the line above"),
 ])
 def test_errors_in_a_file_of_inputs_are_named(old, new, parts, everything):
     file = everything.parent / "cycle.csv"
     file.write_text(CYCLE.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         Scene.load(everything)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 def test_an_unknown_scene_is_answered_with_the_known_ones():
-    with pytest.raises(DifferentialError, match="did you mean clunk.*study_straight"):
+    with refused("did you mean clunk … study_straight"):
         Scene.load("clonk")
 
 
 @pytest.mark.parametrize("table, parts", [
-    (("left.load_torque", ["0 s", "soon"], [1.0, 2.0], None), ["time", "soon"]),
-    (("left.load_torque", [0.0, 1.0], [1.0, 2.0], -1.0), ["period", "more than 0"]),
-    (("left.load_torque", [0.0, 1.0], [1.0], None), ["2 times for 1 values"]),
+    (("left.load_torque", ["0 s", "soon"], [1.0, 2.0], None), "time … soon"),
+    (("left.load_torque", [0.0, 1.0], [1.0, 2.0], -1.0), "period … more than 0"),
+    (("left.load_torque", [0.0, 1.0], [1.0], None), "2 times for 1 values"),
 ])
 def test_errors_in_tables_from_python_are_named(table, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         Scene(outputs=["left.speed"], tables=[table])
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 @pytest.mark.parametrize("input_slopes", [False, True])
@@ -149,5 +147,5 @@ def test_speeds_that_go_on_straight_turn_the_carrier_by_their_integral(input_slo
 
 
 def test_a_wrong_choice_of_slopes_is_refused():
-    with pytest.raises(DifferentialError, match="input_slopes = 'yes'"):
+    with refused("input_slopes = 'yes'"):
         Scene(outputs=["left.speed"], input_slopes="yes")

@@ -8,6 +8,7 @@ from bevel_differential import DifferentialError, Fmu
 from bevel_differential.instance import Instance
 from bevel_differential.values import DISCARD
 from bevel_differential.vehicle import Car, Tyre
+from refusals import refused
 
 SIZE = 1e-3
 DRIVEN = ["right.load_torque", "carrier.torque_command"]
@@ -89,7 +90,7 @@ def test_the_caller_may_keep_the_time(opened):
     port.do_step([300.0, 900.0], 0.0, SIZE)
     assert opened.time == 0.0
     # the FMU is no longer at the time of `step`
-    with pytest.raises(DifferentialError, match="communication point"):
+    with refused("communication point"):
         port.step([300.0, 900.0], SIZE)
     port.do_step([300.0, 900.0], SIZE, SIZE)
 
@@ -196,16 +197,15 @@ def test_a_wrong_rate_is_refused_by_name_before_anything_is_set(opened, rate):
 
 
 @pytest.mark.parametrize("inputs, outputs, parts", [
-    (["left.sped"], [], ["left.sped: there is no such variable", "did you mean left.speed"]),
-    (["left.speed"], [], ["left.speed: it is calculated and cannot be set"]),
-    (["geometry.module"], [], ["geometry.module: it is a fixed parameter"]),
-    (["left.load_torque"] * 2, [], ["left.load_torque: it is given twice"]),
-    (["left.load_torque"], ["right.sped"], ["right.sped: there is no such variable"]),
-    ("left.load_torque", [], ["names are a list"])])
+    (["left.sped"], [], "left.sped: there is no such variable … did you mean left.speed"),
+    (["left.speed"], [], "left.speed: it is calculated and cannot be set"),
+    (["geometry.module"], [], "geometry.module: it is a fixed parameter"),
+    (["left.load_torque"] * 2, [], "left.load_torque: it is given twice"),
+    (["left.load_torque"], ["right.sped"], "right.sped: there is no such variable"),
+    ("left.load_torque", [], "names are a list")])
 def test_names_are_checked_when_the_port_is_made(opened, inputs, outputs, parts):
-    with pytest.raises(DifferentialError) as refused:
+    with refused(parts):
         opened.port(inputs, outputs)
-    assert all(part in str(refused.value) for part in parts)
 
 
 def test_a_tunable_parameter_is_set_and_has_no_rate(fmu):

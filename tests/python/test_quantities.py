@@ -15,6 +15,7 @@ from bevel_differential.optimise.design_task import DesignTask
 from bevel_differential.optimise.problem import Problem
 from bevel_differential.quantities import QUANTITIES
 from bevel_differential.want import Condition
+from refusals import refused
 
 BORE = {"geometry.planet_bore": "12 mm"}
 
@@ -52,7 +53,7 @@ def test_a_scene_file_names_quantities_among_its_outputs(tmp_path):
         with pytest.warns(match="gears.mass: it is calculated from outputs"):
             answer = accuracy(scene, within="5%")
         assert answer.wants and not any("gears.mass" in want for want in answer.wants)
-    with pytest.raises(DifferentialError, match=r"--want pin.shear:max: .*name planet\[1\].pin_force or"):
+    with refused("--want pin.shear:max:  … name planet[1].pin_force or"):
         accuracy(tmp_path / "scene.toml", "pin.shear:max")
 
 
@@ -89,7 +90,7 @@ def test_sweeps_and_comparisons_have_the_quantities_of_searches(name, scene, tmp
 def test_suggestions_are_of_the_same_kind(fmu, scene, capsys):
     for action in (lambda: sweep(scene, {"left.load_torque": "1, 2"}, "grid", wants=["gear.mass"], workers=0), lambda: scene.run(["gear.mass"]),
                    lambda: Scene("s", outputs=["gear.mass"])):
-        with pytest.raises(DifferentialError, match=r"did you mean gears\.mass\?"):
+        with refused("did you mean gears.mass?"):
             action()
     # a parameter of a similar name is not suggested for an output, and no output for a parameter
     with pytest.raises(DifferentialError) as error:
@@ -98,9 +99,9 @@ def test_suggestions_are_of_the_same_kind(fmu, scene, capsys):
     with pytest.raises(DifferentialError) as error:
         fmu.settable("geometry.planet_masses")
     assert "geometry.planet_mass" not in str(error.value).replace("geometry.planet_masses", "")
-    with pytest.raises(DifferentialError, match="calculated"):
+    with refused("calculated"):
         scene.set({"gears.mass": 1.0})
-    with fmu.open() as instance, pytest.raises(DifferentialError, match="gears.mass.*single calls cannot read it"):
+    with fmu.open() as instance, refused("gears.mass … single calls cannot read it"):
         instance.get("gears.mass")
     assert main(["run", "study_turning", "--stop", "2 ms", "--output", "gears.mass"]) == 0
     assert "gears.mass" in capsys.readouterr().out

@@ -7,6 +7,7 @@ from duty_cycles import DUTY_CYCLE, HEAD, ROOT, spectrum_of
 from bevel_differential import DifferentialError
 from bevel_differential.command import main
 from bevel_differential.spectrum import spectrum
+from refusals import refused
 
 
 @pytest.fixture
@@ -66,40 +67,39 @@ def _as(lines, separator, comma):
 
 
 @pytest.mark.parametrize("lines, parts", [
-    (["name,count,duration [s],torqe [N.m]", "a,1,1,1"], ["line 1, column torqe [N.m]", "did you mean torque"]),
-    (["name;count;duration [s];speed [m/s]", "a;1;1;1.500"], ["line 2, column speed [m/s], value \"1.500\"", "thousands"]),
-    (["name;count;duration [s];speed [m/s]", "a;1;0,5;1.5"], ["line 2, column duration [s], value \"0,5\"", "value \"1.5\"", "same decimal sign"]),
-    (["name,count,duration [s]", "a,1,0,5"], ["line 2", "4 cells where the header has 3", "decimal commas", "semicolons or tabs"]),
-    (["name|count|duration [s]", "a|1|0.5"], ["line 1", "separated by vertical bars", "commas, semicolons or tabs"]),
-    (["name,count,duration [fortnights]", "a,1,1"], ["line 1, column duration [fortnights]", "fortnights", "min"]),
-    (["name,count,left.load_torque [stone.ft]", "a,1,1"], ["line 1", "stone.ft", "N.m"]),
-    (["name,count,count", "a,1,1"], ["line 1, column count", "twice"]),
-    (["name,duration [s]", "a,1"], ["no column count"]),
-    (["name,count,left.speed [rpm]", "a,1,1"], ["column left.speed [rpm]", "not an input or parameter"]),
-    (["name,count,geometry.module [mm]", "a,1,4"], ["geometry.module", "whole cycle"]),
-    ([HEAD], ["no line below the header"]),
-    ([HEAD, "a,1,1,20,,100,7"], ["line 2", "7 cells where the header has 6"]),
-    ([HEAD, "# comment", "a,many,1,20,,100"], ["line 3, column count, value \"many\"", "number"]),
-    ([HEAD, "a,-1,1,20,,100"], ["line 2, column count, value \"-1\"", "0 times or more"]),
-    ([HEAD, "a,0,1,20,,100"], ["no event of the cycle occurs"]),
-    ([HEAD, ",1,1,20,,100"], ["line 2, column name", "write a value"]),
-    ([HEAD, "a,1,0,20,,100"], ["line 2, column duration [s], value \"0\"", "more than 0"]),
-    ([HEAD, "a,1,,20,,100"], ["line 2", "needs a duration, or a distance"]),
-    ([HEAD, "a,1,1,20,0.5,100"], ["line 2", "turn_radius", "half the track"]),
-    ([HEAD, "a,1,1,,9,100"], ["line 2", "turn_radius", "needs speed"]),
-    ([HEAD, "a,1,1,nan,,100"], ["line 2, column speed [km/h], value \"nan\"", "finite"]),
-    (["name,count,duration [s],speed [m/s],wheel_radius [m]", "a,1,1,5,-0.3"], ["line 2", "wheel_radius", "more than 0"]),
-    (["name,count,duration [s],torque [N.m],left.load_torque [N.m]", "a,1,1,1,1"], ["line 2", "left.load_torque", "remove one"]),
-    (["name,count,duration [s],left.load_torque [N.m]", "a,1,1,"], ["line 2, column left.load_torque [N.m]", "write a value"]),
-    (["name,count,distance [m],speed [m/s]", "a,1,10,0"], ["line 2, column distance [m]", "speed other than 0"]),
-    (["name,count,history", "a,1,missing.csv"], ["missing.csv: there is no such file"]),
+    (["name,count,duration [s],torqe [N.m]", "a,1,1,1"], "line 1, column torqe [N.m] … did you mean torque"),
+    (["name;count;duration [s];speed [m/s]", "a;1;1;1.500"], "line 2, column speed [m/s], value \"1.500\" … thousands"),
+    (["name;count;duration [s];speed [m/s]", "a;1;0,5;1.5"], "line 2, column duration [s], value \"0,5\" … value \"1.5\" … same decimal sign"),
+    (["name,count,duration [s]", "a,1,0,5"], "line 2 … 4 cells where the header has 3 … decimal commas … semicolons or tabs"),
+    (["name|count|duration [s]", "a|1|0.5"], "line 1 … separated by vertical bars … commas, semicolons or tabs"),
+    (["name,count,duration [fortnights]", "a,1,1"], "line 1, column duration [fortnights] … fortnights … min"),
+    (["name,count,left.load_torque [stone.ft]", "a,1,1"], "line 1 … stone.ft … N.m"),
+    (["name,count,count", "a,1,1"], "line 1, column count … twice"),
+    (["name,duration [s]", "a,1"], "no column count"),
+    (["name,count,left.speed [rpm]", "a,1,1"], "column left.speed [rpm] … not an input or parameter"),
+    (["name,count,geometry.module [mm]", "a,1,4"], "geometry.module … whole cycle"),
+    ([HEAD], "no line below the header"),
+    ([HEAD, "a,1,1,20,,100,7"], "line 2 … 7 cells where the header has 6"),
+    ([HEAD, "# comment", "a,many,1,20,,100"], "line 3, column count, value \"many\" … number"),
+    ([HEAD, "a,-1,1,20,,100"], "line 2, column count, value \"-1\" … 0 times or more"),
+    ([HEAD, "a,0,1,20,,100"], "no event of the cycle occurs"),
+    ([HEAD, ",1,1,20,,100"], "line 2, column name … write a value"),
+    ([HEAD, "a,1,0,20,,100"], "line 2, column duration [s], value \"0\" … more than 0"),
+    ([HEAD, "a,1,,20,,100"], "line 2 … needs a duration, or a distance"),
+    ([HEAD, "a,1,1,20,0.5,100"], "line 2 … turn_radius … half the track"),
+    ([HEAD, "a,1,1,,9,100"], "line 2 … turn_radius … needs speed"),
+    ([HEAD, "a,1,1,nan,,100"], "line 2, column speed [km/h], value \"nan\" … finite"),
+    (["name,count,duration [s],speed [m/s],wheel_radius [m]", "a,1,1,5,-0.3"], "line 2 … wheel_radius … more than 0"),
+    (["name,count,duration [s],torque [N.m],left.load_torque [N.m]", "a,1,1,1,1"], "line 2 … left.load_torque … remove one"),
+    (["name,count,duration [s],left.load_torque [N.m]", "a,1,1,"], "line 2, column left.load_torque [N.m] … write a value"),
+    (["name,count,distance [m],speed [m/s]", "a,1,10,0"], "line 2, column distance [m] … speed other than 0"),
+    (["name,count,history", "a,1,missing.csv"], "missing.csv: there is no such file"),
     (["name,count,duration [s],speed [m/s],wheel_radius [m],torque [N.m],lock.command", "a,1,1,5,0.3,100,7"],
-     ["event 'a'", "lock.command"]),
+     "event 'a' … lock.command"),
 ])
 def test_errors_in_a_cycle_are_reported_with_their_place(cycle, lines, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts):
         cycle(*lines)
-    assert all(part in str(error.value) for part in parts), error.value
 
 
 @pytest.mark.parametrize("lines, parts", [
@@ -159,7 +159,7 @@ def test_a_missing_load_is_refused_unless_the_scene_gives_it(cycle, tmp_path, he
 
 def test_one_blank_load_among_others_is_refused_and_a_full_duty_cycle_names_no_source(cycle):
     lines = [HEAD, "one,1,20,10,6,2200", "two,1,20,10,6,"]
-    with pytest.raises(DifferentialError, match="line 3, column torque"):
+    with refused("line 3, column torque"):
         cycle(*lines)
     assert cycle(*lines[:2]).loads == ()
     found = cycle(*lines, parameters=dict.fromkeys(LOADS, 300.0))
@@ -167,7 +167,7 @@ def test_one_blank_load_among_others_is_refused_and_a_full_duty_cycle_names_no_s
 
 
 def test_a_carrier_that_is_driven_by_torque_needs_its_torque(cycle):
-    with pytest.raises(DifferentialError, match="carrier.torque_command in the scene.*nobody gives"):
+    with refused("carrier.torque_command in the scene … nobody gives"):
         cycle(HEAD, "a,1,20,10,6,", parameters={"scene.carrier_drive": "torque", **dict.fromkeys(LOADS, 300.0)})
 
 
@@ -184,5 +184,5 @@ def test_a_missing_speed_is_refused(cycle, driven, name):
 def test_events_from_python_need_their_loads_too():
     from bevel_differential.spectrum import Event
 
-    with pytest.raises(DifferentialError, match="left.load_torque: event 'one'.*nobody gives"):
+    with refused("left.load_torque: event 'one' … nobody gives"):
         spectrum([Event("one", 1.0, 1.0, values={"carrier.speed_command": 50.0})])

@@ -9,6 +9,7 @@ from bevel_differential.command import main
 from bevel_differential.designs.space import Space
 from bevel_differential.points import seconds
 from bevel_differential.vehicle import Motor, Tyre
+from refusals import refused
 
 # name, value as on a command line, value as in TOML, number of the FMU
 GOOD = [
@@ -91,14 +92,14 @@ def test_numbers_of_literals_and_python_types_are_read(fmu):
 def test_parts_of_a_car_and_times_have_units():
     assert Tyre(radius="372 mm").radius == 0.372 and Motor(lag="30 ms", knee="6000 RPM").lag == 0.03
     assert Motor(peak="200 lb.ft").peak == pytest.approx(271.16358966628008)
-    with pytest.raises(DifferentialError, match="Tyre.radius = '37,2 cm': \"37,2 cm\" has a decimal comma: write 37.2 cm"):
+    with refused("Tyre.radius = '37,2 cm': \"37,2 cm\" has a decimal comma: write 37.2 cm"):
         Tyre(radius="37,2 cm")
     assert [seconds("t", text) for text in ("2 min", "0.5 h", "3 us", "4", 5.0)] == pytest.approx([120.0, 1800.0, 3e-6, 4.0, 5.0])
 
 
 def test_a_decimal_comma_in_a_list_is_refused(fmu):
     for text in ("0,5 mm", "0,1 mm, 0,2 mm", "1.5,2 mm"):
-        with pytest.raises(DifferentialError, match="write decimal points"):
+        with refused("write decimal points"):
             Space.parse(fmu, {"geometry.module": text})
     assert Space.parse(fmu, {"geometry.module": "4 mm,5 mm"}).dimensions[0].numbers == (0.004, 0.005)
 
