@@ -18,7 +18,7 @@ from pathlib import Path
 import pytest
 from bevel_differential import command
 from documents import ROOT, blocks, commands, printed, saved
-from warned_lines import without_warnings
+from command_line import without_warnings
 
 # values that depend on the machine
 TIME = re.compile(r"\b[\d.e+-]+(?=\s+x\s+real\s+time)|(?<=The start takes )[\d.e+-]+ of the [\d.e+-]+(?= ms of a run)")

@@ -8,103 +8,21 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from warned_lines import without_warnings
+from command_line import command, without_warnings
+from command_list import EXAMPLES, line, prepare
+from evidence_unit import packed
 
 from bevel_differential import writing
-from bevel_differential.command import COMMANDS, main
+from bevel_differential.command import FAILED
 
-ROOT = Path(__file__).resolve().parents[2]
 DISK = 200_000
-OLD = "what was there before\n"
-SCENE = """
-description = "one spring per mesh, loaded"
-stop_time = "20 ms"
-step = "1 ms"
-outputs = ["left.speed", "safety.root_min"]
-[set]
-scene.gear_contact = "lumped"
-effects.strength = true
-left.load_torque = "835 N.m"
-right.load_torque = "835 N.m"
-"""
-BENCH = """
-description = "gears without teeth, a clutch"
-stop_time = "10 ms"
-step = "1 ms"
-outputs = ["left.speed"]
-[set]
-scene.gear_contact = "ideal"
-effects.limited_slip = true
-limited_slip.preload = "60 N.m"
-carrier.torque_command = "800 N.m"
-carrier.speed_command = "40 rad/s"
-"""
-OPTIMISE = """
-description = "light or strong"
-scene = "scene.toml"
-objectives = ["minimise gears.mass", "maximise safety.root_min"]
-[vary]
-geometry.module = "4.4 mm..4.6 mm"
-geometry.face_width = "10 mm..13 mm"
-"""
-TOLERANCE = """
-description = "play"
-scene = "scene.toml"
-runs = 8
-wants = ["left.speed"]
-[factors]
-geometry.backlash = "0.1 mm +- 0.04 mm"
-"""
-INPUTS = {"scene.toml": SCENE, "bench.toml": BENCH, "optimise.toml": OPTIMISE, "tolerance.toml": TOLERANCE}
-CYCLE = ROOT / "examples/design/duty_cycle.csv"
-# arguments, existing file, free space on the disk in bytes, files that may be new; no file in {inputs} is written
-CASES = {
-    "run": (["{inputs}/scene.toml", "--csv", "a.csv", "--plot", "a.png"], "a.csv", 0, ()),
-    "run a Parquet file": (["{inputs}/scene.toml", "--csv", "a.parquet"], "a.parquet", 0, ()),
-    "run a picture": (["{inputs}/scene.toml", "--csv", "a.csv", "--plot", "a.svg"], "a.svg", 8192, ("a.csv",)),
-    "plan": (["{inputs}/scene.toml", "--ssv", "a.ssv", "--python", "a.py"], "a.ssv", 0, ()),
-    "accuracy": (["{inputs}/scene.toml", "--within", "50%", "--want", "left.speed", "--csv", "a.csv", "--plot", "a.png", "--write", "a.toml",
-                  "--ssv", "a.ssv", "--python", "a.py"], "a.csv", 0, ()),
-    "report": (["{inputs}/scene.toml", "--quick", "--out", "a.html"], "a.html", 100_000, ()),
-    "loads": (["study_straight", "--out", "a.csv"], "a.csv", 100_000, ()),
-    "geometry": (["--dxf", "--out", "out"], "out/dimensions.json", 150_000, ()),
-    "pattern": (["{inputs}/scene.toml", "--set", "scene.gear_contact=tooth", "--out", "out"], "out/summary.csv", 100_000, ()),
-    "sweep": (["--scene", "{inputs}/scene.toml", "--vary", "geometry.backlash=0.1 mm, 0.2 mm", "--plan", "grid", "--want", "left.speed",
-               "--csv", "a.csv", "--workers", "0"], "a.csv", 0, ()),
-    "sweep with parts": (["--scene", "{inputs}/scene.toml", "--vary", "geometry.backlash=0.1 mm, 0.2 mm", "--plan", "grid", "--want",
-                          "left.speed", "--out", "a.parquet", "--workers", "0", "--force"], "a.parquet", 0, ()),
-    "optimise": (["{inputs}/optimise.toml", "--quick", "--population", "4", "--generations", "1", "--out", "out", "--workers", "0"],
-                 "out/front.png", 60_000, ("out/problem.json", "out/evaluations.parquet", "out/front.csv")),
-    "tolerance": (["{inputs}/tolerance.toml", "--no-indices", "--csv", "a.csv", "--plot", "a.png", "--workers", "0"], "a.csv", 0, ()),
-    "spectrum": ([str(CYCLE), "--csv", "a.csv", "--plot", "a.pdf"], "a.pdf", 8192, ("a.csv",)),
-    "losses": (["{inputs}/bench.toml", "--torque", "400, 800", "--speed", "20, 40", "--difference", "1, 5", "--temperature", "350", "--unseen",
-                "2", "--most", "8", "--csv", "a.csv", "--simulink", "a.m", "--plot", "a.png", "--report", "a.html", "--workers", "0"],
-               "a.csv", 0, ()),
-    "bench": (["winter_start", "--out", "out", "--workers", "0"], "out/winter_start.toml", 150_000, ()),
-    "coupling": (["one_wheel_on_ice", "--set", "scene.start=equilibrium", "--host", "left:k=9000,c=12,J=1", "--plot", "a.png"], "a.png",
-                 8192, ()),
-    "study": (["--out", "out"], "out/table.md", 190_000, ()),
-    "verify": (["--csv", "a.csv"], "a.csv", 0, ()),
-    "variables": (["--csv", "a.csv"], "a.csv", 0, ()),
-    "examples": (["--out", "."], None, 12_288, ()),
-}
-FOLDERS = ("geometry", "pattern", "optimise", "bench", "study", "examples")
-# commands that write nothing
-READING = {"page"}
+CASES = [(name, files) for name, example in EXAMPLES.items() for files in example.files]
 
 
-def test_every_command_that_writes_is_here():
-    assert {case.split()[0] for case in CASES} | READING == set(COMMANDS)
-
-
-@pytest.fixture
-def inputs(tmp_path):
-    folder = tmp_path / "inputs"
-    folder.mkdir()
-    for name, text in INPUTS.items():
-        (folder / name).write_text(text, encoding="utf-8")
-    return folder
+@pytest.fixture(scope="module")
+def unit(fmu_file, tmp_path_factory):
+    """FMU with the evidence of one scene."""
+    return packed(fmu_file, tmp_path_factory.mktemp("units") / "good.fmu", ["one_wheel_on_ice"])
 
 
 def mount(*arguments):
@@ -128,69 +46,56 @@ def content(folder):
     return {file.relative_to(folder).as_posix(): file.read_bytes() for file in folder.rglob("*") if file.is_file()}
 
 
-def prepared(folder, case, monkeypatch):
-    """Arguments of the command, after creation of the existing file and the change to the folder."""
-    _, old, *_ = CASES[case]
-    if old:
-        (folder / old).parent.mkdir(exist_ok=True)
-        (folder / old).write_text(OLD)
-    monkeypatch.chdir(folder)
+@pytest.fixture
+def refused(unit, monkeypatch):
+    """refused(name, files, folder, cause, change): runs a command in a folder with an old file, after a change due to which it must fail.
+    Old files stay, new files are complete and allowed, and the message names a file and the cause."""
+    def run(name, files, folder, cause, change):
+        monkeypatch.chdir(folder)
+        prepare(folder)
+        Path("good.fmu").symlink_to(unit)
+        if files.old:
+            Path(files.old).parent.mkdir(exist_ok=True)
+            Path(files.old).write_text("what was there before\n", encoding="utf-8")
+        change()
+        before = content(folder)
+        said = command(f"{line(name)} {files.options}", FAILED).err.splitlines()[-1]
+        after = content(folder)
+        new = after.keys() - before.keys()
+        assert new <= set(files.new) and {name: after[name] for name in before} == before, (new, said)
+        assert all(after[name].endswith((b"\n", b"PAR1")) for name in new)
+        assert re.match(r"bevel-differential: (a[.\w]+|out[/\w.]*|design/\w+\.\w+|\.)( cannot be written)?: ", said) and cause in said, said
+        assert not [path for path in folder.rglob("*") if path.name.endswith((".part", ".lock"))]
+
+    return run
 
 
-def refused(case, inputs, fmu_file, capsys):
-    """Last line on standard error of the command, which must fail."""
-    words = [word.format(inputs=inputs) for word in CASES[case][0]]
-    own = [] if case.split()[0] in ("plan", "accuracy", "loads", "geometry", "pattern", "verify", "examples") else ["--fmu", fmu_file]
-    assert main([case.split()[0], *words, *own]) not in (0, None)
-    return capsys.readouterr().err.splitlines()[-1]
+@pytest.mark.parametrize("name, files", CASES)
+def test_a_full_disk(name, files, disk, refused, monkeypatch, tmp_path):
+    def fill():
+        free = os.statvfs(disk)
+        (disk / "ballast").write_bytes(bytes(max(free.f_bavail * free.f_frsize - files.room, 0)))
+
+    def full(*_, **__):
+        raise OSError(28, "No space left on device")
+
+    if disk is None and name == "loads":
+        pytest.skip("no disk may be mounted here, and Rust's own writer cannot be changed")
+    refused(name, files, disk or tmp_path, "No space left on device", fill if disk else lambda: monkeypatch.setattr(writing.Path, "replace", full))
 
 
-def judged(case, folder, before, line, cause):
-    """Checks that old files stay, that new files are complete and allowed, and that the message names a file and the cause."""
-    after = content(folder)
-    new = after.keys() - before.keys()
-    assert new <= set(CASES[case][3]) and {name: after[name] for name in before} == before, (new, line)
-    assert all(after[name].endswith((b"\n", b"PAR1")) for name in new)
-    assert re.match(r"bevel-differential: (a[.\w]+|out[/\w.]*|design/\w+\.\w+|\.)( cannot be written)?: ", line) and cause in line, line
-    assert not [path for path in folder.rglob("*") if path.name.endswith((".part", ".lock"))]
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_a_full_disk(case, disk, inputs, fmu_file, monkeypatch, capsys, tmp_path):
-    folder, room = disk, CASES[case][2]
-    if folder is None:
-        if case == "loads":
-            pytest.skip("no disk may be mounted here, and Rust's own writer cannot be changed")
-        folder = tmp_path / "folder"
-        folder.mkdir()
-    prepared(folder, case, monkeypatch)
-    if disk is None:
-        def full(*_, **__):
-            raise OSError(28, "No space left on device")
-        monkeypatch.setattr(writing.Path, "replace", full)
-    else:
-        free = os.statvfs(folder)
-        (folder / "ballast").write_bytes(bytes(max(free.f_bavail * free.f_frsize - room, 0)))
-    before = content(folder)
-    judged(case, folder, before, refused(case, inputs, fmu_file, capsys), "No space left on device")
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_a_folder_that_may_not_be_written_to(case, disk, inputs, fmu_file, monkeypatch, capsys):
+@pytest.mark.parametrize("name, files", CASES)
+def test_a_folder_that_may_not_be_written_to(name, files, disk, refused):
     if disk is None:
         pytest.skip("no disk may be mounted here, and root may write into all folders")
-    prepared(disk, case, monkeypatch)
-    assert mount("-o", "remount,ro", str(disk))
-    before = content(disk)
-    judged(case, disk, before, refused(case, inputs, fmu_file, capsys), "Read-only file system")
+    refused(name, files, disk, "Read-only file system", lambda: mount("-o", "remount,ro", str(disk)) or pytest.fail("the disk is not read-only"))
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no device that is full")
-@pytest.mark.parametrize("words", [["plan", "study_straight"], ["plan"], ["geometry", "--out", "{out}"]])
-def test_a_full_disk_under_standard_output(words, fmu_file, tmp_path):
+@pytest.mark.parametrize("words", ["plan study_straight", "plan", "geometry --out {}"])
+def test_a_full_disk_under_standard_output(words, tmp_path):
     with open("/dev/full", "w", encoding="utf-8") as full:
-        words = [word.format(out=tmp_path) for word in words]
-        ran = subprocess.run([sys.executable, "-m", "bevel_differential", *words], stdout=full, stderr=subprocess.PIPE, text=True, check=False,
-                             env={**os.environ, "BEVEL_DIFFERENTIAL_FMU": fmu_file})
+        ran = subprocess.run([sys.executable, "-m", "bevel_differential", *words.format(tmp_path).split()], stdout=full, stderr=subprocess.PIPE,
+                             text=True, check=False)
     lines = without_warnings(ran.stderr).splitlines()
     assert lines == ["bevel-differential: standard output: No space left on device"] and ran.returncode == 1

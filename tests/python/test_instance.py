@@ -68,14 +68,14 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
         assert second.time == pytest.approx(8e-3, rel=1e-12)
         with pytest.raises(DifferentialError, match="stop time 0.008 s$"):
             second.step(1e-3)
-        with refused("stop time 0.005 s of the restored state;  …  fmi2SetupExperiment"):
+        with refused("stop time 0.005 s of the restored state; … fmi2SetupExperiment"):
             endless.initialise(TURN).restore(first.save()).step(1e-3)
 
 
 def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
     with fmu.open() as opened:
         opened.initialise()
-        with refused("left.load_torque …  N.m is outside") as refused:
+        with refused("left.load_torque … N.m is outside") as refused:
             opened.set({"left.load_torque": 1e30})
         # for hosts, the log also names the call
         assert refused.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {refused.value}"

@@ -24,7 +24,7 @@ from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
 from bevel_differential.values import Quantity
 from interrupts import changed_command, with_interrupts
-from warned_lines import without_warnings
+from command_line import without_warnings
 from refusals import refused
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3

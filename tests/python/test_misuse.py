@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from bevel_differential import Differential, DifferentialError, Fmu, Scene
-from bevel_differential.command import main
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import sweep
@@ -22,11 +21,6 @@ runs = 8
 [factors]
 geometry.backlash = "0.02 mm +- 0.2 mm"
 """
-
-
-@pytest.fixture(autouse=True)
-def with_fmu(fmu_file, monkeypatch):
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
 
 
 @pytest.fixture
@@ -96,22 +90,6 @@ def test_a_file_that_is_not_an_fmu_is_reported(tmp_path, content):
         Fmu.of(tmp_path / "my.fmu")
 
 
-@pytest.mark.parametrize("command, said", [
-    (["run", "study_turning", "--set", f"{TORQUE}=1", "--set", f"{TORQUE}=2"], "given twice"),
-    (["run", "study_turning", "--csv", "{folder}/none/a.csv"], "there is no folder"),
-    (["sweep", "--scene", "study_turning", "--vary", f"{TORQUE}=1", "--vary", f"{TORQUE}=2"], "given twice"),
-    (["sweep", "--scene", "study_turning", "--vary", f"{TORQUE}=1, 2", "--plan", "grid", "--want", "left.speed",
-      "--out", "{folder}"], "name a file"),
-    (["run", "study_turning", "--plot", "{folder}/picture"], "a picture ends with"),
-    (["tolerance", "none.toml", "--csv", "{folder}"], "name a file"),
-    (["tolerance", "{folder}/wide.toml", "--runs", "0"], "runs = 0"),
-    (["spectrum", "none.csv", "--plot", "{folder}/none/a.png"], "there is no folder")])
-def test_the_command_reports_the_error_before_any_run(tmp_path, capsys, command, said):
-    (tmp_path / "wide.toml").write_text(WIDE)
-    assert main([word.replace("{folder}", str(tmp_path)) for word in command]) == 2
-    assert said in capsys.readouterr().err
-
-
 SCENE = """description = "short"
 stop_time = 0.01
 step = 0.001
@@ -130,16 +108,9 @@ def test_wrong_kinds_in_a_scene_file_are_reported(tmp_path, fmu, old, new, said)
         Scene.load(tmp_path / "short.toml", fmu)
 
 
-@pytest.mark.parametrize("line", ["scene = 3", 'runs = "many"', "seed = 1.5", "want = [3]", "plan = 7", "condition = [1]"])
-def test_wrong_kinds_in_a_plan_file_are_reported(tmp_path, capsys, line):
-    (tmp_path / "plan.toml").write_text(line)
-    assert main(["sweep", "--plan-file", str(tmp_path / "plan.toml")]) == 2
-    assert f"plan.toml: {line.split()[0]} is a" in capsys.readouterr().err
-
-
 def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
     (tmp_path / "wide.toml").write_text(WIDE)
-    with refused("geometry.backlash: . of  …  draws are outside 0 mm to"):
+    with refused("geometry.backlash: . of … draws are outside 0 mm to"):
         Tolerances.load(tmp_path / "wide.toml")
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from bevel_differential import Differential, DifferentialWarning, Scene, shipped_scenes
 from bevel_differential.answers import about, ask
-from bevel_differential.command import main
 from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.values import UNFELT
 from refusals import refused
@@ -123,17 +122,6 @@ def test_the_log_is_of_the_category_of_warnings_and_quiet_without_it(through_fmp
     assert not lines
 
 
-def test_python_warns_and_keeps_what_was_said():
-    with Differential({"left.brake_torque": "200 N.m"}) as differential:
-        with pytest.warns(DifferentialWarning, match="left.brake_torque: 200 N.m.*effects.wheel_brake = true") as caught:
-            differential.run(stop=0.002)
-        assert {one.filename for one in caught} == {__file__}
-        assert [str(one.message) for one in caught] == differential.warnings and list(differential.unfelt) == ["left.brake_torque"]
-        with warnings.catch_warnings():
-            warnings.filterwarnings("error", ".*changes nothing")
-            differential.run(stop=0.002, values={"left.brake_torque": 0.0, "geometry.face_width": 0.014, "contact.law": "line"})
-
-
 def test_the_plan_of_a_scene_names_unused_values_of_the_start_and_of_later_settings(tmp_path):
     file = tmp_path / "later.toml"
     file.write_text((SCENES / "study_turning.toml").read_text() + "limited_slip.preload = 80.0\n"
@@ -144,19 +132,6 @@ def test_the_plan_of_a_scene_names_unused_values_of_the_start_and_of_later_setti
     assert UNFELT not in printed
     said = [str(one.message).partition(":")[0] for one in caught if UNFELT in str(one.message)]
     assert said == ["limited_slip.preload", "left.brake_torque", "right.brake_torque"]
-
-
-def test_the_commands_and_the_report_warn_once(tmp_path, capsys):
-    said = "left.brake_torque: 200 N.m changes nothing in this scene. It acts only if effects.wheel_brake = true (now: false)"
-    scene = ["study_turning", "--set", "left.brake_torque=200 N.m"]
-    with warnings.catch_warnings():
-        warnings.simplefilter("error", DifferentialWarning)
-        assert main(["run", *scene, "--stop", "5 ms"]) == 0
-        printed = capsys.readouterr()
-        assert printed.err.count(said) == 1 and said not in printed.out
-        page = tmp_path / "hil.html"
-        assert main(["report", "hil", *scene[1:], "--quick", "--out", str(page)]) == 0
-        assert page.read_text(encoding="utf-8").count(said) == 1
 
 
 BY_TORQUE = {"scene.carrier_drive": "torque"}
@@ -186,6 +161,6 @@ def test_a_duty_cycle_gives_its_torque_to_a_carrier_that_is_driven_by_torque(cyc
 def test_a_duty_cycle_refuses_unused_values_by_name(cycle):
     with refused("event 'braked': left.brake_torque: 90 N.m … effects.wheel_brake = true"):
         cycle([f"{HEAD},left.brake_torque [N.m]", "braked,4,20,18,2,450,90"])
-    with refused("event 'one': left.load_torque:  … scene.left_drive = torque"):
+    with refused("event 'one': left.load_torque: … scene.left_drive = torque"):
         spectrum([Event("one", 1.0, 1.0, values={"left.load_torque": 100.0, "right.load_torque": 100.0, "left.speed_command": 50.0,
                                                  "carrier.speed_command": 50.0})], {"scene.left_drive": "speed"})

@@ -5,7 +5,7 @@ import warnings
 from pathlib import Path
 
 import pytest
-from short_scene import SCENE
+from command_list import SCENE
 
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask

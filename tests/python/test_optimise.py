@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
-from short_scene import SCENE
+from command_list import SCENE
 
 from bevel_differential import DifferentialError, Fmu, Scene, cad
 from bevel_differential.command import main

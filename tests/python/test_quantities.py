@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from short_scene import SCENE
+from command_list import SCENE
 
 from bevel_differential import Differential, DifferentialError, Scene
 from bevel_differential.accuracy import accuracy
@@ -53,7 +53,7 @@ def test_a_scene_file_names_quantities_among_its_outputs(tmp_path):
         with pytest.warns(match="gears.mass: it is calculated from outputs"):
             answer = accuracy(scene, within="5%")
         assert answer.wants and not any("gears.mass" in want for want in answer.wants)
-    with refused("--want pin.shear:max:  … name planet[1].pin_force or"):
+    with refused("--want pin.shear:max: … name planet[1].pin_force or"):
         accuracy(tmp_path / "scene.toml", "pin.shear:max")
 
 

@@ -13,7 +13,7 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 from interrupts import changed_command, with_interrupts
-from warned_lines import without_warnings
+from command_line import without_warnings
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, cluster, store
