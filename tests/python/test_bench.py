@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from bevel_differential import Scene
 from bevel_differential.bench import TESTS, bench, scene_file
-from bevel_differential.command import main
 from bevel_differential.scene_file import read_toml
 from bevel_differential.values import DifferentialError
+from command_line import command
 from PIL import Image
 from scipy.interpolate import PchipInterpolator
 
@@ -158,21 +158,14 @@ def test_a_winter_start_begins_with_the_drag_of_its_oil(fmu_file, tmp_path):
     assert loss == round(record["power.loss"][0]) > 5.0 * later
 
 
-def test_the_command_writes_figure_numbers_and_scene(fmu_file, tmp_path, capsys):
-    assert main(["bench", "winter_start", "--out", str(tmp_path / "out"), "--fmu", fmu_file]) == 0
-    assert capsys.readouterr().out.startswith("winter_start: the loss is ")
-    assert {file.name for file in (tmp_path / "out").iterdir()} == {"winter_start.png", "winter_start.csv", "winter_start.toml"}
-    with Image.open(tmp_path / "out" / "winter_start.png") as picture:
-        assert len(picture.getcolors(maxcolors=1 << 20)) > 10
-
-
 def test_speeds_and_temperatures_are_in_the_units_that_are_wanted(fmu_file, tmp_path):
     plain, turned = (numbers(bench("judder", tmp_path, fmu=fmu_file, display_units=units)) for units in (["rad/s"], ["rpm"]))
     assert turned[:2] == pytest.approx([60.0 / (2.0 * np.pi) * number for number in plain[:2]], rel=6e-3)
     assert "left.speed [rpm]" in (tmp_path / "judder.csv").read_text(encoding="utf-8")
 
 
-def test_wrong_tests_are_one_line(capsys, tmp_path):
-    for words, said in ((["hotlap"], "did you mean hot_lap"), (["--scene", "clunk"], "name the one test")):
-        assert main(["bench", *words, "--out", str(tmp_path)]) == 2
-        assert said in capsys.readouterr().err
+def test_the_command_writes_figure_numbers_and_scene(tmp_path):
+    assert command(f"bench winter_start --out {tmp_path / 'out'}").out.startswith("winter_start: the loss is ")
+    assert {file.name for file in (tmp_path / "out").iterdir()} == {"winter_start.png", "winter_start.csv", "winter_start.toml"}
+    with Image.open(tmp_path / "out" / "winter_start.png") as picture:
+        assert len(picture.getcolors(maxcolors=1 << 20)) > 10

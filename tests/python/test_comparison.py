@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from bevel_differential import DifferentialWarning, Scene, compare
-from bevel_differential.command import main
+from command_line import command
 from refusals import refused
 
 # only the drive acts on ideal gears, so speeds follow from momentum
@@ -65,10 +65,9 @@ def test_temperatures_differ_by_kelvins_and_have_no_percentage():
     assert values["warm - cold"] == pytest.approx(60.0) and np.isnan(values["warm - cold, %"])
 
 
-def test_the_common_time_counts_and_is_named(tmp_path, capsys):
+def test_the_common_time_counts_and_is_named(tmp_path):
     long, short = written(tmp_path / "long.toml", 100.0, 0.5), written(tmp_path / "short.toml", 100.0, 0.2, '"carrier.speed", "efficiency"')
-    assert main(["run", long, short, "--csv", "both.csv"]) == 0
-    printed = capsys.readouterr().out
+    printed = command(f"run {long} {short} --csv both.csv").out
     assert "compared from 0 to 0.2 s, the time that all scenes have: long ends at 0.5 s, short ends at 0.2 s" in printed
     assert "left out (--output names others): left.speed, efficiency" in printed
     assert "The scenes set the same values" in printed
@@ -81,21 +80,18 @@ def test_the_common_time_counts_and_is_named(tmp_path, capsys):
     assert np.array_equal(by_scene["short"][:, 0], record["time"]) and np.array_equal(by_scene["short"][:, 1], record["carrier.speed"])
 
 
-def test_scenes_with_the_same_name_are_distinguished_and_warnings_name_them(tmp_path, capsys):
+def test_scenes_with_the_same_name_are_distinguished_and_warnings_name_them(tmp_path):
     before, after = written(tmp_path / "before" / "axle.toml", 100.0), written(tmp_path / "after" / "axle.toml", 150.0, 0.5,
                                                                                more="tooth_errors.side_runout = 1e-5\n")
     other = written(tmp_path / "other.toml", 120.0)
-    assert main(["run", before, after, other, "--plot", "three.svg", "--unit", "rpm"]) == 0
-    said = capsys.readouterr()
+    said = command(f"run {before} {after} {other} --plot three.svg --unit rpm")
     for name in ("before/axle", "after/axle", "other"):
         assert name in said.out.splitlines()[2]
         assert f"<!-- {name} -->" in (tmp_path / "three.svg").read_text(encoding="utf-8")
     assert "after/axle − before/axle" in said.out and "other − before/axle" in said.out
-    lines = [line for line in said.err.splitlines() if "tooth_errors.side_runout" in line]
-    assert lines and all(line.startswith("warning: after/axle: ") for line in lines)
-    # the further lines of a warning are indented
-    warned = [line for line in said.err.splitlines() if not line.startswith(" ")]
-    assert all(line.startswith(("warning: before/axle: ", "warning: after/axle: ", "warning: other: ")) for line in warned), warned
+    runout = [text for text in said.warnings if "tooth_errors.side_runout" in text]
+    assert runout and all(text.startswith("warning: after/axle: ") for text in runout) and not said.errors
+    assert all(text.startswith(("warning: before/axle: ", "warning: after/axle: ", "warning: other: ")) for text in said.warnings), said.err
 
 
 def test_scenes_in_python_may_have_one_name():
@@ -123,9 +119,8 @@ def test_values_that_look_alike_are_written_in_full():
     assert rows[TORQUE] == "100.00001 N·m"
 
 
-def test_shipped_scenes_are_compared_by_their_names(tmp_path, capsys):
-    assert main(["run", "study_straight", "study_turning", "--stop", "20 ms", "--unit", "rpm", "--plot", "study.png", "--csv", "study.csv"]) == 0
-    printed = capsys.readouterr().out
+def test_shipped_scenes_are_compared_by_their_names(tmp_path):
+    printed = command("run study_straight study_turning --stop '20 ms' --unit rpm --plot study.png --csv study.csv").out
     # 2861 and 954 deg/s, with 360 deg per turn
     line = next(line for line in printed.splitlines() if line.startswith("carrier.speed"))
     assert line.split()[:5] == ["carrier.speed", "rpm", "mean", f"{2861 / 6:.6g}", "159"]
@@ -155,12 +150,6 @@ def test_the_first_scene_with_a_preference_wins(preferred):
     assert row(found, "carrier.speed", "end")["unit"] == unit
 
 
-def test_values_that_cannot_be_compared_are_refused(tmp_path, capsys):
-    own = written(tmp_path / "own.toml", 100.0)
-    apart = written(tmp_path / "apart.toml", 100.0, outputs='"efficiency"')
-    for arguments, message in (([own, own], "own: it is named twice"), ([own, apart], "no output is recorded by all of own, apart"),
-                               ([own, "clunkk"], "did you mean clunk"), ([own, "clunk", "--output", "left.sped"], "did you mean left.speed")):
-        assert main(["run", *arguments]) != 0
-        assert message in capsys.readouterr().err
+def test_a_single_scene_is_not_compared():
     with refused("two scenes or more"):
         compare(free("lonely", 100.0))

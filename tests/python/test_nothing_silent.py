@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from bevel_differential import Differential, DifferentialWarning, Scene, shipped_scenes
+from bevel_differential import DifferentialWarning, Scene, shipped_scenes
 from bevel_differential.answers import about, ask
 from bevel_differential.spectrum import Event, spectrum
 from bevel_differential.values import UNFELT

@@ -1,7 +1,6 @@
 """Optimisation of gears: quantities against closed forms, the front against brute force, repetition, interruption, wrong use."""
 
 import math
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -11,10 +10,11 @@ import pandas as pd
 import pytest
 from interrupts import with_interrupts
 from pymoo.indicators.hv import HV
+from command_line import command
 from command_list import SCENE
 
 from bevel_differential import DifferentialError, Fmu, Scene, cad
-from bevel_differential.command import main
+from bevel_differential.command import INTERRUPTED
 from bevel_differential.designs.farm import Farm
 from bevel_differential.designs.task import Row
 from bevel_differential.optimise import command as optimise_command
@@ -28,6 +28,8 @@ from bevel_differential.optimise.search import Store, search
 from bevel_differential.want import Statistic, Want
 from refusals import refused
 
+# a small search
+FOUR = "--workers 0 --population 12 --generations 4"
 REPOSITORY = Path(__file__).resolve().parents[2]
 # two variables: the module and the face width
 TWO = """description = "light or strong"
@@ -461,8 +463,7 @@ def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder,
             raise KeyboardInterrupt
 
     monkeypatch.setattr(optimise_command, "print", stop, raising=False)
-    given = [folder / "two.toml", "--out", folder / "out", "--workers", "0", "--population", "12", "--generations", "4"]
-    assert main(["optimise", *map(str, given)]) == 130
+    command(f"optimise {folder / 'two.toml'} --out {folder / 'out'} {FOUR}", INTERRUPTED)
     front_of_two, _ = found(Problem.load(folder / "two.toml").sized(population=12, generations=2), folder / "two")
     assert set(pd.read_csv(folder / "out/front.csv")["run"]) == {row.run for row in front_of_two}
     assert not list((folder / "out").glob("*.part"))
@@ -470,9 +471,9 @@ def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder,
 
 # Ctrl-C while this design is evaluated, in the third generation of 12 designs
 INTERRUPTED_AT = 28
-INTERRUPTED = f"""
+WITH_CTRL_C = f"""
 import os, signal, sys
-from bevel_differential.command import main
+from bevel_differential.command import INTERRUPTED
 from bevel_differential.optimise.design_task import DesignTask
 evaluate = DesignTask.evaluate
 def interrupted(task, run, values):
@@ -484,11 +485,9 @@ sys.exit(main(sys.argv[1:]))
 """
 
 
-def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, capsys, monkeypatch):
-    given = ["two.toml", "--out", "out", "--workers", "0", "--population", "12", "--generations", "4"]
-    environment = {**os.environ, "PYTHONPATH": str(REPOSITORY / "python/src"), "BEVEL_DIFFERENTIAL_FMU": fmu_file}
-    process = subprocess.run([sys.executable, "-c", INTERRUPTED, "optimise", *given], cwd=folder, env=environment, capture_output=True,
-                             text=True, timeout=60, preexec_fn=with_interrupts)
+def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, monkeypatch):
+    given = f"optimise two.toml --out out {FOUR}"
+    process = subprocess.run([sys.executable, "-c", WITH_CTRL_C, *given.split()], cwd=folder, capture_output=True, text=True, timeout=60, preexec_fn=with_interrupts)
     errors = process.stderr
     assert "generation 2 of 4" in process.stdout and "generation 3" not in process.stdout
     assert process.returncode == 130 and "continue with --resume" in errors and "Traceback" not in errors
@@ -497,21 +496,12 @@ def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, fmu_file, cap
     # another test covers files for CAD
     monkeypatch.setattr(cad, "available", lambda: False)
     monkeypatch.chdir(folder)
-    assert main(["optimise", *given, "--resume"]) == 0
-    assert "gears in out" in capsys.readouterr().out
+    assert "gears in out" in command(f"{given} --resume").out
     whole, _ = found(Problem.load(folder / "two.toml").sized(population=12, generations=4), folder / "whole")
     after = pd.read_csv(folder / "out/front.csv")
     assert set(after["run"]) <= {row.run for row in whole} and len(after) == min(64, len(whole))
     assert "the study's gears" in (folder / "out/choice.md").read_text(encoding="utf-8")
     assert (folder / "out/front.png").stat().st_size > 10_000
-
-
-def test_wrong_use_of_the_command_ends_with_a_status(folder, capsys, monkeypatch):
-    monkeypatch.chdir(folder)
-    for given, part in [(["none.toml"], "none.toml"), (["two.toml", "--population", "1"], "population = 1"),
-                        (["two.toml", "--resume"], "leave out --resume"), (["two.toml", "--sead", "1"], "--sead")]:
-        status = main(["optimise", *given, "--workers", "0"])
-        assert status not in (0, 130) and part in capsys.readouterr().err
 
 
 def test_chosen_designs_with_a_safety_factor_below_1_are_named():

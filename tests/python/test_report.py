@@ -7,12 +7,12 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from bevel_differential import Scene, extras, shipped_scenes
-from bevel_differential.command import main
+from bevel_differential import Scene, shipped_scenes
 from bevel_differential.report import runup
 from bevel_differential.report.simulated import ONLY_GIVE_OUTPUTS
 from bevel_differential.report.worth import PART_OF_THE_QUESTION
 from bevel_differential.report.write import write
+from command_line import command
 from report_page import ReportPage
 
 MOST_BYTES = 5e6
@@ -68,7 +68,7 @@ def test_every_scene_has_a_report_whose_figures_show_something(name):
 
 def test_a_quick_report_omits_the_parts_that_need_other_runs(monkeypatch):
     in_haste(monkeypatch)
-    assert main(["report", "study_turning", "--quick", "--set", "left.load_torque=700 N.m"]) == 0
+    command("report study_turning --quick --set 'left.load_torque=700 N.m'")
     page = ReportPage(Path("report-study_turning.html").read_text(encoding="utf-8"))
     assert set(page.figures) == ALL - {"inputs", "waterfall", "worth"}
     assert "700 N·m" in page.sections["setup"]
@@ -100,25 +100,3 @@ def test_report_and_accuracy_agree_on_the_kinds_of_effects():
     assert sorted(of("PART_OF_THE_QUESTION")) == sorted(PART_OF_THE_QUESTION)
     assert sorted(of("ONLY_GIVE_OUTPUTS")) == sorted(ONLY_GIVE_OUTPUTS)
 
-
-@pytest.mark.parametrize("arguments, said", [
-    ([], "required: scene"),
-    (["study_turnin"], "did you mean study_turning"),
-    (["study_turning", "--out", "nowhere/report.html"], "there is no folder"),
-    (["study_turning", "--set", "left.load_torque"], "write NAME=VALUE"),
-    (["study_turning", "--set", "geometry.module=0"], "geometry.module"),
-])
-def test_wrong_use_is_reported_in_one_line(arguments, said, capsys):
-    assert main(["report", *arguments]) == 2
-    lines = [line for line in re.split(r"[\r\n]+", capsys.readouterr().err) if said in line]
-    assert len(lines) == 1, lines
-
-
-def test_a_missing_package_is_reported_with_its_extra(monkeypatch):
-    def missing(name):
-        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-    with Scene.load("study_turning") as scene:
-        monkeypatch.setattr(extras.importlib, "import_module", missing)
-        with pytest.raises(extras.DifferentialError, match=r"matplotlib.*extra report"):
-            write(scene, "report.html")
