@@ -8,15 +8,16 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
+from command_line import command
 from documents import saved
 from interrupts import with_interrupts
 
 from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
-from bevel_differential.command import main
 from bevel_differential.want import Statistic, figures
 
 # long enough for an interrupt: the richest model needs seconds
+FILES = "--ssv chosen.ssv --python chosen.py"
 LONG = {"stop_time": "5 s", "step": "1 ms"}
 
 
@@ -38,17 +39,13 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(tmp_path):
 
 
 @pytest.mark.parametrize("within", ["1%", "10%"])
-def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, monkeypatch, capsys):
+def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # the torque does not need the effect warm_up, so the table has no effect
     idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
     (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
-    files = ["--ssv=chosen.ssv", "--python=chosen.py"]
-    wanted = ["--want", "left.shaft_torque:mean", "--within", within, "--write", "chosen.toml", *files]
-    assert main(["accuracy", "turn.toml", *wanted]) == 0
-    capsys.readouterr()
-    assert main(["plan", "chosen.toml"]) == 0
-    assert "changes nothing" not in capsys.readouterr().err
+    command(f"accuracy turn.toml --want left.shaft_torque:mean --within {within} --write chosen.toml {FILES}")
+    assert "changes nothing" not in command("plan chosen.toml").err
     written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     # an accuracy of 10 % needs no washer friction
     assert all(("thrust_friction.radii_from_geometry" in text) == (within == "1%") for text in written.values())
@@ -84,14 +81,13 @@ def test_an_error_in_the_progress_stops_the_work_and_is_raised():
 
 
 def test_ctrl_c_stops_the_command():
-    command = subprocess.Popen([sys.executable, "-m", "bevel_differential", "accuracy", "torque_bias", "--within", "1%", "--progress",
-                                "lines", "--set", "stop_time=20 s"], stderr=subprocess.PIPE, text=True,
-                               preexec_fn=with_interrupts)
-    assert "reference" in command.stderr.readline()
+    words = "accuracy torque_bias --within 1% --progress lines --set stop_time=20s".split()
+    running = subprocess.Popen([sys.executable, "-m", "bevel_differential", *words], stderr=subprocess.PIPE, text=True, preexec_fn=with_interrupts)
+    assert "reference" in running.stderr.readline()
     begin = time.monotonic()
-    command.send_signal(signal.SIGINT)
-    said = command.communicate(timeout=30)[1]
-    assert command.returncode == 130 and "stopped" in said and "Traceback" not in said and time.monotonic() - begin < 10.0
+    running.send_signal(signal.SIGINT)
+    said = running.communicate(timeout=30)[1]
+    assert running.returncode == 130 and "stopped" in said and "Traceback" not in said and time.monotonic() - begin < 10.0
 
 
 def test_threads_get_separate_answers():
@@ -116,7 +112,7 @@ def test_figures_are_those_of_closed_forms():
             Statistic.parse(word)
 
 
-def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch, capsys):
+def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"], encoding="utf-8")
     question = {"want": "left.shaft_torque:mean", "within": "1%", "set": {"solver.method": "fixed_step"}}
@@ -126,9 +122,8 @@ def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch, caps
     # neither the next longer steps nor the model reach this accuracy by chance
     tried = {run.setting: run.error for run in found.runs if "fixed steps" in run.setting}
     assert found.use.run.error <= 0.01 and len(tried) > 2
-    files = ["--write=chosen.toml", "--ssv=chosen.ssv", "--python=chosen.py", "--plot=front.png"]
-    assert main(["accuracy", "turn.toml", "--want", question["want"], "--within", "1%", "--set", "solver.method=fixed_step", *files]) == 0
-    assert "fixed steps" in capsys.readouterr().out
+    printed = command(f"accuracy turn.toml --want {question['want']} --within 1% --set solver.method=fixed_step --write chosen.toml {FILES}").out
+    assert "fixed steps" in printed
     written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     assert "solver.fixed_step" in written["ssv"] and "solver.fixed_step" in written["py"]
     # with these steps, the FMU gives the figure of the richest model, and uses the steps

@@ -12,11 +12,12 @@ from functools import cache
 import numpy as np
 import outline_solids
 import pytest
+from command_line import command
 from step_solids import centre_of, near_faces, parts_of, read_step, ruled_faces, weighed
 
 from bevel_differential import cad
 from bevel_differential.answers import ask, assignments
-from bevel_differential.command import main
+from bevel_differential.command import WRONG
 
 MM = 1e3
 MICROMETRE = 1e-3
@@ -221,12 +222,11 @@ def test_a_drawing_has_the_exact_outlines_and_the_dimensions_of_the_table(bored,
         assert min(abs(value - wanted) for value in drawn) < 1e-9
 
 
-def test_files_are_written_by_kind_and_part_or_not_at_all(tmp_path, capsys):
-    told = ["geometry", "--out", str(tmp_path / "new"), "--step", "--dxf", "--stl", "--part", "planet", "--part", "assembly"]
-    assert main(told) == 0
+def test_files_are_written_by_kind_and_part_or_not_at_all(tmp_path):
+    printed = command(f"geometry --out {tmp_path / 'new'} --step --dxf --stl --part planet --part assembly").out
     made = {"planet.step", "planet.dxf", "planet.stl", "assembly.step", "assembly.stl"}
     files = {path.name: path.stat().st_size for path in (tmp_path / "new").iterdir()}
-    assert {name for name in files if not name.endswith((".txt", ".json"))} == made and made < set(capsys.readouterr().out.replace(",", " ").split())
+    assert {name for name in files if not name.endswith((".txt", ".json"))} == made and made < set(printed.replace(",", " ").split())
     assert all(files[name] > 10_000 for name in made)
-    assert main(["geometry", "--out", str(tmp_path / "none"), "--stl", "--facets", "201"]) == 2
-    assert "facets 201: must be a whole number from 2 to 200" in capsys.readouterr().err and not (tmp_path / "none").exists()
+    said = command(f"geometry --out {tmp_path / 'none'} --stl --facets 201", WRONG).err
+    assert "facets 201: must be a whole number from 2 to 200" in said and not (tmp_path / "none").exists()

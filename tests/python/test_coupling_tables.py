@@ -4,8 +4,8 @@ import re
 
 import numpy as np
 import pytest
+from command_line import command
 from bevel_differential import Scene
-from bevel_differential.command import main
 from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.coupling import middle
 from bevel_differential.losses.grid import Bound
@@ -114,12 +114,12 @@ def test_without_limited_slip_the_tables_are_left_out_with_the_reason(mapped, ta
 
 
 @pytest.mark.parametrize("switch, said", [("true", False), ("false", True)])
-def test_the_command_says_what_it_leaves_out(switch, said, tmp_path, capsys):
+def test_the_command_says_what_it_leaves_out(switch, said, tmp_path):
     file = tmp_path / "map.m"
-    assert main(["losses", "torque_bias", "--quick", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
-                 "effects.thrust_friction=false", "--set", f"effects.limited_slip={switch}", "--set", "limited_slip.preload=40 N.m",
-                 "--set", "limited_slip.torque_coefficient=0", "--torque", "200, 800", "--speed", "40", "--difference", "1, 9",
-                 "--temperature", "60 degC", "--unseen", "2", "--workers", "0", "--simulink", str(file)]) == 0
+    printed = command(f"losses torque_bias --quick --set scene.gear_contact=ideal --set effects.tooth_friction=false "
+                      f"--set effects.thrust_friction=false --set effects.limited_slip={switch} --set limited_slip.preload=40N.m "
+                      f"--set limited_slip.torque_coefficient=0 --torque 200,800 --speed 40 --difference 1,9 --temperature 60degC "
+                      f"--unseen 2 --workers 0 --simulink {file}").out
     words = f"{file} has no tables of the coupling torque: effects.limited_slip is off"
-    assert (words in capsys.readouterr().out) is said
+    assert (words in printed) is said
     assert ("TTin" in file.read_text(encoding="utf-8")) is not said

@@ -1,14 +1,17 @@
 """Preferred units in tables, pictures, files, reports and plans, from the command line and from scene files."""
 
+import json
 import math
 import pickle
 import re
 
 import numpy as np
 import pytest
-from bevel_differential import Differential, DifferentialError, Fmu, Scene
+from command_line import command
+from bevel_differential import Differential, Fmu, Scene
 from bevel_differential.answers import about, ask
-from bevel_differential.command import main
+from bevel_differential.command import WRONG
+from refusals import refused
 from bevel_differential.plot import plot
 
 # rpm per rad/s: 60 s per minute, 2π rad per turn
@@ -18,7 +21,7 @@ COMMANDED = 954.0 / 6.0  # 954 deg/s in rpm: 360 deg per turn
 
 
 @pytest.fixture(autouse=True)
-def with_fmu(monkeypatch, tmp_path):
+def in_folder(monkeypatch, tmp_path):
     monkeypatch.chdir(tmp_path)
 
 
@@ -45,21 +48,17 @@ def columns(file):
     return names, dict(zip(names, np.array([line.split(",") for line in lines[1:]], float).T))
 
 
-@pytest.mark.parametrize("command", [["run", "{}"], ["run", "{}", "{other}"], ["sweep", "--workers", "0", "--plan", "grid", "--scene", "{}",
-                                     "--vary", "left.load_torque=800, 810", "--want", "left.speed:mean"]])
-def test_a_unit_that_no_shown_value_has_gives_a_warning(command, tmp_path, capsys):
+@pytest.mark.parametrize("line", ["run {}", "run {} {other}", "sweep --workers 0 --plan grid --scene {} --vary left.load_torque=800,810 --want left.speed:mean"])
+def test_a_unit_that_no_shown_value_has_gives_a_warning(line, tmp_path):
     other = a_file(tmp_path, "other.toml", more='geometry.backlash = "0.2 mm"')
-    words = [word.format(a_file(tmp_path), other=other) for word in command]
-    assert main([*words, "--unit", "rpm", "--unit", "mm"]) == 0
-    said = capsys.readouterr().err
+    said = command(f"{line.format(a_file(tmp_path), other=other)} --unit rpm --unit mm").err
     assert said.count("warning: --unit mm: no shown value has this unit") == 1 and "--unit rpm" not in said
 
 
-def test_a_run_prints_draws_and_writes_the_chosen_units(tmp_path, capsys):
+def test_a_run_prints_draws_and_writes_the_chosen_units(tmp_path):
     file = tmp_path / "run.csv"
     scene = a_file(tmp_path)
-    assert main(["run", scene, "--unit", "rpm", "--unit", "kN·m", "--csv", str(file), "--plot", "run.svg"]) == 0
-    printed = capsys.readouterr().out
+    printed = command(f"run {scene} --unit rpm --unit 'kN·m' --csv {file} --plot run.svg").out
     with Scene.load(scene) as plain:
         record = plain.run()
     speeds, torques = record["left.speed"], record["left.shaft_torque"]
@@ -81,25 +80,24 @@ def test_a_run_prints_draws_and_writes_the_chosen_units(tmp_path, capsys):
 def test_a_parquet_file_has_the_same_columns(tmp_path):
     import pyarrow.parquet as pq
 
-    assert main(["run", a_file(tmp_path), "--unit", "rpm", "--csv", "run.parquet"]) == 0
-    assert main(["run", a_file(tmp_path), "--unit", "rpm", "--csv", "run.csv"]) == 0
+    for kind in ("parquet", "csv"):
+        command(f"run {a_file(tmp_path)} --unit rpm --csv run.{kind}")
     table, (names, found) = pq.read_table("run.parquet"), columns(tmp_path / "run.csv")
     assert table.column_names == names == ["time [s]", "left.speed [rpm]", "left.shaft_torque [N.m]"]
     assert all(np.array_equal(table[name].to_numpy(), found[name]) for name in names)
     assert table.schema.field("left.speed [rpm]").metadata == {b"unit": b"rpm"}
 
 
-def test_a_scene_prefers_units_and_the_command_line_wins(tmp_path, capsys):
+def test_a_scene_prefers_units_and_the_command_line_wins(tmp_path):
     scene = a_file(tmp_path, display='["rpm", "kN.m"]')
-    for options, speed, torque in (([], "rpm", "kN.m"), (["--unit", "°/s"], "deg/s", "kN.m"), (["--unit", "N.m"], "rpm", "N.m")):
-        assert main(["run", scene, *options, "--csv", "run.csv"]) == 0
-        printed = capsys.readouterr().out
+    for options, speed, torque in (("", "rpm", "kN.m"), ("--unit °/s", "deg/s", "kN.m"), ("--unit N.m", "rpm", "N.m")):
+        printed = command(f"run {scene} {options} --csv run.csv").out
         assert (cells(printed, "left.speed")[0], cells(printed, "left.shaft_torque")[0]) == (speed, torque)
         assert columns(tmp_path / "run.csv")[0] == ["time [s]", f"left.speed [{speed}]", f"left.shaft_torque [{torque}]"]
 
 
 def test_without_a_preference_files_are_si_as_before(tmp_path):
-    assert main(["run", a_file(tmp_path), "--csv", "run.csv"]) == 0
+    command(f"run {a_file(tmp_path)} --csv run.csv")
     assert columns(tmp_path / "run.csv")[0] == ["time", "left.speed", "left.shaft_torque"]
 
 
@@ -107,7 +105,7 @@ def test_a_recorded_input_in_rpm_is_a_table_of_inputs(tmp_path):
     ramp = '[[table]]\ninput = "carrier.speed_command"\ntime = [0.0, 0.02]\nvalue = ["60 rpm", "120 rpm"]\n'
     plain = a_file(tmp_path).replace("turn.toml", "ramp.toml")
     (tmp_path / "ramp.toml").write_text((tmp_path / "turn.toml").read_text().replace('carrier.speed_command = "954 deg/s"\n', "") + ramp)
-    assert main(["run", plain, "--output", "carrier.speed_command", "--unit", "rpm", "--csv", "speeds.csv"]) == 0
+    command(f"run {plain} --output carrier.speed_command --unit rpm --csv speeds.csv")
     names, found = columns(tmp_path / "speeds.csv")
     assert names == ["time [s]", "carrier.speed_command [rpm]"]
     # inputs are recorded just after a point, by 1e-9 of a step
@@ -124,15 +122,14 @@ def test_the_library_itself_writes_the_same_file(tmp_path):
     scene = a_file(tmp_path, display='["rpm", "kN.m"]')
     said = ask({"ask": "run", "of": about(scene), "out": "own.csv"})["text"]
     assert cells(said, "left.speed")[0] == "rpm" and cells(said, "left.shaft_torque")[0] == "kN.m"
-    assert main(["run", scene, "--csv", "run.csv"]) == 0
+    command(f"run {scene} --csv run.csv")
     (own_names, own), (names, found) = columns(tmp_path / "own.csv"), columns(tmp_path / "run.csv")
     assert own_names == names and all(np.array_equal(own[name], found[name]) for name in names)
 
 
-def test_a_plan_shows_the_units_and_its_script_keeps_them(tmp_path, capsys):
+def test_a_plan_shows_the_units_and_its_script_keeps_them(tmp_path):
     scene = a_file(tmp_path, display='["rpm"]', more='[[at]]\ntime = 0.01\ncarrier.speed_command = "120 rpm"\n')
-    assert main(["plan", scene, "--python", "script.py"]) == 0
-    printed = capsys.readouterr().out
+    printed = command(f"plan {scene} --python script.py").out
     assert f"carrier.speed_command = {COMMANDED:g} rpm" in printed and "carrier.speed_command = 120 rpm" in printed
     assert "deg/s" not in printed and "rad/s" not in printed
     namespace = {"__name__": "script"}
@@ -141,54 +138,50 @@ def test_a_plan_shows_the_units_and_its_script_keeps_them(tmp_path, capsys):
         assert of_script.contents()["display_units"] == loaded.contents()["display_units"] == ["rpm"]
         assert cells(of_script.summary(of_script.run()), "left.speed")[0] == "rpm"
         assert np.array_equal(*(columns(each.to_csv(each.run(), tmp_path / "of.csv"))[1]["left.speed [rpm]"] for each in (of_script, loaded)))
-    assert main(["plan", scene, "--unit", "deg/s"]) == 0
-    assert "carrier.speed_command = 954 deg/s" in capsys.readouterr().out
+    assert "carrier.speed_command = 954 deg/s" in command(f"plan {scene} --unit deg/s").out
 
 
-def test_the_chosen_setting_of_accuracy_keeps_the_preference(tmp_path, capsys):
+def test_the_chosen_setting_of_accuracy_keeps_the_preference(tmp_path):
     scene = a_file(tmp_path, display='["rpm"]')
-    assert main(["accuracy", scene, "--want", "left.speed:mean", "--within", "20%", "--write", "chosen.toml", "--progress", "none"]) == 0
-    value = re.search(r"left\.speed:mean \(reference ([\d.]+) rpm\)", " ".join(capsys.readouterr().out.split()))
+    said = command(f"accuracy {scene} --want left.speed:mean --within 20% --write chosen.toml --progress none").out
+    value = re.search(r"left\.speed:mean \(reference ([\d.]+) rpm\)", " ".join(said.split()))
     assert value and float(value[1]) == pytest.approx(COMMANDED, rel=0.02)
     with Scene.load("chosen.toml") as chosen:
         assert list(chosen.fmu.display_units.values()) == ["rpm"]
 
 
-def test_a_sweep_prints_and_writes_figures_in_the_units(tmp_path, capsys):
-    command = ["sweep", "--scene", a_file(tmp_path), "--vary", "carrier.speed_command=60 rpm, 120 rpm", "--plan", "grid", "--want",
-               "left.speed:final", "--workers", "0", "--csv", "sweep.csv"]
-    assert main([*command, "--unit", "rpm"]) == 0
-    unit, (low, _, high) = cells(capsys.readouterr().out, "left.speed:final")
+def test_a_sweep_prints_and_writes_figures_in_the_units(tmp_path):
+    swept = (f"sweep --scene {a_file(tmp_path)} --vary carrier.speed_command=60rpm,120rpm --plan grid --want left.speed:final --workers 0 "
+             "--csv")
+    unit, (low, _, high) = cells(command(f"{swept} sweep.csv --unit rpm").out, "left.speed:final")
     assert unit == "rpm" and [low, high] == pytest.approx([60.0, 120.0], rel=0.05)
     head, *rows = (tmp_path / "sweep.csv").read_text(encoding="utf-8").splitlines()
     assert head.split(",")[:3] == ["run", "carrier.speed_command [rpm]", "left.speed:final [rpm]"]
     assert [float(row.split(",")[1]) for row in rows] == pytest.approx([60.0, 120.0], rel=1e-14)
-    assert main([*command[:-1], "si.csv"]) == 0
+    command(f"{swept} si.csv")
     plain = (tmp_path / "si.csv").read_text(encoding="utf-8").splitlines()
     assert plain[0].split(",")[:3] == ["run", "carrier.speed_command", "left.speed:final"]
     assert [RPM * float(row.split(",")[2]) for row in plain[1:]] == pytest.approx([float(row.split(",")[2]) for row in rows], rel=1e-15)
 
 
-def test_tolerances_print_and_write_figures_in_the_units(tmp_path, capsys):
+def test_tolerances_print_and_write_figures_in_the_units(tmp_path):
     (tmp_path / "tolerances.toml").write_text(
         'description = "speeds"\nscene = "turn.toml"\nwants = ["left.speed:final"]\nlimits = ["left.speed:final <= 200 rpm"]\nruns = 8\n'
         '[factors]\ncarrier.speed_command = "159 rpm +- 6 rpm"\n', encoding="utf-8")
     a_file(tmp_path, display='["deg/s"]')
-    command = ["tolerance", "tolerances.toml", "--no-indices", "--workers", "0", "--csv", "runs.csv"]
-    assert main([*command, "--unit", "rpm"]) == 0
-    printed = capsys.readouterr().out
+    printed = command("tolerance tolerances.toml --no-indices --workers 0 --csv runs.csv --unit rpm").out
     assert "left.speed:final <= 200 rpm" in printed
     unit, mean, *_ = next(line for line in printed.splitlines() if re.match(r"left\.speed:final +rpm ", line)).split()[1:]
     assert unit == "rpm" and float(mean) == pytest.approx(159.0, abs=6.0)
     head, *rows = (tmp_path / "runs.csv").read_text(encoding="utf-8").splitlines()
     assert head.split(",") == ["run", "carrier.speed_command [rpm]", "left.speed:final [rpm]", "message"]
     # the left speed equals that of the carrier except for backlash
-    assert all(abs(float(speed) / float(command) - 1.0) < 0.02 for _, command, speed, _ in (row.split(",") for row in rows))
+    assert all(abs(float(speed) / float(driven) - 1.0) < 0.02 for _, driven, speed, _ in (row.split(",") for row in rows))
 
 
 def test_a_report_is_in_the_units(tmp_path):
     scene = a_file(tmp_path, display='["rpm"]')
-    assert main(["report", scene, "--quick", "--unit", "kN.m", "--out", "page.html", "--progress", "none"]) == 0
+    command(f"report {scene} --quick --unit kN.m --out page.html --progress none")
     page = (tmp_path / "page.html").read_text(encoding="utf-8")
     row = re.search(r"<tr>\s*<td[^>]*>left\.speed</td>\s*<td[^>]*>([^<]*)</td>\s*<td[^>]*>([^<]*)</td>", page)
     assert row[1] == "rpm" and float(row[2]) == pytest.approx(COMMANDED, rel=0.02)
@@ -230,20 +223,16 @@ def test_python_takes_units_for_one_call_or_for_all(fmu_file, tmp_path):
         assert straight.plot(straight.run(outputs=["left.speed"], stop=0.002)).axes[0].get_ylabel() == "speed, rpm"
 
 
-@pytest.mark.parametrize(("units", "message"), [
-    (["rmp"], "did you mean rpm"), (["rpm", "deg/s"], "rpm and deg/s are units of the same quantity"), (["furlong"], "known: m, mm, um, in, km, rad"),
-    (["1"], "there is no unit")])
-def test_unknown_units_are_errors_everywhere(units, message, tmp_path, capsys):
-    options = [part for unit in units for part in ("--unit", unit)]
-    for command in (["run", a_file(tmp_path), *options], ["plan", a_file(tmp_path), *options], ["report", a_file(tmp_path), *options],
-                    ["run", a_file(tmp_path, "own.toml", str(units).replace("'", '"'))]):
-        assert main(command) != 0, command
-        assert message in capsys.readouterr().err, command
-    with pytest.raises(DifferentialError, match=re.escape(message)):
-        Scene("turn", display_units=units)
-
-
 def test_units_of_the_same_kind_are_shared(fmu_file):
     fmu = Fmu.of(fmu_file)
     assert fmu.displaying([]) is fmu and fmu.displaying(["rpm"]) is fmu.displaying(["1/min"])
     assert fmu.variable("left.speed").shown(1.0)[0] == "deg/s"
+
+
+@pytest.mark.parametrize(("units", "message"), [
+    ('["rmp"]', "did you mean rpm"), ('["rpm", "deg/s"]', "rpm and deg/s are units of the same quantity"), ('["furlong"]', "known: m, mm, um, in, km, rad"),
+    ('["1"]', "there is no unit")])
+def test_unknown_units_are_errors(units, message, tmp_path):
+    assert message in command(f"run {a_file(tmp_path, 'own.toml', units)}", WRONG).err
+    with refused(message):
+        Scene("turn", display_units=json.loads(units))

@@ -1,10 +1,7 @@
 """Loss maps: points against closed forms, lines where a map has curvature, measured errors, and runs that are never lost."""
 
-import os
 import re
 import signal
-import subprocess
-import time
 from math import exp, tanh
 from types import SimpleNamespace
 
@@ -12,9 +9,9 @@ import numpy as np
 import psutil
 import pyarrow.parquet as pq
 import pytest
+from command_line import command
 import theory
 from bevel_differential import Scene, losses as package
-from bevel_differential.command import main
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
 from bevel_differential.losses import VARIABLES, command, inputs, losses
@@ -23,8 +20,6 @@ from bevel_differential.losses.grid import (Bound, estimates, figures_of, grid_p
 from bevel_differential.losses.point import FIGURES, PointTask, benched
 from bevel_differential.losses.tables import HEAD, bias
 from bevel_differential.values import Quantity
-from interrupts import changed_command, with_interrupts
-from command_line import without_warnings
 from refusals import refused
 
 PRELOAD, RADIUS, RATIO, STRIBECK = 60.0, 0.055, 1.25, 0.3
@@ -253,20 +248,12 @@ def test_axes_end_at_the_torque_and_the_speed_that_the_scene_reaches(set, table,
     assert of_torque[0] == pytest.approx(0.1 * of_torque[-1]) and of_speed[0] == pytest.approx(0.1 * of_speed[-1])
 
 
-def test_a_map_without_drag_says_why_its_efficiencies_are_1(capsys, tmp_path):
+def test_a_map_without_drag_says_why_its_efficiencies_are_1(tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text('description = "no drag"\nstop_time = 0.01\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\n'
                      'scene.gear_contact = "ideal"\ncarrier.speed_command = 30.0\n', encoding="utf-8")
-    assert main(["losses", str(scene), "--quick", "--unseen", "0", "--difference", "5", "--simulink", str(tmp_path / "map.m"), "--workers", "0"]) == 0
-    assert "map.m: eta_tbl is 1 everywhere, because the scene has no drag" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize("option, value, words", [("--difference", "-1 rad/s..1 rad/s", "above 0"), ("--bound", "2", "2,0.1"),
-                                                  ("--temperature", "-200 degC", "oil.temperature"), ("--torque", "3 rad", "N.m")])
-def test_wrong_axes_are_one_line(option, value, words, capsys):
-    assert main(["losses", "torque_bias", f"{option}={value}", "--workers", "0"]) != 0
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1 and words in said, said
+    said = command(f"losses {scene} --quick --unseen 0 --difference 5 --simulink {tmp_path / 'map.m'} --workers 0").out
+    assert "map.m: eta_tbl is 1 everywhere, because the scene has no drag" in said
 
 
 # nothing is lost
@@ -302,27 +289,6 @@ def test_a_killed_worker_and_an_interrupt_lose_nothing(tmp_path, monkeypatch):
     assert len(out) > 1 and resumed.new == whole.new - 100 > 0 and again.new == 0
     for one in (killed, resumed, again):
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
-
-
-def test_ctrl_c_on_the_command_keeps_the_finished_rows(tmp_path, capsys):
-    out, parts = tmp_path / "runs.parquet", tmp_path / "runs.parquet.parts"
-    given = ["losses", "torque_bias", "--torque", "800 N.m, 1600 N.m", "--speed", "20, 40", "--difference", "1, 5",
-             "--temperature", "350", "--unseen", "5", "--most", "130", "--bound", "0.01,0.001", "--out", str(out)]
-    running = subprocess.Popen(changed_command(0.1, [*given, "--workers", "2"]), stdout=subprocess.PIPE,
-                               stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
-    while running.poll() is None and not list(parts.glob("part-*")):
-        time.sleep(0.02)
-    os.killpg(running.pid, signal.SIGINT)
-    said = running.communicate(timeout=120)
-    lines = without_warnings(said[1]).splitlines()
-    assert running.returncode == 130 and len(lines) == 1 and "--resume" in lines[0], said
-    kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
-    # so few points do not meet the bound, which is a finding
-    assert main([*given, "--workers", "0", "--resume"]) == 3
-    told = capsys.readouterr()
-    assert not without_warnings(told.err), told.err
-    new = int(re.search(r"^(\d+) runs in", told.out, re.MULTILINE)[1])
-    assert kept > 0 and new + kept == len(pq.read_table(out)) and not parts.exists()
 
 
 def test_accuracy_chooses_the_model(scene, monkeypatch):

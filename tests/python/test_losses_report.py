@@ -3,11 +3,11 @@
 import re
 from html.parser import HTMLParser
 from math import pi
-from types import SimpleNamespace
 
 import pytest
-from bevel_differential import Scene, extras
-from bevel_differential.command import main
+from command_line import command
+from command_list import CLUTCH
+from bevel_differential import Scene
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.losses import VARIABLES, MeasuredMap, losses
 from bevel_differential.losses.grid import Bound
@@ -17,7 +17,6 @@ from bevel_differential.losses.tables import HEAD, save
 from bevel_differential.values import Quantity
 from matplotlib.figure import Figure
 from report_page import ReportPage
-from refusals import refused
 
 RICH = {"scene.gear_contact": "ideal", "effects.limited_slip": True, "limited_slip.preload": 60.0, "limited_slip.torque_coefficient": 0.0,
         "limited_slip.static_ratio": 1.25, "limited_slip.stribeck_speed": 0.3, "limited_slip.cold_factor": 1.3,
@@ -184,46 +183,18 @@ def test_warnings_of_runs_and_of_the_map_are_on_the_page(tmp_path):
     assert ("Allow more by --most" in head) == (made.estimate > 1.0)
 
 
-def test_the_command_writes_the_page_in_addition_to_the_table(tmp_path, capsys):
+def test_the_command_writes_the_page_in_addition_to_the_table(tmp_path):
+    (tmp_path / "clutch.toml").write_text(CLUTCH, encoding="utf-8")
     file = tmp_path / "map.html"
-    given = [f"--set={name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in PLAIN.items()]
-    assert main(["losses", "torque_bias", *given, "--set", "effects.tooth_friction=false", "--set", "effects.thrust_friction=false",
-                 "--torque", "300 N.m", "--speed", "20", "--difference", "1, 5", "--temperature", "350", "--unseen", "3", "--workers", "0", "--report", str(file)]) == 0
-    assert f"written: {file}" in capsys.readouterr().out
+    printed = command(f"losses {tmp_path / 'clutch.toml'} --torque 300 --speed 20 --difference 1,5 --temperature 350 --unseen 3 --workers 0 "
+                      f"--report {file}").out
+    assert f"written: {file}" in printed
     assert "3 unseen points" in ReportPage(file.read_text(encoding="utf-8")).sections["head"]
 
 
 def test_the_page_names_the_model_that_accuracy_chose(single, tmp_path):
     made = type(single)(**{**single.__dict__, "model": "lumped, 1e-3"})
     assert "lumped, 1e-3: chosen by accuracy" in ReportPage(write(made, tmp_path / "map.html").read_text(encoding="utf-8")).sections["head"]
-
-
-@pytest.mark.parametrize("file, words", [("nowhere/map.html", "there is no folder"), (".", "it is a folder")])
-def test_a_file_that_cannot_be_written_is_reported_before_the_work(file, words, capsys):
-    assert main(["losses", "torque_bias", "--report", file]) == 2
-    said = capsys.readouterr()
-    assert said.err.count("\n") == 1 and words in said.err and not said.out
-
-
-def test_a_missing_package_is_reported_before_the_work(monkeypatch, capsys, tmp_path):
-    def missing(name):
-        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
-
-    monkeypatch.setattr(extras, "importlib", SimpleNamespace(import_module=missing))
-    assert main(["losses", "torque_bias", "--report", str(tmp_path / "map.html")]) == 1
-    said = capsys.readouterr()
-    assert "extra report" in said.err and not said.out
-
-
-def test_a_full_disk_leaves_no_half_report(single, tmp_path, monkeypatch):
-    def full(self, *_, **__):
-        self.touch()
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(type(tmp_path), "write_text", full)
-    with refused("map.html: No space left on device; nothing is written"):
-        write(single, tmp_path / "map.html")
-    assert not list(tmp_path.iterdir())
 
 
 def test_a_report_and_a_picture_are_in_the_units_that_are_preferred(mapped, tmp_path):

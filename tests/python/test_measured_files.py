@@ -5,8 +5,8 @@ import sys
 import numpy as np
 import openpyxl
 import pytest
+from command_line import command
 from bevel_differential import Scene, spreadsheet
-from bevel_differential.command import main
 from bevel_differential.csv_table import lines_of
 from bevel_differential.spectrum import spectrum
 from refusals import refused
@@ -57,7 +57,7 @@ def test_commands_of_the_library_read_spreadsheets(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     write_xlsx(tmp_path / "bench.xlsx")
     (tmp_path / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
-    assert main(["plan", "scene.toml", "--python", "script.py"]) == 0
+    command("plan scene.toml --python script.py")
     assert "810.25" in (tmp_path / "script.py").read_text(encoding="utf-8")
 
 
@@ -83,9 +83,9 @@ def test_a_spreadsheet_has_the_cells_of_a_csv_file(tmp_path):
     assert lines_of(tmp_path / "bench.xlsx", texts=texts) == lines_of(tmp_path / "bench.csv", texts=texts)
 
 
-def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(tmp_path, monkeypatch, capsys):
+def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    assert main(["examples"]) == 0
+    command("examples")
     template = tmp_path / "examples/design/duty_cycle_template.csv"
     head = next(line for line in template.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     assert all(word in head for word in ("torque [N.m]", "speed [km/h]", "duration [h]", "turn_radius [m]"))

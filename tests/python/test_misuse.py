@@ -110,7 +110,7 @@ def test_wrong_kinds_in_a_scene_file_are_reported(tmp_path, fmu, old, new, said)
 
 def test_a_draw_outside_the_range_is_an_error_of_the_tolerances(tmp_path):
     (tmp_path / "wide.toml").write_text(WIDE)
-    with refused("geometry.backlash: . of … draws are outside 0 mm to"):
+    with refused("geometry.backlash: … of … draws are outside 0 mm to"):
         Tolerances.load(tmp_path / "wide.toml")
 
 

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from command_line import command
 from bevel_differential import Differential, Scene
-from bevel_differential.command import main
 from bevel_differential.designs.sweep import sweep
 from bevel_differential.vehicle import Car
 from fmi3 import Unit3
@@ -122,20 +122,8 @@ def test_a_car_has_the_speed_with_which_it_starts():
     assert record["carrier.speed"][0] == pytest.approx(10.0 / car.tyres[0].radius, rel=1e-12)
 
 
-@pytest.mark.parametrize("arguments", [["run", "{0.1}", "--stop", "0"], ["run", "{0}"], ["plan", "{0}"], ["loads", "{0}", "--out", "{out}"]])
-def test_commands_take_a_scene_without_length(fmu_file, scene_file, tmp_path, capsys, arguments):
-    words = [str(scene_file(word[1:-1])) if word in ("{0}", "{0.1}") else word.format(out=tmp_path / "loads.csv") for word in arguments]
-    assert main([*words, *(["--fmu", fmu_file] if words[0] == "run" else [])]) == 0
-    printed = capsys.readouterr().out
-    if words[0] == "run":
-        assert "left.shaft_torque  N.m" in printed and printed.count(" 500") == 4
-    assert "nan" not in printed.lower()
-
-
-def test_commands_that_need_time_say_so(scene_file, capsys):
-    file = str(scene_file(0))
-    for words, message in ((["report", file], "has no duration"),
-                           (["accuracy", file, "--want", "carrier.speed", "--within", "1%"], "too short to judge"),
-                           (["run", file, "--stop", "-1 ms"], 'stop_time = "-1 ms": it must be 0 s or more')):
-        assert main(words) != 0
-        assert message in capsys.readouterr().err
+@pytest.mark.parametrize("line, rows", [("run {long} --stop 0", 4), ("run {still}", 4), ("plan {still}", 0), ("loads {still} --out {out}", 0)])
+def test_commands_take_a_scene_without_length(scene_file, tmp_path, line, rows):
+    file = scene_file(0.1 if "long" in line else 0)
+    printed = command(line.format(long=file, still=file, out=tmp_path / "loads.csv")).out
+    assert "nan" not in printed.lower() and (not rows or "left.shaft_torque  N.m" in printed and printed.count(" 500") == rows)

@@ -5,9 +5,9 @@ import warnings
 from math import inf
 
 import pytest
+from command_line import command
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask
-from bevel_differential.command import main
 from bevel_differential.values import NOBODY_SET
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from fmi3 import Unit3
@@ -206,7 +206,7 @@ def test_the_plan_and_the_report_list_unset_values_by_effect(tmp_path):
     # the loads are set, and change later
     assert "drives and loads" not in groups and "lock" not in groups
     page = tmp_path / "page.html"
-    assert main(["report", "limited_slip", "--quick", "--out", str(page)]) == 0
+    command(f"report limited_slip --quick --out {page}")
     text = page.read_text(encoding="utf-8")
     assert "Values that act and that nobody set" in text and groups["half_shaft"] in text
 
@@ -235,7 +235,7 @@ def test_python_warns_of_their_number_in_one_line_and_lists_them():
     assert line.startswith(f"{len(found)} start values") and "nobody_set()" in line and "accept_start_values" in line and "\n" not in line
 
 
-def test_accepted_start_values_are_not_mentioned(fmu_file):
+def test_accepted_start_values_are_not_mentioned():
     own = {"geometry.module": "5 mm", "scene.gear_contact": "ideal"}
     accepted = ["right.load_torque", "inertia.carrier"]
     whole = listed(Differential(own).nobody_set())
@@ -245,7 +245,7 @@ def test_accepted_start_values_are_not_mentioned(fmu_file):
             assert short(lambda: some.run(stop=0.002))[0].startswith(f"{len(whole) - 2} start values")
             assert set(listed(some.nobody_set())) == set(whole) - set(accepted)
             assert not short(lambda: every.run(stop=0.002)) and every.nobody_set() == ""
-    car = {"motor": Motor(9.5, peak=300.0), "fmu": fmu_file}
+    car = {"motor": Motor(9.5, peak=300.0)}
     assert len(short(lambda: Car(own, **car).run(stop=0.01))) == 1
     with warnings.catch_warnings():
         warnings.filterwarnings("error", ".*nobody set")
@@ -253,7 +253,7 @@ def test_accepted_start_values_are_not_mentioned(fmu_file):
 
 
 @pytest.mark.parametrize("accepted, left", [("true", ""), ('["geometry.side_teeth", "inertia.carrier"]', "2 fewer"), ("false", "all"), (None, "all")])
-def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_path, capsys):
+def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_path):
     file = tmp_path / "own.toml"
     key = "" if accepted is None else f"accept_start_values = {accepted}\n"
     file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\n{key}[set]\ngeometry.module = "5 mm"\n'
@@ -265,13 +265,10 @@ def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_p
         for kept in (scene, Scene(**scene.__getstate__())):
             assert kept.nobody_set().count(" = ") == count
             assert len(short(lambda: ask({"ask": "plan", "of": about(kept)}))) == bool(count)
-    for command in (["run", str(file)], ["sweep", "--scene", str(file), "--vary", "left.load_torque=1, 2", "--plan", "grid", "--want",
-                                         "left.speed", "--workers", "0"]):
-        assert main([*command]) == 0
-        lines = [line for line in capsys.readouterr().err.splitlines() if "nobody set" in line]
-        # the sweep varies one of the values
-        less = command[0] == "sweep"
-        assert [line.split()[1] for line in lines] == ([str(count - less)] if count else [])
+    # the sweep varies one of the values
+    for line, less in ((f"run {file}", 0), (f"sweep --scene {file} --vary left.load_torque=1,2 --plan grid --want left.speed --workers 0", 1)):
+        warned = [text for text in command(line).warnings if "nobody set" in text]
+        assert [text.split()[1] for text in warned] == ([str(count - less)] if count else [])
 
 
 @pytest.mark.parametrize("accepted, part", [('["geometry.modul"]', "did you mean geometry.module"), ('["left.speed"]', "left.speed is an output"),

@@ -1,6 +1,7 @@
 """Pictures of the command `pattern`: a flank and its line load have the same axis along the face; captions follow the scenes."""
 
 import pytest
+from command_line import command
 from bevel_differential import style
 from bevel_differential.command import main
 from bevel_differential.pattern.picture import REMARKS
@@ -14,8 +15,7 @@ GEARS = [("4.5 mm", "20 mm"), ("6 mm", "6 mm"), ("3 mm", "12 mm")]
 def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_path, monkeypatch):
     figures = []
     monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
-    assert main(["pattern", "study_turning", "--quick", "--set", f"geometry.module={module}", "--set", f"geometry.face_width={width}",
-                 "--out", str(tmp_path / "out")]) == 0
+    command(f"pattern study_turning --quick --set geometry.module={module} --set geometry.face_width={width} --out {tmp_path / 'out'}")
     figures[0].draw_without_rendering()
     flank = figures[0].axes[0]
     load = flank.child_axes[0]

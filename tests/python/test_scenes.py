@@ -1,17 +1,17 @@
 """Parameter sets and scripts that the command `plan` writes, against a record by the library itself."""
 
 import csv
-import os
 import runpy
+import shlex
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from command_line import command
 from fmpy.ssp.ssd import read_ssv
 
 from bevel_differential.answers import about, ask
-from bevel_differential.command import main
 
 ROOT = Path(__file__).parents[2]
 SCENES = sorted(path.stem for path in (ROOT / "scenes").glob("*.toml"))
@@ -66,7 +66,7 @@ CYCLE = "time [ms],carrier.speed_command [rpm]\n0,100.1\n2.5,103.3\n4.25,97\n4.2
 def scene_command():
     """scene_command(NAME, options of `plan`, csv=FILE): writes the files of the command, and a record by the library itself."""
     def run(name, *arguments, csv=None):
-        assert main(["plan", *map(str, (name, *arguments))]) == 0
+        command(shlex.join(map(str, ("plan", name, *arguments))))
         if csv is None:
             return None
         changes = dict(arguments[i + 1].split("=") for i, word in enumerate(arguments) if word == "--set")
@@ -94,18 +94,16 @@ def recorded(file):
     return head, [[float(cell).hex() for cell in row] for row in rows]
 
 
-def run_script(script, fmu_file):
+def run_script(script):
     """Output of a script in a separate process, and the record that it says it wrote."""
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "python" / "src"), "BEVEL_DIFFERENTIAL_FMU": os.path.abspath(fmu_file)}
-    done = subprocess.run([sys.executable, script], cwd=script.parent, env=environment, capture_output=True, text=True,
+    done = subprocess.run([sys.executable, script], cwd=script.parent, capture_output=True, text=True,
                           encoding="utf-8")
     assert done.returncode == 0, done.stdout + done.stderr
     return told_by(script, done.stdout)
 
 
-def run_script_here(script, fmu_file, monkeypatch, capsys):
+def run_script_here(script, monkeypatch, capsys):
     """Output and record of a script that runs in this process, which has loaded the package."""
-    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", os.path.abspath(fmu_file))
     monkeypatch.chdir(script.parent)
     capsys.readouterr()
     runpy.run_path(str(script), run_name="__main__")
@@ -117,11 +115,11 @@ def told_by(script, printed):
     return "\n".join(shown), script.parent / record.removeprefix("record: ")
 
 
-def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, fmu_file, tmp_path, monkeypatch, capsys):
+def test_a_script_gives_the_bits_of_the_scene(scene_command, scene, tmp_path, monkeypatch, capsys):
     own = tmp_path / "own.csv"
     changes = [part for name, value in SHORTER.get(scene, {}).items() for part in ("--set", f"{name}={value}")]
     printed = scene_command(scene, *changes, "--python", tmp_path / "script.py", csv=own)
-    shown, theirs = run_script_here(tmp_path / "script.py", fmu_file, monkeypatch, capsys)
+    shown, theirs = run_script_here(tmp_path / "script.py", monkeypatch, capsys)
     (own_head, own_rows), (head, rows) = recorded(own), recorded(theirs)
     assert (head, len(rows)) == (own_head, len(own_rows))
     assert len(rows) > 10
@@ -139,12 +137,12 @@ def numbers(line):
     return [float(word) for word in line.replace("|", " ").split()[-4:]]
 
 
-def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, fmu_file, tmp_path):
+def test_a_script_and_a_record_follow_changes_of_the_scene(scene_command, tmp_path):
     changes = ["--set", "stop_time=20.5 ms", "--set", "step=0.3ms", "--set", "left.load_torque=600 N.m",
                "--set", "scene.start=equilibrium"]
     own = tmp_path / "own.csv"
     scene_command("one_wheel_on_ice", *changes, "--python", tmp_path / "script.py", csv=own)
-    _, theirs = run_script(tmp_path / "script.py", fmu_file)
+    _, theirs = run_script(tmp_path / "script.py")
     assert recorded(theirs) == recorded(own)
     assert len(recorded(own)[1]) == 70 and float.fromhex(recorded(own)[1][-1][0]) == 0.0205
 

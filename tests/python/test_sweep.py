@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import shlex
 import signal
 import subprocess
 import sys
@@ -13,11 +14,11 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 from interrupts import changed_command, with_interrupts
-from command_line import without_warnings
+from command_line import command, without_warnings
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Farm, Row, Space, Task, cluster, store
-from bevel_differential.command import main
+from bevel_differential.command import FINDING
 from bevel_differential.designs.plan import Plan
 from bevel_differential.designs.sweep import Stopped, SweepResult, sweep
 from bevel_differential.designs.store import Columns, digest
@@ -233,11 +234,11 @@ def test_an_interrupt_while_dask_frees_something_is_not_lost(scene, tmp_path, mo
     assert not lost and len(calls) == 3
 
 
-def arguments(scene, out, wants, *more):
-    vary = [part for name, values in VARY.items() for part in ("--vary", f"{name}={values}")]
-    wants = [part for want in wants for part in ("--want", want)]
-    return ["sweep", "--scene", str(scene), *vary, *wants, "--plan", "lhs", "--runs", str(RUNS), "--seed", "1", "--out", str(out),
-            "--workers", "2", *more]
+def arguments(scene, out, wants, more):
+    """Line of a sweep."""
+    vary = " ".join(f"--vary '{name}={values}'" for name, values in VARY.items())
+    wanted = " ".join(f"--want {want}" for want in wants)
+    return f"sweep --scene {scene} {vary} {wanted} --plan lhs --seed 1 --out {out} {more}"
 
 
 def errors(text):
@@ -245,13 +246,13 @@ def errors(text):
     return without_warnings(text).splitlines()
 
 
-def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path, capsys):
+def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path):
     # a mean over two thousand steps, so that the interrupt comes before the end
     scene = tmp_path / "turn.toml"
     scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
-    running = subprocess.Popen(changed_command(0.1, [*arguments(scene, out, wants)]), stdout=subprocess.PIPE,
+    running = subprocess.Popen(changed_command(0.1, shlex.split(arguments(scene, out, wants, f"--runs {RUNS} --workers 2"))), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
@@ -263,9 +264,8 @@ def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path,
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
     # a resumed sweep may have other workers; gears that cannot be assembled give the status 3
-    assert main([*arguments(scene, out, wants, "--resume", "--workers", "0")]) == 3
-    told = capsys.readouterr()
-    assert not errors(told.err) and f"{kept} runs were kept from before" in told.out
+    told = command(arguments(scene, out, wants, f"--runs {RUNS} --workers 0 --resume"), FINDING)
+    assert not told.errors and f"{kept} runs were kept from before" in told.out
     with Scene.load(scene) as loaded:
         whole = sweep(loaded, VARY, "lhs", RUNS, 1, wants, workers=0)
     assert SweepResult.load(out).digest() == whole.digest()
@@ -273,12 +273,11 @@ def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path,
 
 def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(scene, tmp_path):
     out = tmp_path / "found.parquet"
-    given = arguments("study_turning", out, WANTS)
-    given[given.index("--runs") + 1], given[given.index("--workers") + 1] = "50", "0"
-    full = subprocess.run(changed_command(0.0, [*given], most=7000), capture_output=True, text=True, timeout=120)
+    given = arguments("study_turning", out, WANTS, "--runs 50 --workers 0")
+    full = subprocess.run(changed_command(0.0, shlex.split(given), most=7000), capture_output=True, text=True, timeout=120)
     assert full.returncode == 1 and len(errors(full.stderr)) == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
-    assert main([*given, "--resume"]) == 3
+    command(f"{given} --resume", FINDING)
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()
 
 
@@ -339,7 +338,6 @@ def test_plan_json_of_the_parts_is_the_metadata(scene, tmp_path, monkeypatch):
 
 def test_a_script_without_a_guard_is_told_so_and_does_not_wait_for_itself(tmp_path):
     (tmp_path / "all.py").write_text("import sys\nfrom bevel_differential.command import main\nsys.exit(main())\n", encoding="utf-8")
-    command = [sys.executable, "all.py", "sweep", "--scene", "clunk", "--vary", "left.load_torque=1 N.m,2 N.m", "--plan", "grid",
-               "--want", "left.speed", "--workers", "2", "--out", "all.parquet"]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    words = "sweep --scene clunk --vary left.load_torque=1,2 --plan grid --want left.speed --workers 2 --out all.parquet"
+    done = subprocess.run([sys.executable, "all.py", *words.split()], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
     assert done.returncode == 1 and "if __name__" in done.stderr and "another command writes there" not in done.stderr

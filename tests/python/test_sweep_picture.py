@@ -1,7 +1,7 @@
 """The picture of a sweep: all designs in every panel, and the Pareto front."""
 
 import numpy as np
-from bevel_differential.command import main
+from command_line import command
 from bevel_differential.designs.picture import front
 
 
@@ -17,12 +17,11 @@ def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectiv
     from bevel_differential import style
     figures = []
     monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
-    words = ["sweep", "--scene", "torque_bias", "--set", "scene.gear_contact=ideal", "--set", "effects.tooth_friction=false", "--set",
-             "effects.thrust_friction=false", "--stop", "2 ms", "--vary", "carrier.torque_command=100, 200, 300, 400", "--vary",
-             "solver.method=adaptive, fixed_step", "--plan", "grid", "--want", "carrier.speed", "--condition", "left.shaft_torque <= 180",
-             "--workers", "0", "--plot", str(tmp_path / "a.png")]
-    assert main([*words, "--objective", "maximise left.shaft_torque", "--objective", "minimise carrier.torque"]) == 0
-    assert main(words) == 0
+    line = ("sweep --scene torque_bias --set scene.gear_contact=ideal --set effects.tooth_friction=false --set effects.thrust_friction=false "
+            "--stop 2ms --vary carrier.torque_command=100,200,300,400 --vary solver.method=adaptive,fixed_step --plan grid --want carrier.speed "
+            f"--condition 'left.shaft_torque <= 180' --workers 0 --plot {tmp_path / 'a.png'}")
+    command(f"{line} --objective 'maximise left.shaft_torque' --objective 'minimise carrier.torque'")
+    command(line)
     both, matrix = figures
     # two varied values, three quantities, and a panel of the front
     assert len(both.axes) == 2 * 3 + 1 and len(matrix.axes) == 2 * 2

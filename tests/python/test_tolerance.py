@@ -1,16 +1,15 @@
 """Manufacturing tolerances: grades of ISO 17485, closed forms of yield and Sobol indices, the FMU's gears, clear errors."""
 
-import argparse
 import math
 
 import numpy as np
 import pytest
+from command_line import command
 from scipy import stats
 
 from bevel_differential import DifferentialError, Scene
 from bevel_differential.designs import Dimension, Farm, Row, Task
 from bevel_differential.want import Statistic
-from bevel_differential.tolerance import command
 from bevel_differential.tolerance.factor import Factor, Reader
 from bevel_differential.tolerance.figures import Spread, gain, proportion, verdicts
 from bevel_differential.tolerance.laws import Gear, Given, RunoutGrade, band, gears
@@ -298,13 +297,9 @@ def test_a_file_gives_the_same_results_with_any_workers_and_plausible_ones(files
     assert np.argmax(indices.total) == results[0].names.index("tooth_friction.coefficient")
 
 
-def test_the_command_prints_and_writes_all(files, tmp_path, capsys):
-    parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
+def test_the_command_prints_and_writes_all(files, tmp_path):
     picture, runs = tmp_path / "a.png", tmp_path / "a.csv"
-    given = [str(files), "--workers", "0", "--plot", str(picture), "--csv", str(runs)]
-    assert command.run(parser.parse_args(given)) == 0
-    printed = capsys.readouterr().out
+    printed = command(f"tolerance {files} --workers 0 --plot {picture} --csv {runs}").out
     for part in ("8 differentials drawn, 0 of them failed", "tooth_errors.seed", "all: yield", "smoother flanks", "as it is"):
         assert part in printed
     assert picture.read_bytes().startswith(b"\x89PNG")
