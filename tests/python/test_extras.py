@@ -11,15 +11,18 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from command_line import without_warnings
+from refusals import refused
 
-from bevel_differential import extras
-from bevel_differential.command import COMMANDS
+from bevel_differential import Differential, extras
+from bevel_differential.command import COMMANDS, FAILED
 
 PYTHON = Path(__file__).resolve().parents[2] / "python"
 # modules of the packages in the extras; Jinja2 and lxml come with fmpy, numpy and tqdm are always installed
 MODULES = {"matplotlib": "matplotlib", "dask": "dask", "distributed": "distributed", "pandas": "pandas", "pyarrow": "pyarrow", "scipy": "scipy",
            "cadquery-ocp-novtk": "OCP", "ezdxf": "ezdxf", "networkx": "networkx", "trimesh": "trimesh", "pymoo": "pymoo", "rainflow": "rainflow",
            "SALib": "SALib"}
+SWEEP = "--scene study_turning --vary left.load_torque=1,2 --plan grid --want left.speed --workers 0"
 WITHOUT = """
 import sys
 missing = set(sys.argv[1].split(","))
@@ -33,11 +36,15 @@ sys.exit(main(sys.argv[2:]))
 """
 
 
-def without(*words, folder=None):
-    """Runs the command in a Python without optional packages."""
-    environment = {**os.environ, "PYTHONPATH": str(PYTHON / "src")}
-    return subprocess.run([sys.executable, "-c", WITHOUT, ",".join([*MODULES.values(), "PIL"]), *words], env=environment, cwd=folder,
-                          capture_output=True, text=True, timeout=120)
+@pytest.fixture
+def without(tmp_path):
+    """without(line): a command in a Python without optional packages, whose output has only letters of ASCII."""
+    def run(line):
+        environment = {**os.environ, "PYTHONPATH": str(PYTHON / "src"), "PYTHONIOENCODING": "ascii"}
+        return subprocess.run([sys.executable, "-c", WITHOUT, ",".join([*MODULES.values(), "PIL"]), *line.split()], env=environment, cwd=tmp_path,
+                              capture_output=True, text=True, timeout=120)
+
+    return run
 
 
 def test_the_modules_are_those_of_all_extras():
@@ -46,32 +53,31 @@ def test_the_modules_are_those_of_all_extras():
     assert named == {*MODULES, "bevel-differential", "Jinja2", "lxml", "tqdm"}
 
 
-@pytest.mark.parametrize("name", [*COMMANDS, "--help"])
-def test_help_of_every_command_works_in_the_smallest_installation(name):
-    done = without(*dict.fromkeys([name, "--help"]))
-    assert done.returncode == 0 and "usage: bevel-differential" in done.stdout and not done.stderr, done.stderr
+@pytest.mark.parametrize("line, shown", [*((f"{name} --help", "usage: bevel-differential") for name in COMMANDS), ("--help", "usage: bevel-differential"),
+                                         ("run study_turning --stop 1ms", "left.speed"), ("variables planet_count --acting study_straight", "geometry.planet_count")])
+def test_the_smallest_installation_is_enough(line, shown, without):
+    done = without(line)
+    assert done.returncode == 0 and shown in done.stdout and not without_warnings(done.stderr), done.stderr
 
 
-def test_a_plan_and_a_run_work_in_the_smallest_installation(fmu_file):
-    done = without("run", "study_turning", "--stop", "1 ms", "--fmu", fmu_file)
-    assert done.returncode == 0 and "left.speed" in done.stdout, done.stderr
+@pytest.mark.parametrize("line, extra", [
+    (f"sweep {SWEEP}", "sweep"), ("losses torque_bias --workers 0", "sweep"), ("losses torque_bias --report a.html", "report"),
+    ("run study_turning --stop 1ms --plot a.png", "plot"), ("run study_turning --csv a.parquet", "sweep"), ("spectrum no.csv", "design"),
+    ("report study_turning", "report"), ("geometry --step", "cad"), ("bench", "plot")])
+def test_missing_packages_are_found_before_the_work_with_what_installs_them(line, extra, without):
+    done = without(line)
+    [last] = without_warnings(done.stderr).splitlines()
+    assert done.returncode == FAILED and re.search(rf'is missing; .*pip install "{re.escape(str(PYTHON))}\[{extra}\]"$', last), done.stderr
+    assert not done.stdout
 
 
-@pytest.mark.parametrize("words, extra", [
-    (["sweep", "--scene", "study_turning", "--vary", "left.load_torque=1, 2", "--plan", "grid", "--want", "left.speed", "--workers", "0"], "sweep"),
-    (["losses", "torque_bias", "--workers", "0"], "sweep"), (["run", "study_turning", "--stop", "1 ms", "--plot", "a.png"], "plot"),
-    (["report", "study_turning"], "report"), (["geometry", "--step"], "cad"), (["bench"], "plot")])
-def test_a_command_without_its_packages_names_what_installs_them(words, extra, fmu_file, tmp_path):
-    done = without(*words, *([] if words[0] == "geometry" else ["--fmu", fmu_file]), folder=tmp_path)
-    last = done.stderr.splitlines()[-1]
-    assert done.returncode == 1 and re.search(rf'is missing; .*pip install "{re.escape(str(PYTHON))}\[{extra}\]"$', last), done.stderr
+def test_a_table_of_pandas_needs_its_extra(monkeypatch):
+    def missing(name):
+        raise ModuleNotFoundError(f"No module named {name!r}", name=name)
 
-
-@pytest.mark.parametrize("words", [["run", "study_turning", "--plot", "a.png"], ["run", "study_turning", "--csv", "a.parquet"],
-                                   ["spectrum", "no.csv"]])
-def test_missing_packages_are_found_before_the_work(words, fmu_file, tmp_path):
-    done = without(*words, "--fmu", fmu_file, folder=tmp_path)
-    assert done.returncode == 1 and "is missing; install" in done.stderr and not done.stdout and "warning" not in done.stderr
+    monkeypatch.setattr(extras.importlib, "import_module", missing)
+    with Differential() as straight, refused("pandas … extra sweep"):
+        straight.run(stop=0.01, frame=True)
 
 
 @pytest.mark.parametrize("folder, written", [(".", "./python"), ("docs", "../python"), ("docs/figures", "../../python")])

@@ -75,14 +75,14 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
 def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
     with fmu.open() as opened:
         opened.initialise()
-        with refused("left.load_torque … N.m is outside") as refused:
+        with refused("left.load_torque … N.m is outside") as error:
             opened.set({"left.load_torque": 1e30})
         # for hosts, the log also names the call
-        assert refused.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {refused.value}"
-        with refused("assembly condition") as refused:
+        assert error.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {error.value}"
+        with refused("assembly condition") as error:
             opened.initialise({"geometry.planet_count": 3})
-        assert refused.value.status == ERROR
-        assert pickle.loads(pickle.dumps(refused.value)).status == ERROR
+        assert error.value.status == ERROR
+        assert pickle.loads(pickle.dumps(error.value)).status == ERROR
         opened.reset()
         assert opened.messages == [] and opened.time == 0.0
         opened.initialise()
@@ -141,9 +141,9 @@ def test_an_instance_for_model_exchange_takes_no_steps(fmu):
     with fmu.open("ModelExchange") as opened:
         opened.initialise(TURN)
         assert opened.get("left.speed") > 0.0
-        with pytest.raises(DifferentialError, match="^the step from 0 s: not legal in the state") as refused:
+        with pytest.raises(DifferentialError, match="^the step from 0 s: not legal in the state") as error:
             opened.step(1e-3)
-        assert refused.value.status == ERROR
+        assert error.value.status == ERROR
 
 
 BROKEN = {"left.load_torque": 1e7}
@@ -160,11 +160,11 @@ BROKEN = {"left.load_torque": 1e7}
     (lambda opened: opened.initialise().restore((0.0, b"none")), "", "use"),
     (lambda opened: opened.initialise().set_slopes({"contact.damping": 1.0}), "contact.damping is not an input", "use")])
 def test_a_message_begins_with_the_matter_and_names_no_call_of_fmi(fmu, use, begins, kind):
-    with fmu.open() as opened, pytest.raises(DifferentialError) as refused:
+    with fmu.open() as opened, pytest.raises(DifferentialError) as error:
         use(opened)
-    said = str(refused.value)
+    said = str(error.value)
     assert said.startswith(begins) and "fmi2" not in said and "initialisation failed" not in said, said
-    assert refused.value.kind == kind
+    assert error.value.kind == kind
 
 
 def test_variables_know_their_start_values_and_ranges(fmu):

@@ -137,12 +137,12 @@ def test_impossible_calls_are_refused_immediately(turn, use, parts):
 
 
 def test_a_value_with_its_unit_is_not_taken_for_another_unit():
-    with pytest.raises(DifferentialError) as refused:
+    with pytest.raises(DifferentialError) as error:
         Differential({"geometry.module": "450 mm"})
-    assert str(refused.value) == "geometry.module: 450 mm is outside [0.2, 100] mm"
-    with pytest.raises(DifferentialError) as refused:
+    assert str(error.value) == "geometry.module: 450 mm is outside [0.2, 100] mm"
+    with pytest.raises(DifferentialError) as error:
         Differential({"geometry.shaft_angle": "80 deg"})
-    assert str(refused.value).startswith("geometry.shaft_angle: 80 deg is not 90 deg, the only possible value. Angle between")
+    assert str(error.value).startswith("geometry.shaft_angle: 80 deg is not 90 deg, the only possible value. Angle between")
     with refused("did you mean 4.5 mm"), Differential({"geometry.module": 4.5}) as bare:
         bare.run(stop=0.01)
 

@@ -132,7 +132,7 @@ def test_an_exchange_is_three_calls_and_looks_up_no_name(opened, monkeypatch, ha
     def noted(name, function):
         return lambda *arguments: made.append(name) or function(*arguments)
 
-    def refused(*_):
+    def looked_up(*_):
         raise AssertionError("a name was looked up")
 
     opened._set, opened._get = {"Real": noted("set", opened._set["Real"])}, {"Real": noted("get", opened._get["Real"])}
@@ -140,15 +140,15 @@ def test_an_exchange_is_three_calls_and_looks_up_no_name(opened, monkeypatch, ha
     slopes = noted("slopes", opened._set_rates)
     opened._set_rates = slopes
     port = opened.port(DRIVEN, [name for name in SHOWN if name != "coupling.advice_state"])
-    monkeypatch.setattr(Fmu, "variable", refused)
+    monkeypatch.setattr(Fmu, "variable", looked_up)
     port.step([300.0, 900.0], SIZE, [0.0, 1.0] if has_rates else None)
     assert made == expected
 
 
 def refusal(use):
-    with pytest.raises(DifferentialError) as refused:
+    with pytest.raises(DifferentialError) as error:
         use()
-    return str(refused.value), refused.value.status, refused.value.kind
+    return str(error.value), error.value.status, error.value.kind
 
 
 @pytest.mark.parametrize("given", [math.nan, -math.inf, True, np.True_, None, "much", "5 kg", "1e12 N.m", 1e30, -1e9, [1.0], {}], ids=repr)
@@ -175,9 +175,9 @@ def test_a_wrong_number_of_values_is_refused_by_the_names_of_the_inputs(opened, 
     port = opened.port(DRIVEN, [*DRIVEN, "solver.steps"])
     before = port.read()
     values, rates = (given, None) if what == "values" else ([1.0, 1.0], given)
-    with pytest.raises(DifferentialError) as refused:
+    with pytest.raises(DifferentialError) as error:
         port.step(values, SIZE, rates)
-    said = str(refused.value)
+    said = str(error.value)
     assert said.startswith("right.load_torque, carrier.torque_command: ") and f"there are {count} {what} for 2 inputs" in said
     assert port.read() == before and opened.time == 0.0
 
