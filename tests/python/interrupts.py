@@ -1,5 +1,6 @@
 """Ctrl-C in tests, and commands that save their results more often than usual."""
 
+import shlex
 import signal
 import sys
 
@@ -10,7 +11,7 @@ from bevel_differential import Fmu
 from bevel_differential.command import main
 from bevel_differential.designs import store
 # before files are short
-Fmu.of(sys.argv[sys.argv.index("--fmu") + 1])
+Fmu.of()
 store.INTERVAL, most = float(sys.argv[1]), int(sys.argv[2])
 if most:
     resource.setrlimit(resource.RLIMIT_FSIZE, (most, resource.RLIM_INFINITY))
@@ -23,7 +24,7 @@ def with_interrupts():
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def changed_command(interval, arguments, most=0):
+def changed_command(interval, line, most=0):
     """Command that saves a part of its results every `interval` seconds, so that one exists long before the end; `most`: maximum size of
     a file, bytes."""
-    return [sys.executable, "-c", CHANGED, str(interval), str(most), *arguments]
+    return [sys.executable, "-c", CHANGED, str(interval), str(most), *shlex.split(line)]

@@ -6,7 +6,6 @@ import sys
 import time
 from concurrent.futures import ThreadPoolExecutor
 
-import numpy as np
 import pytest
 from command_line import command
 from documents import saved
@@ -14,7 +13,6 @@ from interrupts import with_interrupts
 
 from bevel_differential import Accuracy, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
-from bevel_differential.want import Statistic, figures
 
 # long enough for an interrupt: the richest model needs seconds
 FILES = "--ssv chosen.ssv --python chosen.py"
@@ -97,19 +95,6 @@ def test_threads_get_separate_answers():
 
     with ThreadPoolExecutor(8) as pool:
         assert all(pool.map(module, (3, 3.5, 4, 5, 5.5, 6, 6.5, 7)))
-
-
-def test_figures_are_those_of_closed_forms():
-    # unequal steps over whole periods of a sine with a mean
-    phase = np.sort(np.concatenate([np.linspace(0.0, 6.0 * np.pi, 6001), np.linspace(0.0, 2.0 * np.pi, 777)[1:-1]]))
-    times, values = phase / 10.0, 2.0 + 0.5 * np.sin(phase)
-    found = figures(["mean", "rms", "min", "max", "peak_to_peak", "final", "mesh_order_1", "mesh_order_2"], times, values, phase)
-    wanted = [2.0, np.sqrt(4.0 + 0.125), 1.5, 2.5, 1.0, 2.0, 0.5, 0.0]
-    assert found == pytest.approx(wanted, abs=2e-6)
-    assert Statistic.parse("order 2 of shaft") == Statistic("shaft_order_2", "carrier.angle")
-    for word in ("meen", "mesh_order_0", ""):
-        with pytest.raises(DifferentialError):
-            Statistic.parse(word)
 
 
 def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch):

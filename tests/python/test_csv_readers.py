@@ -1,6 +1,5 @@
 """Tables in CSV files: other programs read them, and a record can be an input."""
 
-import csv
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +9,6 @@ import pandas as pd
 import pytest
 from command_line import command
 from bevel_differential import Scene
-from bevel_differential.answers import about, ask
 from bevel_differential.records import decimal, localised, write
 from fmpy.util import read_csv
 
@@ -58,13 +56,6 @@ def test_a_record_is_read_by_other_programs_and_as_an_input(fmu_file):
         Scene.load("again.toml").close()
         # a table is read just after a communication point, 1e-6 of a step later
         assert again.run()[SPEED] == pytest.approx(first.run()[SPEED], rel=1e-6)
-
-
-def test_the_library_writes_the_same_file():
-    ask({"ask": "run", "of": about("scene.toml"), "out": "own.csv"})
-    command("run scene.toml --csv out.csv")
-    own, found = (list(csv.reader(open(file, encoding="utf-8"))) for file in ("own.csv", "out.csv"))
-    assert own[0] == found[0] and [[float(cell) for cell in row] for row in own[1:]] == [[float(cell) for cell in row] for row in found[1:]]
 
 
 def test_description_and_units_are_metadata_of_parquet():

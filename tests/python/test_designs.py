@@ -111,8 +111,8 @@ def test_an_invalid_plan_gives_the_reason(plan, vary, arguments, parts):
         plan(vary, *arguments).designs()
 
 
-# a wave with a mean, 3 whole periods of 0.25 s, with steps so fine that the trapezoidal rule is exact to 1e-5
-TIMES = np.linspace(0.0, 0.75, 30001)
+# a wave with a mean, 3 whole periods of 0.25 s, with unequal steps so fine that the trapezoidal rule is exact to 1e-5
+TIMES = np.sort(np.concatenate([np.linspace(0.0, 0.75, 30001), np.linspace(0.0, 0.25, 7777)[1:-1]]))
 WAVE = 2.0 + 3.0 * np.sin(2.0 * np.pi * TIMES / 0.25 + 0.4)
 
 
@@ -149,6 +149,10 @@ def test_an_order_that_cannot_be_counted_gives_the_reason(phase, message):
 def test_an_invalid_want_gives_the_reason(fmu, text, parts):
     with refused(parts):
         Want.parse(fmu, text)
+
+
+def test_an_order_may_be_written_in_words():
+    assert Statistic.parse("order 2 of shaft") == Statistic("shaft_order_2", "carrier.angle")
 
 
 def test_conditions_have_units_and_report_the_size_of_a_violation(fmu):

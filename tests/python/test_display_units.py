@@ -96,11 +96,6 @@ def test_a_scene_prefers_units_and_the_command_line_wins(tmp_path):
         assert columns(tmp_path / "run.csv")[0] == ["time [s]", f"left.speed [{speed}]", f"left.shaft_torque [{torque}]"]
 
 
-def test_without_a_preference_files_are_si_as_before(tmp_path):
-    command(f"run {a_file(tmp_path)} --csv run.csv")
-    assert columns(tmp_path / "run.csv")[0] == ["time", "left.speed", "left.shaft_torque"]
-
-
 def test_a_recorded_input_in_rpm_is_a_table_of_inputs(tmp_path):
     ramp = '[[table]]\ninput = "carrier.speed_command"\ntime = [0.0, 0.02]\nvalue = ["60 rpm", "120 rpm"]\n'
     plain = a_file(tmp_path).replace("turn.toml", "ramp.toml")

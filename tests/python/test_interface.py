@@ -99,12 +99,6 @@ def test_a_jump_between_points_is_a_point():
     assert found["time"].tolist() == [0.0, 0.001, 0.002, 0.003, 0.0035, 0.0035, 0.004, 0.005]
 
 
-@pytest.mark.parametrize("written", ["4.5 mm", (4.5, "mm"), "4500 um", "0.0045", 0.0045, (0.0045, "m"), np.float64(0.0045)])
-def test_a_length_may_be_written_in_many_ways(written):
-    differential = Differential({"geometry.module": written})
-    assert differential.values["geometry.module"] == pytest.approx(0.0045, rel=1e-15)
-
-
 def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
     expected = turn.run(outputs=OUTPUTS, stop=0.02)
     with ThreadPoolExecutor(4) as pool:
@@ -116,18 +110,13 @@ def test_threads_and_copies_in_other_processes_give_the_same_bits(turn):
 
 @pytest.mark.parametrize("use, parts", [
     (lambda d: d.set({"geometry.modul": 1.0}), "geometry.modul … did you mean geometry.module"),
-    (lambda d: d.set({"geometry.module": "4 ft"}), "geometry.module … unit ft of … mm"),
     (lambda d: d.set({"geometry.module": "wide"}), "geometry.module … wide … does not begin with a number"),
-    (lambda d: d.set({"geometry.module": float("nan")}), "geometry.module … finite"),
-    (lambda d: d.set({"geometry.planet_teeth": 10.5}), "geometry.planet_teeth … whole"),
-    (lambda d: d.set(contact__law="lin"), "contact.law … impact, line, line_weber … did you mean line"),
     (lambda d: d.set({"effects.strength": 2}), "effects.strength … true or false"),
     (lambda d: d.set({"left.speed": 1.0}), "left.speed … cannot be set"),
     (lambda d: d.run(outputs=["left.sped"]), "left.sped … did you mean left.speed"),
     (lambda d: d.run({"left.speed": 1.0}), "left.speed … not an input"),
     (lambda d: d.run({"left.load_torque": ([0.0, 1.0], [1.0])}), "left.load_torque … 2 times for 1"),
     (lambda d: d.run({"left.load_torque": ([1.0, 0.0], [1.0, 2.0])}), "left.load_torque … must not fall"),
-    (lambda d: d.run(stop=-0.1), "stop"),
     (lambda d: d.run(step="1 fortnight"), "step … fortnight"),
     (lambda d: d.run(step=-1e-3), "step"),
 ])

@@ -1,12 +1,10 @@
 """Loss maps: points against closed forms, lines where a map has curvature, measured errors, and runs that are never lost."""
 
 import re
-import signal
 from math import exp, tanh
 from types import SimpleNamespace
 
 import numpy as np
-import psutil
 import pyarrow.parquet as pq
 import pytest
 from command_line import command
@@ -258,36 +256,25 @@ def test_a_map_without_drag_says_why_its_efficiencies_are_1(tmp_path):
 
 # nothing is lost
 
-def test_a_killed_worker_and_an_interrupt_lose_nothing(tmp_path, monkeypatch):
-    given, out = {"bound": Bound(0.002, 0.1), "unseen": 20, "out": tmp_path / "runs.parquet"}, []
-    levels = LEVELS | {VARIABLES[-1]: [TEMPERATURE]}
+def test_an_interrupt_loses_nothing(tmp_path, monkeypatch):
+    levels, evaluate = LEVELS | {VARIABLES[-1]: [TEMPERATURE]}, PointTask.evaluate
+    given = {"bound": Bound(0.002, 0.1), "unseen": 20, "workers": 0}
+    kept = {"out": tmp_path / "runs.parquet", **given}
 
-    def kill(text):
-        out.append(text)
-        if len(out) != 1:
-            return
-        workers = [child for child in psutil.Process().children(recursive=True) if "multiprocessing.spawn" in " ".join(child.cmdline())]
-        workers[0].send_signal(signal.SIGKILL)
+    def stopping(task, run, values):
+        if run == 100:
+            raise KeyboardInterrupt
+        return evaluate(task, run, values)
 
     with Scene("stribeck", set=STRIBECK_CLUTCH) as made:
-        whole = losses(made, levels, **given | {"out": None}, workers=0)
-        killed = losses(made, levels, **given, tell=kill, workers=2)
-        evaluate = PointTask.evaluate
-
-        def stopping(task, run, values):
-            if run == 100:
-                raise KeyboardInterrupt
-            return evaluate(task, run, values)
-
+        whole = losses(made, levels, **given)
         monkeypatch.setattr(PointTask, "evaluate", stopping)
-        given["out"] = tmp_path / "stopped.parquet"
         with pytest.raises(Stopped, match="^stopped; 100 of .* runs are kept .*--resume"):
-            losses(made, levels, **given, workers=0)
+            losses(made, levels, **kept)
         monkeypatch.undo()
-        resumed = losses(made, levels, **given, resume=True, workers=0)
-        again = losses(made, levels, **given, resume=True, workers=0)
-    assert len(out) > 1 and resumed.new == whole.new - 100 > 0 and again.new == 0
-    for one in (killed, resumed, again):
+        resumed, again = (losses(made, levels, **kept, resume=True) for _ in range(2))
+    assert resumed.new == whole.new - 100 > 0 and again.new == 0
+    for one in (resumed, again):
         assert np.array_equal(one.slipping, whole.slipping) and np.array_equal(one.found, whole.found)
 
 

@@ -3,7 +3,6 @@
 import io
 import json
 import os
-import shlex
 import signal
 import subprocess
 import sys
@@ -241,25 +240,20 @@ def arguments(scene, out, wants, more):
     return f"sweep --scene {scene} {vary} {wanted} --plan lhs --seed 1 --out {out} {more}"
 
 
-def errors(text):
-    """Lines of standard error that are not warnings of the first run."""
-    return without_warnings(text).splitlines()
-
-
 def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path):
     # a mean over two thousand steps, so that the interrupt comes before the end
     scene = tmp_path / "turn.toml"
     scene.write_text((ROOT / "scenes/study_turning.toml").read_text().replace("step = 1e-3", "step = 2.5e-4"))
     wants = ["left.speed:mean"]
     out, parts = tmp_path / "found.parquet", tmp_path / "found.parquet.parts"
-    running = subprocess.Popen(changed_command(0.1, shlex.split(arguments(scene, out, wants, f"--runs {RUNS} --workers 2"))), stdout=subprocess.PIPE,
+    running = subprocess.Popen(changed_command(0.1, arguments(scene, out, wants, f"--runs {RUNS} --workers 2")), stdout=subprocess.PIPE,
                                stderr=subprocess.PIPE, text=True, start_new_session=True, preexec_fn=with_interrupts)
     while running.poll() is None and not list(parts.glob("part-*")):
         time.sleep(0.02)
     # to the whole process group, as a terminal sends it
     os.killpg(running.pid, signal.SIGINT)
     said = running.communicate(timeout=60)
-    assert running.returncode == 130 and len(errors(said[1])) == 1 and "--resume" in said[1], said
+    assert running.returncode == 130 and len(without_warnings(said[1]).splitlines()) == 1 and "--resume" in said[1], said
     # an interrupt during the writing of a part may write its rows twice; they count once
     kept = len({run for part in parts.glob("part-*.parquet") for run in pq.read_table(part)["run"].to_pylist()})
     assert 0 < kept < RUNS and f"{kept} of {RUNS} runs are kept" in said[1]
@@ -274,8 +268,8 @@ def test_ctrl_c_keeps_the_finished_rows_and_the_same_command_continues(tmp_path)
 def test_a_file_that_cannot_be_written_is_one_line_and_the_parts_are_kept(scene, tmp_path):
     out = tmp_path / "found.parquet"
     given = arguments("study_turning", out, WANTS, "--runs 50 --workers 0")
-    full = subprocess.run(changed_command(0.0, shlex.split(given), most=7000), capture_output=True, text=True, timeout=120)
-    assert full.returncode == 1 and len(errors(full.stderr)) == 1, full.stderr
+    full = subprocess.run(changed_command(0.0, given, most=7000), capture_output=True, text=True, timeout=120)
+    assert full.returncode == 1 and len(without_warnings(full.stderr).splitlines()) == 1, full.stderr
     assert "50 of 50 runs are kept" in full.stderr and "--resume" in full.stderr and not out.exists()
     command(f"{given} --resume", FINDING)
     assert SweepResult.load(out).digest() == sweep(scene, VARY, "lhs", 50, 1, WANTS, workers=0).digest()

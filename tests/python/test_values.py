@@ -2,6 +2,7 @@
 
 import math
 
+import numpy as np
 import pytest
 from command_line import command
 from bevel_differential import Differential, DifferentialError, Scene
@@ -38,6 +39,7 @@ WRONG = [
     ("geometry.module", "17.5 kg", "units that do: m, mm, um, in, km"),
     ("effects.half_shaft", "yes", "must be true or false"),
     ("scene.start", "roling", "did you mean rolling?"),
+    ("contact.law", "lin", "did you mean line?"),
 ]
 FRAME = 'description = "d"\nstop_time = "1 ms"\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\n'
 
@@ -81,7 +83,10 @@ def test_numbers_of_literals_and_python_types_are_read(fmu):
     start = fmu.variable("scene.start")
     assert start.number(float(start.literals["rolling"])) == start.literals["rolling"]
     module = fmu.variable("geometry.module")
-    assert module.number((4.5, "mm")) == module.number(("4.5", "mm")) == module.number("4.5mm") == 0.0045
+    assert module.number((4.5, "mm")) == module.number(("4.5", "mm")) == module.number("4500 um") == module.number(np.float64(0.0045)) == 0.0045
+    assert [fmu.variable("effects.half_shaft").number(value) for value in np.array([True, False])] == [True, False]
+    with refused("geometry.planet_teeth … must be a whole number"):
+        fmu.variable("geometry.planet_teeth").number(True)
     for wrong in (True, math.nan, [1.0], ("4.5", "kg"), None):
         with pytest.raises(DifferentialError, match=r"^geometry\.module = "):
             module.number(wrong)

@@ -137,7 +137,7 @@ def test_without_tolerances_no_scene_is_compared(unit, content, part):
 
 
 @pytest.mark.parametrize("changes, message", [
-    ({MANIFEST: None}, f"{FOLDER} … {MANIFEST} … no evidence"),
+    ({MANIFEST: None}, f"no evidence … {FOLDER}/{MANIFEST}"),
     ({MANIFEST: lambda text: text.replace('role="result"', 'role="report"')}, f"{MANIFEST} … no file with the role result"),
     ({MANIFEST: "no XML"}, f"{MANIFEST} … not valid XML"),
     ({DESCRIPTION: lambda text: text.replace('modelName="BevelDifferential"', 'modelName="Gearbox"')}, "the unit Gearbox … BevelDifferential"),

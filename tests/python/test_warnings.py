@@ -11,7 +11,6 @@ from command_list import WARNED, WIDE
 from evidence_unit import packed
 
 from bevel_differential import Differential, DifferentialWarning, Scene
-from bevel_differential.vehicle import Body, Car, Motor, Tyre
 
 # a warning, and the two scenes of the evidence that have it
 RIM, THIN = "geometry.planet_bore: the planet's rim", ("bodies_in_detail", "stiffness_bodies")
@@ -39,13 +38,6 @@ def test_python_warns_about_the_line_that_called_it_and_keeps_what_was_said(kind
         with warnings.catch_warnings():
             warnings.filterwarnings("error", ".*changes nothing")
             used.run(stop=0.002, values={"left.brake_torque": 0.0, "geometry.face_width": 0.014, "contact.law": "line"})
-
-
-def test_a_car_passes_on_warnings():
-    with pytest.warns(DifferentialWarning, match="geometry.face_width") as caught:
-        Car({"scene.gear_contact": "lumped", "geometry.face_width": "22 mm"}, motor=Motor(), left=Tyre(), right=Tyre(), body=Body()).run(
-            request=10.0, stop=0.002)
-    assert {one.filename for one in caught} == {__file__}
 
 
 def test_verify_names_the_scenes_of_each_warning_and_prints_it_once(fmu_file, tmp_path):

@@ -22,7 +22,7 @@ CASES = [
     ("swep", "swep … did you mean sweep"), ("optimize", "did you mean optimise"), ("variable", "did you mean variables"),
     ("loads", "scene … loads --help"), ("report", "required: scene"),
     ("run --set geometry.module='4 mm'", "--set … name a scene"),
-    ("run study_turnin", "study_turnin … did you mean study_turning"), ("variables --acting study_strait", "did you mean 'study_straight'"),
+    ("run clonk", "clonk … did you mean … clunk … study_straight"), ("variables --acting study_strait", "did you mean 'study_straight'"),
     ("run study_turning --set geometry.module='4 ft'", "geometry.module … ft"),
     ("run study_turning --set planet.count=3", "did you mean geometry.planet_count"),
     ("run study_turning --output wheel.speed", "left.wheel_speed"), ("run study_turning --output left.lod_torque", "left.load_torque"),
