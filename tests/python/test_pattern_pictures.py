@@ -8,7 +8,7 @@ from bevel_differential.pattern.picture import REMARKS
 from matplotlib.text import Text
 
 # gears with long and low flanks, and with short and high ones
-GEARS = [("4.5 mm", "20 mm"), ("6 mm", "6 mm"), ("3 mm", "12 mm")]
+GEARS = [("4.5mm", "20mm"), ("6mm", "6mm"), ("3mm", "12mm")]
 
 
 @pytest.mark.parametrize("module, width", GEARS)
