@@ -1,5 +1,6 @@
 """Fixtures for the packaged FMU: `run` a scene, `drive` it from step to step, `fmu.open` it for single calls."""
 
+import json
 import os
 import sys
 from contextlib import ExitStack
@@ -14,7 +15,7 @@ sys.path[:0] = FOLDERS
 os.environ["PYTHONPATH"] = os.pathsep.join(FOLDERS)
 os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(os.environ.get("FMU", ""))
 
-from bevel_differential import Differential, Fmu  # noqa: E402
+from bevel_differential import Differential, Fmu, style  # noqa: E402
 from driving import Drive  # noqa: E402
 from fmi3 import Unit3  # noqa: E402
 
@@ -115,3 +116,31 @@ def drive(fmu):
     """drive(values): started scene (see driving.py). All scenes are freed at the end of the test."""
     with ExitStack() as begun:
         yield lambda values=None: begun.enter_context(Drive(fmu, values))
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    """Temporary folder, which is the current one."""
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.fixture
+def scene_file(tmp_path):
+    """scene_file(values, name, stop, outputs, more): scene file with these values; `more`: further lines above them."""
+    def write(values=None, name="scene", stop=0.01, outputs=("left.speed",), more=""):
+        text = {"description": name, "stop_time": stop, "step": "1 ms", "outputs": [*outputs]}
+        tables = ["\n".join(f"{key} = {json.dumps(value)}" for key, value in each.items()) for each in (text, values or {})]
+        file = tmp_path / f"{name}.toml"
+        file.write_text(f"{tables[0]}\n{more}\n[set]\n{tables[1]}\n", encoding="utf-8")
+        return file
+
+    return write
+
+
+@pytest.fixture
+def figures(monkeypatch):
+    """Figures that are saved, in their order."""
+    saved = []
+    monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: saved.append(figure))
+    return saved

@@ -71,3 +71,17 @@ class ReportPage(HTMLParser):
             self.sections[self._section] += data
         if self._figure and any(tag == "figcaption" for tag, _ in self._stack):
             self.captions[self._figure] += data
+
+
+def checked(text, figures):
+    """Page of a report with these figures. Checks that each figure shows something and has a caption with numbers, and that the page loads
+    nothing."""
+    page = ReportPage(text)
+    assert set(page.figures) == figures
+    for name, marks in page.figures.items():
+        caption = page.captions[name]
+        assert marks and max(marks.values()) >= 1, f"{name} is empty"
+        assert re.search(r"\d", caption) and not re.search(r"\bnan\b|\binf\b", caption), caption
+    assert all(reference.startswith(("#", "data:")) for reference in page.references)
+    assert not re.search(r"https?:|@import|<script", text)
+    return page

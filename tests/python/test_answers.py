@@ -37,14 +37,13 @@ def test_the_cheapest_setting_is_found_and_reproduces_its_figures(tmp_path):
 
 
 @pytest.mark.parametrize("within", ["1%", "10%"])
-def test_a_written_scene_sets_only_values_that_have_an_effect(within, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_a_written_scene_sets_only_values_that_have_an_effect(within, folder):
     # the torque does not need the effect warm_up, so the table has no effect
     idle = 'effects.warm_up = true\n[[table]]\ninput = "warm_up.ambient_change"\ntime = [0.0, 0.2]\nvalue = [0.0, 5.0]\n'
-    (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
+    (folder / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"] + idle, encoding="utf-8")
     command(f"accuracy turn.toml --want left.shaft_torque:mean --within {within} --write chosen.toml {FILES}")
     assert "changes nothing" not in command("plan chosen.toml").err
-    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
+    written = {kind: (folder / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     # an accuracy of 10 % needs no washer friction
     assert all(("thrust_friction.radii_from_geometry" in text) == (within == "1%") for text in written.values())
     assert "warm_up.ambient_change" not in written["toml"] and "warm_up.ambient_change" not in written["py"]
@@ -97,9 +96,8 @@ def test_threads_get_separate_answers():
         assert all(pool.map(module, (3, 3.5, 4, 5, 5.5, 6, 6.5, 7)))
 
 
-def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"], encoding="utf-8")
+def test_fixed_steps_of_a_scene_are_kept_and_written(folder):
+    (folder / "turn.toml").write_text(saved("docs/your-car.md")["turn.toml"], encoding="utf-8")
     question = {"want": "left.shaft_torque:mean", "within": "1%", "set": {"solver.method": "fixed_step"}}
     found = accuracy("turn.toml", **question)
     step = found.use.set["solver.fixed_step"]
@@ -109,7 +107,7 @@ def test_fixed_steps_of_a_scene_are_kept_and_written(tmp_path, monkeypatch):
     assert found.use.run.error <= 0.01 and len(tried) > 2
     printed = command(f"accuracy turn.toml --want {question['want']} --within 1% --set solver.method=fixed_step --write chosen.toml {FILES}").out
     assert "fixed steps" in printed
-    written = {kind: (tmp_path / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
+    written = {kind: (folder / f"chosen.{kind}").read_text(encoding="utf-8") for kind in ("toml", "ssv", "py")}
     assert "solver.fixed_step" in written["ssv"] and "solver.fixed_step" in written["py"]
     # with these steps, the FMU gives the figure of the richest model, and uses the steps
     with Scene.load("chosen.toml") as chosen, Scene.load("turn.toml") as tight:

@@ -20,10 +20,7 @@ from refusals import refused
 SWEEP = ("sweep --scene study_turning --vary 'left.load_torque=700 N.m..900 N.m' --vary contact.law=line,line_weber --want left.speed:mean "
          "--condition 'efficiency >= 0.9' --from '0.14 s' --workers 0")
 
-
-@pytest.fixture(autouse=True)
-def in_folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("folder")
 
 
 def test_run_writes_the_record_of_the_scene():

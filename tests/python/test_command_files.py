@@ -21,9 +21,9 @@ def test_an_ending_counts_in_capitals_as_well_and_the_message_names_a_file(kind,
             checked(tmp_path / name, kind)
 
 
-def test_the_package_refuses_unknown_endings_too(fmu_file, tmp_path):
-    with Scene.load("study_turning", fmu_file, "2 ms") as scene:
-        record = scene.run()
+def test_the_package_refuses_unknown_endings_too(tmp_path):
+    with Scene.load("study_turning") as scene:
+        record = scene.run(stop="2 ms")
         for write in (scene.to_csv, scene.to_parquet, scene.plot):
             with refused("a.xlsx: a … ends with"):
                 write(record, tmp_path / "a.xlsx")
@@ -39,17 +39,16 @@ def spreadsheet(tmp_path):
     return file
 
 
-def test_a_spreadsheet_is_named_as_such_where_a_table_is_read(spreadsheet, fmu_file, tmp_path):
+def test_a_spreadsheet_is_named_as_such_where_a_table_is_read(spreadsheet, tmp_path):
     with refused("table.xlsx … spreadsheet … save it as CSV"):
-        spectrum(spreadsheet, fmu=fmu_file)
+        spectrum(spreadsheet)
     scene = tmp_path / "scene.toml"
     scene.write_text('description = "driven"\nstop_time = 0.01\nstep = 0.001\noutputs = ["left.speed"]\n[[inputs]]\nfile = "table.xlsx"\n')
     with refused("table.xlsx: … spreadsheet … save it as CSV"):
-        Scene.load(scene, fmu_file)
+        Scene.load(scene)
 
 
 @pytest.mark.parametrize("line", ["run", "plan", "report", "pattern", "loads --out a.csv", "tolerance", "optimise", "sweep --plan-file"])
-def test_a_file_that_is_not_toml_is_wrong_use_and_named(line, spreadsheet, monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
+def test_a_file_that_is_not_toml_is_wrong_use_and_named(line, spreadsheet, folder):
     [said] = command(f"{line} {spreadsheet}", WRONG).err.splitlines()
     assert "table.xlsx" in said and "TOML" in said

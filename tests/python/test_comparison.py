@@ -11,10 +11,7 @@ FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "scene.s
         "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 1.0, "inertia.right_end": 1.0}
 TORQUE = "carrier.torque_command"
 
-
-@pytest.fixture(autouse=True)
-def with_fmu(monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("folder")
 
 
 def free(name, torque, stop=0.5, **more):

@@ -28,8 +28,7 @@ BENCH = SCENE.partition("[[table]]")[0]
 
 
 @pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def scene(folder):
     Path("scene.toml").write_text(SCENE, encoding="utf-8")
 
 

@@ -19,10 +19,7 @@ RPM = 60.0 / (2.0 * math.pi)
 OUTPUTS = ["left.speed", "left.shaft_torque", "temperature.oil", "temperature.flash", "planet[1].left_pairs"]
 COMMANDED = 954.0 / 6.0  # 954 deg/s in rpm: 360 deg per turn
 
-
-@pytest.fixture(autouse=True)
-def in_folder(monkeypatch, tmp_path):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("folder")
 
 
 def a_file(tmp_path, name="turn.toml", display=None, more=""):

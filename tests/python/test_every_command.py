@@ -51,18 +51,17 @@ def units(fmu_file, tmp_path_factory):
 
 
 @pytest.fixture
-def folder(units, tmp_path, monkeypatch):
+def folder(folder, units, monkeypatch):
     """Current folder with the files of all examples, and a browser."""
-    monkeypatch.chdir(tmp_path)
-    prepare(tmp_path)
+    prepare(folder)
     for unit in units.iterdir():
         Path(unit.name).symlink_to(unit)
     # another test covers files for CAD
     monkeypatch.setattr(cad, "available", lambda: False)
-    monkeypatch.setattr(page_command, "page_file", lambda: tmp_path / "there.toml")
+    monkeypatch.setattr(page_command, "page_file", lambda: folder / "there.toml")
     monkeypatch.setattr(webbrowser, "open", lambda address: True)
     command("examples --out there")
-    return tmp_path
+    return folder
 
 
 def test_every_command_is_in_the_list():

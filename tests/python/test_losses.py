@@ -12,7 +12,8 @@ import theory
 from bevel_differential import Scene, losses as package
 from bevel_differential.csv_table import CsvTable, Text
 from bevel_differential.designs.sweep import Stopped
-from bevel_differential.losses import VARIABLES, command, inputs, losses
+from bevel_differential.losses import VARIABLES, inputs, losses
+from bevel_differential.losses.command import _axes
 from bevel_differential.losses.grid import (Bound, estimates, figures_of, grid_points, interpolated, refined, share_beyond, starting,
                                             torques_of)
 from bevel_differential.losses.point import FIGURES, PointTask, benched
@@ -241,15 +242,13 @@ def test_axes_end_at_the_torque_and_the_speed_that_the_scene_reaches(set, table,
     tables = [] if table is None else [("carrier.speed_command", [0.0, 10.0], list(table), None)]
     with Scene("reached", stop=10.0, step=1.0, set={"scene.gear_contact": "ideal", **set}, tables=tables) as made:
         asked = SimpleNamespace(torque=None, speed=None, difference=None, temperature=None)
-        of_torque, of_speed, *_ = (of.levels() for of in command._axes(made, asked))
+        of_torque, of_speed, *_ = (of.levels() for of in _axes(made, asked))
     assert of_torque[-1] == pytest.approx(torque, rel=1e-3) and of_speed[-1] == pytest.approx(speed, rel=1e-3)
     assert of_torque[0] == pytest.approx(0.1 * of_torque[-1]) and of_speed[0] == pytest.approx(0.1 * of_speed[-1])
 
 
-def test_a_map_without_drag_says_why_its_efficiencies_are_1(tmp_path):
-    scene = tmp_path / "scene.toml"
-    scene.write_text('description = "no drag"\nstop_time = 0.01\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\n'
-                     'scene.gear_contact = "ideal"\ncarrier.speed_command = 30.0\n', encoding="utf-8")
+def test_a_map_without_drag_says_why_its_efficiencies_are_1(scene_file, tmp_path):
+    scene = scene_file({"scene.gear_contact": "ideal", "carrier.speed_command": 30.0})
     said = command(f"losses {scene} --quick --unseen 0 --difference 5 --simulink {tmp_path / 'map.m'} --workers 0").out
     assert "map.m: eta_tbl is 1 everywhere, because the scene has no drag" in said
 

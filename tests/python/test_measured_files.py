@@ -53,12 +53,11 @@ def test_a_scene_reads_the_columns_that_it_names(file, tmp_path):
     assert record["carrier.speed_command"][10] == pytest.approx(72.5 / 1.8, rel=1e-6)
 
 
-def test_commands_of_the_library_read_spreadsheets(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    write_xlsx(tmp_path / "bench.xlsx")
-    (tmp_path / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
+def test_commands_of_the_library_read_spreadsheets(folder):
+    write_xlsx(folder / "bench.xlsx")
+    (folder / "scene.toml").write_text(SCENE.format(file="bench.xlsx", radius="500 mm"), encoding="utf-8")
     command("plan scene.toml --python script.py")
-    assert "810.25" in (tmp_path / "script.py").read_text(encoding="utf-8")
+    assert "810.25" in (folder / "script.py").read_text(encoding="utf-8")
 
 
 def test_without_a_reader_the_package_is_named(tmp_path, monkeypatch):
@@ -83,10 +82,9 @@ def test_a_spreadsheet_has_the_cells_of_a_csv_file(tmp_path):
     assert lines_of(tmp_path / "bench.xlsx", texts=texts) == lines_of(tmp_path / "bench.csv", texts=texts)
 
 
-def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_the_template_of_a_duty_cycle_comes_with_the_examples_and_gives_a_life(folder):
     command("examples")
-    template = tmp_path / "examples/design/duty_cycle_template.csv"
+    template = folder / "examples/design/duty_cycle_template.csv"
     head = next(line for line in template.read_text(encoding="utf-8").splitlines() if not line.startswith("#"))
     assert all(word in head for word in ("torque [N.m]", "speed [km/h]", "duration [h]", "turn_radius [m]"))
     result = spectrum(template)

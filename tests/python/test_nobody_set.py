@@ -6,6 +6,7 @@ from math import inf
 
 import pytest
 from command_line import command
+from refusals import refused
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask
 from bevel_differential.values import NOBODY_SET
@@ -211,12 +212,9 @@ def test_the_plan_and_the_report_list_unset_values_by_effect(tmp_path):
     assert "Values that act and that nobody set" in text and groups["half_shaft"] in text
 
 
-def test_the_plan_warns_of_loads_that_turn_the_wheels_backward(tmp_path):
-    file = tmp_path / "own.toml"
-    file.write_text('description = "own"\nstop_time = 0.1\nstep = 1e-2\noutputs = ["left.speed"]\n[set]\n'
-                    'scene.gear_contact = "ideal"\nscene.carrier_drive = "torque"\ncarrier.torque_command = 300.0\n', encoding="utf-8")
+def test_the_plan_warns_of_loads_that_turn_the_wheels_backward(scene_file):
     with pytest.warns(DifferentialWarning, match="nobody set left.load_torque = 835 N.m"):
-        ask({"ask": "plan", "of": about(file)})
+        ask({"ask": "plan", "of": about(scene_file(BY_TORQUE | {"carrier.torque_command": 300.0}))})
 
 
 def short(action):
@@ -253,11 +251,9 @@ def test_accepted_start_values_are_not_mentioned():
 
 
 @pytest.mark.parametrize("accepted, left", [("true", ""), ('["geometry.side_teeth", "inertia.carrier"]', "2 fewer"), ("false", "all"), (None, "all")])
-def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_path):
-    file = tmp_path / "own.toml"
-    key = "" if accepted is None else f"accept_start_values = {accepted}\n"
-    file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\n{key}[set]\ngeometry.module = "5 mm"\n'
-                    'scene.gear_contact = "ideal"\n', encoding="utf-8")
+def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, scene_file):
+    key = "" if accepted is None else f"accept_start_values = {accepted}"
+    file = scene_file({"geometry.module": "5 mm", "scene.gear_contact": "ideal"}, stop=0.002, more=key)
     with Scene.load(file) as scene:
         whole = len(listed(Differential(scene.values).nobody_set()))
         count = {"": 0, "2 fewer": whole - 2, "all": whole}[left]
@@ -273,12 +269,9 @@ def test_a_scene_file_accepts_start_values_in_all_its_runs(accepted, left, tmp_p
 
 @pytest.mark.parametrize("accepted, part", [('["geometry.modul"]', "did you mean geometry.module"), ('["left.speed"]', "left.speed is an output"),
                                             ("3", "true, false, or a list"), ("[3]", "3 is not a name")])
-def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, tmp_path):
-    file = tmp_path / "own.toml"
-    file.write_text(f'description = "own"\nstop_time = 0.002\nstep = 1e-3\noutputs = ["left.speed"]\naccept_start_values = {accepted}\n',
-                    encoding="utf-8")
-    with pytest.raises(DifferentialError, match=part):
-        Scene.load(file)
+def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, scene_file):
+    with refused(part):
+        Scene.load(scene_file(more=f"accept_start_values = {accepted}"))
     with pytest.raises(DifferentialError, match="calculated|did you mean geometry.module|is a list|list of names"):
         Differential(accept_start_values={"3": "geometry.module", "[3]": "x"}.get(accepted, [accepted[2:-2]]))
 

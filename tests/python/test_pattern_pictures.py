@@ -2,8 +2,6 @@
 
 import pytest
 from command_line import command
-from bevel_differential import style
-from bevel_differential.command import main
 from bevel_differential.pattern.picture import REMARKS
 from matplotlib.text import Text
 
@@ -12,9 +10,7 @@ GEARS = [("4.5mm", "20mm"), ("6mm", "6mm"), ("3mm", "12mm")]
 
 
 @pytest.mark.parametrize("module, width", GEARS)
-def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_path, monkeypatch):
-    figures = []
-    monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
+def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_path, figures):
     command(f"pattern study_turning --quick --set geometry.module={module} --set geometry.face_width={width} --out {tmp_path / 'out'}")
     figures[0].draw_without_rendering()
     flank = figures[0].axes[0]
@@ -27,14 +23,10 @@ def test_the_line_load_is_drawn_below_its_place_on_the_flank(module, width, tmp_
 
 
 @pytest.mark.parametrize("names", [["aligned"], ["planet_out", "hypoid_forward"], ["aligned", "mine"]])
-def test_pictures_of_scenes_say_nothing_about_the_documentation_s_cases(names, tmp_path, monkeypatch):
+def test_pictures_of_scenes_say_nothing_about_the_documentation_s_cases(names, tmp_path, scene_file, figures):
     """The documentation's cases have names, which a user's scene file may have, too."""
-    figures = []
-    monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
-    for name in names:
-        (tmp_path / f"{name}.toml").write_text('description = "own"\nstop_time = 0.02\nstep = "1 ms"\noutputs = ["left.speed"]\n'
-                                               '[set]\nspin.command = "200 deg/s"\nscene.planet_spin = "imposed"\n', encoding="utf-8")
-    assert main(["pattern", *(str(tmp_path / f"{name}.toml") for name in names), "--quick", "--out", str(tmp_path / "out")]) == 0
+    files = " ".join(str(scene_file({"spin.command": "200 deg/s", "scene.planet_spin": "imposed"}, name, 0.02)) for name in names)
+    command(f"pattern {files} --quick --out {tmp_path / 'out'}")
     patterns, lines = figures
     texts = " ".join(text.get_text() for figure in figures for text in figure.findobj(Text))
     assert not [remark for remark in REMARKS.values() if remark in texts]

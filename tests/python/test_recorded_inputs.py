@@ -32,12 +32,6 @@ value = {[sign * value for value in TABLE[1]]}
 """
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 @pytest.mark.parametrize("slopes", [True, False])
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_record_has_the_inputs_that_act(sign, slopes, folder):

@@ -132,12 +132,10 @@ def by_torque(result):
 
 @pytest.mark.parametrize("head, row", [(HEAD, "turn,1,20,10,6,"), (HEAD.replace(",torque [N.m]", ""), "turn,1,20,10,6"),
                                        (f"{HEAD.replace(',torque [N.m]', '')},left.load_torque [N.m]", "turn,1,20,10,6,")])
-def test_a_missing_load_is_refused_unless_the_scene_gives_it(cycle, tmp_path, head, row):
+def test_a_missing_load_is_refused_unless_the_scene_gives_it(cycle, scene_file, head, row):
     with pytest.raises(DifferentialError, match="line 2.*(torque|left.load_torque).*nobody gives"):
         cycle(head, row)
-    scene = tmp_path / "car.toml"
-    scene.write_text('description = "a car"\nstop_time = 0.1\nstep = 1e-3\noutputs = ["left.speed"]\n[set]\n'
-                     'left.load_torque = 1100.0\nright.load_torque = 1100.0\n', encoding="utf-8")
+    scene = scene_file(dict.fromkeys(LOADS, 1100.0))
     found = cycle(head, row, scene=scene)
     # half of a torque of the ring gear loads each side
     assert by_torque(found) == pytest.approx(by_torque(cycle(HEAD, "turn,1,20,10,6,2200")), rel=1e-9)

@@ -12,11 +12,8 @@ def test_the_front_has_the_designs_that_no_other_one_dominates():
     assert front(costs[:, :1]).tolist() == [True] + [False] * 6
 
 
-def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectives(tmp_path, monkeypatch):
+def test_a_picture_has_every_design_in_every_panel_and_the_front_of_the_objectives(tmp_path, figures):
     """On ideal gears without friction, both torques follow the carrier's torque, so the front is known."""
-    from bevel_differential import style
-    figures = []
-    monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: figures.append(figure))
     line = ("sweep --scene torque_bias --set scene.gear_contact=ideal --set effects.tooth_friction=false --set effects.thrust_friction=false "
             "--stop 2ms --vary carrier.torque_command=100,200,300,400 --vary solver.method=adaptive,fixed_step --plan grid --want carrier.speed "
             f"--condition 'left.shaft_torque <= 180' --workers 0 --plot {tmp_path / 'a.png'}")

@@ -73,9 +73,8 @@ def test_every_reader_refuses_with_the_same_reason(name, text, why, fmu, tmp_pat
 
 
 @pytest.mark.parametrize("line", ["plan {}", "loads {} --out l.csv", "geometry --out g", "run {}"])
-def test_commands_take_a_whole_number_with_decimals(line, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "scene.toml").write_text(f"{FRAME}scene.gear_contact = \"tooth\"\n", encoding="utf-8")
+def test_commands_take_a_whole_number_with_decimals(line, folder):
+    (folder / "scene.toml").write_text(f"{FRAME}scene.gear_contact = \"tooth\"\n", encoding="utf-8")
     command(f"{line.format('scene.toml')} --set geometry.planet_teeth=12.0")
 
 

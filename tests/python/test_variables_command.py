@@ -67,11 +67,9 @@ def test_the_file_has_si_values_that_read_back(listed, fmu, tmp_path):
     assert {row["name"]: row["display unit"] for row in rows}["geometry.module"] == "mm"
 
 
-def test_variables_that_act_in_a_scene_are_those_of_the_fmu(listed, fmu, tmp_path):
+def test_variables_that_act_in_a_scene_are_those_of_the_fmu(listed, fmu, scene_file):
     """The command omits the values for which the FMU warns that they change nothing."""
-    scene = tmp_path / "scene.toml"
-    scene.write_text('description = ""\nstop_time = "1 ms"\nstep = "1 ms"\noutputs = ["left.speed"]\n[set]\neffects.bearing_drag = true\n'
-                     'scene.gear_contact = "lumped"\n')
+    scene = scene_file({"effects.bearing_drag": True, "scene.gear_contact": "lumped"})
     names = {line.split()[0] for line in listed(f"--acting {scene}")[1:-1]}
     assert {"bearing_drag.carrier_torque", "scene.gear_contact", "left.speed", "heat.drag", "heat.clutch"} <= names
     # clutch packs are off, but the lock heats the same output

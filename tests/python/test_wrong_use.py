@@ -49,9 +49,8 @@ CASES = [
 
 
 @pytest.mark.parametrize("line, message", CASES, ids=[line[:60] for line, _ in CASES])
-def test_wrong_use_is_one_line_that_names_the_fault(line, message, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    prepare(tmp_path)
+def test_wrong_use_is_one_line_that_names_the_fault(line, message, folder):
+    prepare(folder)
     for name, text in FILES.items():
         Path(name).write_text(text, encoding="utf-8")
     [said] = command(line, WRONG).errors
