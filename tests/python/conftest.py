@@ -45,6 +45,13 @@ def fmu(fmu_file):
     return Fmu.of(fmu_file)
 
 
+@pytest.fixture
+def opened(fmu):
+    """Instance for single calls, not yet initialised."""
+    with fmu.open() as instance:
+        yield instance
+
+
 @pytest.fixture(scope="session")
 def outputs(fmu):
     """Names of all outputs that are real numbers."""

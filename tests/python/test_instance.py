@@ -13,34 +13,31 @@ DISCARD, ERROR = 2, 3
 WATCHED = ["left.speed", "planet[1].left_normal_force", "solver.steps"]
 
 
-def test_values_of_all_kinds_are_read_as_they_were_written(fmu):
+def test_values_of_all_kinds_are_read_as_they_were_written(opened):
     written = {"effects.strength": True, "geometry.planet_teeth": 11, "contact.law": "line", "geometry.module": "5 mm"}
-    with fmu.open() as opened:
-        opened.set(written, left__load_torque="500 N.m")
-        assert opened.read([*written, "left.load_torque"]) == [True, 11, 2, 0.005, 500.0]
-        assert opened.get("effects.strength") is True
+    opened.set(written, left__load_torque="500 N.m")
+    assert opened.read([*written, "left.load_torque"]) == [True, 11, 2, 0.005, 500.0]
+    assert opened.get("effects.strength") is True
 
 
-def test_a_run_call_by_call_has_the_bits_of_a_record(fmu):
+def test_a_run_call_by_call_has_the_bits_of_a_record(opened):
     with Differential(TURN) as differential:
         record = differential.run(outputs=WATCHED, stop=0.02)
-    with fmu.open() as opened:
-        opened.initialise(TURN, stop=0.02)
-        rows = [opened.read(WATCHED)]
-        for begin, end in zip(record["time"], record["time"][1:]):
-            opened.do_step(begin, end - begin)
-            rows.append(opened.read(WATCHED))
+    opened.initialise(TURN, stop=0.02)
+    rows = [opened.read(WATCHED)]
+    for begin, end in zip(record["time"], record["time"][1:]):
+        opened.do_step(begin, end - begin)
+        rows.append(opened.read(WATCHED))
     assert rows == [[*row] for row in record[WATCHED].tolist()]
 
 
-def test_initialising_again_is_a_fresh_run(fmu):
-    with fmu.open() as opened:
-        ends = []
-        for values in (TURN, {"left.load_torque": 100.0}, TURN):
-            opened.initialise(values)
-            opened.step(5e-3)
-            assert opened.time == 5e-3
-            ends.append(opened.read(WATCHED))
+def test_initialising_again_is_a_fresh_run(opened):
+    ends = []
+    for values in (TURN, {"left.load_torque": 100.0}, TURN):
+        opened.initialise(values)
+        opened.step(5e-3)
+        assert opened.time == 5e-3
+        ends.append(opened.read(WATCHED))
     assert ends[0] == ends[2] != ends[1]
 
 
@@ -71,21 +68,20 @@ def test_a_run_in_pieces_goes_to_the_stop_time_that_each_instance_announced(fmu)
             endless.initialise(TURN).restore(first.save()).step(1e-3)
 
 
-def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(fmu):
-    with fmu.open() as opened:
-        opened.initialise()
-        with refused("left.load_torque … N.m is outside") as error:
-            opened.set({"left.load_torque": 1e30})
-        # for hosts, the log also names the call
-        assert error.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {error.value}"
-        with refused("assembly condition") as error:
-            opened.initialise({"geometry.planet_count": 3})
-        assert error.value.status == ERROR
-        assert pickle.loads(pickle.dumps(error.value)).status == ERROR
-        opened.reset()
-        assert opened.messages == [] and opened.time == 0.0
-        opened.initialise()
-        opened.step(1e-3)
+def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears_it(opened):
+    opened.initialise()
+    with refused("left.load_torque … N.m is outside") as error:
+        opened.set({"left.load_torque": 1e30})
+    # for hosts, the log also names the call
+    assert error.value.status == DISCARD and opened.messages[-1] == f"fmi2SetReal: {error.value}"
+    with refused("assembly condition") as error:
+        opened.initialise({"geometry.planet_count": 3})
+    assert error.value.status == ERROR
+    assert pickle.loads(pickle.dumps(error.value)).status == ERROR
+    opened.reset()
+    assert opened.messages == [] and opened.time == 0.0
+    opened.initialise()
+    opened.step(1e-3)
 
 
 @pytest.mark.parametrize("use, parts", [
@@ -95,35 +91,33 @@ def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears
     (lambda opened: opened.set_slopes({"left.sped": 1.0}), ["left.sped"]),
     (lambda opened: opened.fmu.open("Exchange"), ["'Exchange'", "CoSimulation, ModelExchange"]),
 ])
-def test_impossible_calls_are_refused_before_the_fmu_is_called(fmu, use, parts):
-    with fmu.open() as opened, pytest.raises(DifferentialError) as error:
+def test_impossible_calls_are_refused_before_the_fmu_is_called(opened, use, parts):
+    with pytest.raises(DifferentialError) as error:
         use(opened)
     assert error.value.status is None and all(part in str(error.value) for part in parts)
 
 
-def test_times_of_steps_may_have_units(fmu):
-    with fmu.open() as opened:
-        for size, stop in [(1e-3, 3e-3), ("1 ms", "3 ms")]:
-            opened.initialise(TURN, stop)
-            opened.step(size)
-            opened.do_step(size, size)
-            port = opened.port(["left.load_torque"], ["left.speed"])
-            found = port.do_step(700.0, "2 ms", size)
-            assert opened.time == 1e-3
-            if size == 1e-3:
-                expected = found
-        assert found == expected
-        with refused("step = '1 mm'"):
-            opened.step("1 mm")
-        with refused("left.load_torque: its rate is '1 N.m'"):
-            opened.set_slopes({"left.load_torque": "1 N.m"})
+def test_times_of_steps_may_have_units(opened):
+    for size, stop in [(1e-3, 3e-3), ("1 ms", "3 ms")]:
+        opened.initialise(TURN, stop)
+        opened.step(size)
+        opened.do_step(size, size)
+        port = opened.port(["left.load_torque"], ["left.speed"])
+        found = port.do_step(700.0, "2 ms", size)
+        assert opened.time == 1e-3
+        if size == 1e-3:
+            expected = found
+    assert found == expected
+    with refused("step = '1 mm'"):
+        opened.step("1 mm")
+    with refused("left.load_torque: its rate is '1 N.m'"):
+        opened.set_slopes({"left.load_torque": "1 N.m"})
 
 
-def test_a_fixed_parameter_after_the_start_is_refused_with_the_call_that_sets_it(fmu):
-    with fmu.open() as opened:
-        opened.initialise(TURN)
-        with pytest.raises(DifferentialError, match=r"contact.law is a fixed parameter: .*set it in `initialise\(…\)`$"):
-            opened.set({"contact.law": "line"})
+def test_a_fixed_parameter_after_the_start_is_refused_with_the_call_that_sets_it(opened):
+    opened.initialise(TURN)
+    with pytest.raises(DifferentialError, match=r"contact.law is a fixed parameter: .*set it in `initialise\(…\)`$"):
+        opened.set({"contact.law": "line"})
 
 
 def test_an_instance_for_model_exchange_takes_no_steps(fmu):
@@ -148,8 +142,8 @@ BROKEN = {"left.load_torque": 1e7}
     (lambda opened: opened.step(1e-3), "the step from 0 s: not legal", "failed"),
     (lambda opened: opened.initialise().restore((0.0, b"none")), "", "use"),
     (lambda opened: opened.initialise().set_slopes({"contact.damping": 1.0}), "contact.damping is not an input", "use")])
-def test_a_message_begins_with_the_matter_and_names_no_call_of_fmi(fmu, use, begins, kind):
-    with fmu.open() as opened, pytest.raises(DifferentialError) as error:
+def test_a_message_begins_with_the_matter_and_names_no_call_of_fmi(opened, use, begins, kind):
+    with pytest.raises(DifferentialError) as error:
         use(opened)
     said = str(error.value)
     assert said.startswith(begins) and "fmi2" not in said and "initialisation failed" not in said, said

@@ -71,12 +71,12 @@ def test_a_host_of_model_exchange_reads_the_derivatives(fmu3):
         unit.raw.terminate()
 
 
-def test_an_end_before_the_start_is_an_error(fmu3, fmu):
+def test_an_end_before_the_start_is_an_error(fmu3, opened):
     with Unit3(fmu3) as unit:
         with pytest.raises(Exception, match="fmi3EnterInitializationMode"):
             unit.raw.enterInitializationMode(startTime=1.0, stopTime=0.5)
         assert "stop time 0.5 s is before the start time 1 s" in unit.messages[-1][1]
-    with fmu.open() as opened, refused("stop = -1.0: it is 0 or more"):
+    with refused("stop = -1.0: it is 0 or more"):
         opened.initialise(stop=-1.0)
 
 

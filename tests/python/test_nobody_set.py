@@ -70,13 +70,12 @@ def test_a_clutch_with_a_preload_has_only_the_preload(run, contact, sign):
     assert last == pytest.approx((0.5 * torque + preload) / (0.5 * torque - preload), rel=2e-3)
 
 
-def test_only_seals_drag_if_only_seals_are_given(fmu):
+def test_only_seals_drag_if_only_seals_are_given(opened):
     # both side gears turn with the carrier: 2 k d, with k = 3.737 N (ISO/TR 14179-1)
-    with fmu.open() as opened:
-        opened.initialise({"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.seal_diameter": 0.04,
-                           "left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.speed_command": 30.0})
-        opened.step(0.1)
-        assert opened.get("carrier.torque") == pytest.approx(2.0 * 3.737 * 0.04, rel=1e-9)
+    opened.initialise({"scene.gear_contact": "ideal", "effects.bearing_drag": True, "bearing_drag.seal_diameter": 0.04,
+                       "left.load_torque": 0.0, "right.load_torque": 0.0, "carrier.speed_command": 30.0})
+    opened.step(0.1)
+    assert opened.get("carrier.torque") == pytest.approx(2.0 * 3.737 * 0.04, rel=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["CoSimulation", "ModelExchange"])
@@ -120,15 +119,14 @@ def test_excessive_speeds_are_reported_once(fmu, sign):
     assert len(said) == 1 and said[0].startswith("planet[")
 
 
-def test_a_drive_without_loads_gives_warnings_at_both_ends(fmu):
+def test_a_drive_without_loads_gives_warnings_at_both_ends(opened):
     values = {**BY_TORQUE, "carrier.torque_command": 300.0}
-    with fmu.open() as opened:
-        opened.initialise(values, 5.0)
-        assert len(backward(opened.messages)) == 1 and not too_fast(opened.messages)
-        for _ in range(5):
-            opened.step(1.0)
-        assert opened.get("carrier.speed") < -3e5
-        assert len(backward(opened.messages)) == len(too_fast(opened.messages)) == 1
+    opened.initialise(values, 5.0)
+    assert len(backward(opened.messages)) == 1 and not too_fast(opened.messages)
+    for _ in range(5):
+        opened.step(1.0)
+    assert opened.get("carrier.speed") < -3e5
+    assert len(backward(opened.messages)) == len(too_fast(opened.messages)) == 1
 
 
 OWN = {"geometry.module": "5 mm", **BY_TORQUE, "carrier.torque_command": 2000.0}
@@ -175,26 +173,25 @@ def test_the_study_gives_no_warning_but_its_scene_lists_the_values_that_nobody_s
         assert "nobody" not in scene.plan_text()
 
 
-def test_a_value_that_is_not_listed_does_not_change_the_result(fmu):
+def test_a_value_that_is_not_listed_does_not_change_the_result(fmu, opened):
     """For gears and a drive, the list contains all values that take effect, so any other parameter may have any value."""
     names = ["left.speed", "right.speed", "carrier.angle", "left.shaft_torque", "carrier.torque"]
-    with fmu.open() as opened:
-        opened.initialise(OWN)
-        found = listed(next(text for text in opened.messages if text.startswith(NOBODY_SET)))
+    opened.initialise(OWN)
+    found = listed(next(text for text in opened.messages if text.startswith(NOBODY_SET)))
+    opened.step(0.1)
+    expected = opened.read(names)
+    tried = 0
+    for variable in fmu.variables.values():
+        is_value = variable.causality == "parameter" and variable.kind == "Real" and not variable.name.startswith("solver.")
+        if not is_value or variable.name in found or variable.name in OWN or variable.start in (None, 0.0, 1.0):
+            continue
+        if variable.name in ("geometry.shaft_angle", "contact.exponent"):
+            continue
+        value = min(max(1.1 * variable.start, variable.minimum or -inf), variable.maximum or inf)
+        opened.initialise({**OWN, variable.name: value})
         opened.step(0.1)
-        expected = opened.read(names)
-        tried = 0
-        for variable in fmu.variables.values():
-            is_value = variable.causality == "parameter" and variable.kind == "Real" and not variable.name.startswith("solver.")
-            if not is_value or variable.name in found or variable.name in OWN or variable.start in (None, 0.0, 1.0):
-                continue
-            if variable.name in ("geometry.shaft_angle", "contact.exponent"):
-                continue
-            value = min(max(1.1 * variable.start, variable.minimum or -inf), variable.maximum or inf)
-            opened.initialise({**OWN, variable.name: value})
-            opened.step(0.1)
-            assert opened.read(names) == expected, variable.name
-            tried += 1
+        assert opened.read(names) == expected, variable.name
+        tried += 1
     assert tried > 80
 
 
@@ -277,12 +274,11 @@ def test_wrong_names_of_accepted_start_values_are_reported(accepted, part, scene
 
 
 @pytest.mark.parametrize("oil", [253.15, 393.15])
-def test_an_oil_temperature_without_effect_is_reported(fmu, oil):
-    with fmu.open() as opened:
-        opened.initialise({"oil.temperature": oil})
-        assert list(opened.unfelt) == ["oil.temperature"]
-        opened.initialise({"effects.thrust_friction": True, "thrust_friction.cold_factor": 1.2, "oil.temperature": oil})
-        assert not opened.unfelt
+def test_an_oil_temperature_without_effect_is_reported(opened, oil):
+    opened.initialise({"oil.temperature": oil})
+    assert list(opened.unfelt) == ["oil.temperature"]
+    opened.initialise({"effects.thrust_friction": True, "thrust_friction.cold_factor": 1.2, "oil.temperature": oil})
+    assert not opened.unfelt
 
 
 def test_an_oil_temperature_set_while_the_oil_warms_up_is_reported_to_change_nothing(fmu):

@@ -57,24 +57,22 @@ def unfelt(messages):
 
 
 @pytest.mark.parametrize("values, acts_with", CASES, ids=[" ".join(case) for case, _ in CASES])
-def test_a_value_that_changes_nothing_is_named_with_the_setting_that_it_needs(fmu, values, acts_with):
+def test_a_value_that_changes_nothing_is_named_with_the_setting_that_it_needs(opened, values, acts_with):
     name = next(iter(values))
-    with fmu.open() as opened:
-        opened.initialise(values)
-        assert [message.partition(":")[0] for message in unfelt(opened.messages)] == [name]
-        assert acts_with in opened.unfelt[name]
+    opened.initialise(values)
+    assert [message.partition(":")[0] for message in unfelt(opened.messages)] == [name]
+    assert acts_with in opened.unfelt[name]
 
 
-def test_values_set_to_their_start_values_give_no_warning(fmu):
+def test_values_set_to_their_start_values_give_no_warning(fmu, opened):
     starts = {v.name: v.start for v in fmu.variables.values() if v.causality in ("parameter", "input") and v.start is not None}
     literals = {name: next((word for word, number in fmu.variable(name).literals.items() if number == value), value)
                 for name, value in starts.items()}
     assert len(starts) > 130
-    with fmu.open() as opened:
-        opened.initialise()
-        usual = list(opened.messages)
-        opened.initialise(literals)
-        assert opened.messages == usual and not unfelt(usual)
+    opened.initialise()
+    usual = list(opened.messages)
+    opened.initialise(literals)
+    assert opened.messages == usual and not unfelt(usual)
 
 
 @pytest.mark.parametrize("name", shipped_scenes())
@@ -86,24 +84,22 @@ def test_the_shipped_scenes_set_only_values_that_have_an_effect(name):
         assert not unfelt(scene.warnings)
 
 
-def test_each_value_is_reported_once_in_a_run_and_again_in_the_next(fmu):
-    with fmu.open() as opened:
-        for _ in range(2):
-            opened.initialise({"left.brake_torque": 200.0})
-            for k in range(4):
-                # the first value again, another one that is set later, and one that takes effect
-                opened.set({"left.brake_torque": 150.0 + k, "left.load_torque": 800.0 + k, "limited_slip.preload": 70.0 + k})
-                opened.step(1e-3)
-            assert sorted(opened.unfelt) == ["left.brake_torque", "limited_slip.preload"]
-            assert len(unfelt(opened.messages)) == 2
+def test_each_value_is_reported_once_in_a_run_and_again_in_the_next(opened):
+    for _ in range(2):
+        opened.initialise({"left.brake_torque": 200.0})
+        for k in range(4):
+            # the first value again, another one that is set later, and one that takes effect
+            opened.set({"left.brake_torque": 150.0 + k, "left.load_torque": 800.0 + k, "limited_slip.preload": 70.0 + k})
+            opened.step(1e-3)
+        assert sorted(opened.unfelt) == ["left.brake_torque", "limited_slip.preload"]
+        assert len(unfelt(opened.messages)) == 2
 
 
-def test_an_initial_speed_acts_only_at_the_start(fmu):
-    with fmu.open() as opened:
-        opened.initialise({"scene.carrier_drive": "torque", "carrier.speed_command": 30.0})
-        assert not opened.unfelt
-        opened.set({"carrier.speed_command": 31.0})
-        assert "scene.carrier_drive = speed" in opened.unfelt["carrier.speed_command"]
+def test_an_initial_speed_acts_only_at_the_start(opened):
+    opened.initialise({"scene.carrier_drive": "torque", "carrier.speed_command": 30.0})
+    assert not opened.unfelt
+    opened.set({"carrier.speed_command": 31.0})
+    assert "scene.carrier_drive = speed" in opened.unfelt["carrier.speed_command"]
 
 
 def test_a_host_that_integrates_is_warned_that_the_method_has_no_effect(fmu):
