@@ -45,7 +45,8 @@ def columns(file):
     return names, dict(zip(names, np.array([line.split(",") for line in lines[1:]], float).T))
 
 
-@pytest.mark.parametrize("line", ["run {}", "run {} {other}", "sweep --workers 0 --plan grid --scene {} --vary left.load_torque=800,810 --want left.speed:mean"])
+@pytest.mark.parametrize("line", ["run {}", "run {} {other}", "sweep --workers 0 --plan grid --scene {} --vary left.load_torque=800,810 "
+                                  "--want left.speed:mean"])
 def test_a_unit_that_no_shown_value_has_gives_a_warning(line, tmp_path):
     other = a_file(tmp_path, "other.toml", more='geometry.backlash = "0.2 mm"')
     said = command(f"{line.format(a_file(tmp_path), other=other)} --unit rpm --unit mm").err
@@ -222,8 +223,8 @@ def test_units_of_the_same_kind_are_shared(fmu_file):
 
 
 @pytest.mark.parametrize(("units", "message"), [
-    ('["rmp"]', "did you mean rpm"), ('["rpm", "deg/s"]', "rpm and deg/s are units of the same quantity"), ('["furlong"]', "known: m, mm, um, in, km, rad"),
-    ('["1"]', "there is no unit")])
+    ('["rmp"]', "did you mean rpm"), ('["rpm", "deg/s"]', "rpm and deg/s are units of the same quantity"),
+    ('["furlong"]', "known: m, mm, um, in, km, rad"), ('["1"]', "there is no unit")])
 def test_unknown_units_are_errors(units, message, tmp_path):
     assert message in command(f"run {a_file(tmp_path, 'own.toml', units)}", WRONG).err
     with refused(message):

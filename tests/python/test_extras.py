@@ -53,8 +53,9 @@ def test_the_modules_are_those_of_all_extras():
     assert named == {*MODULES, "bevel-differential", "Jinja2", "lxml", "tqdm"}
 
 
-@pytest.mark.parametrize("line, shown", [*((f"{name} --help", "usage: bevel-differential") for name in COMMANDS), ("--help", "usage: bevel-differential"),
-                                         ("run study_turning --stop 1ms", "left.speed"), ("variables planet_count --acting study_straight", "geometry.planet_count")])
+@pytest.mark.parametrize("line, shown", [
+    *((f"{name} --help", "usage: bevel-differential") for name in COMMANDS), ("--help", "usage: bevel-differential"),
+    ("run study_turning --stop 1ms", "left.speed"), ("variables planet_count --acting study_straight", "geometry.planet_count")])
 def test_the_smallest_installation_is_enough(line, shown, without):
     done = without(line)
     assert done.returncode == 0 and shown in done.stdout and not without_warnings(done.stderr), done.stderr

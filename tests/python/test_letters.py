@@ -7,7 +7,8 @@ import pytest
 from bevel_differential.letters import replaced
 
 
-@pytest.mark.parametrize("encoding, printed", [("ascii", "delta_a -0.1 um, 2 x 3 N.m, >= 4 mm2, h_0, ?"), ("cp932", "δ_a －0.1 um, 2 × 3 N.m, >= 4 mm2, h_0, 漢"),
+@pytest.mark.parametrize("encoding, printed", [("ascii", "delta_a -0.1 um, 2 x 3 N.m, >= 4 mm2, h_0, ?"),
+                                               ("cp932", "δ_a －0.1 um, 2 × 3 N.m, >= 4 mm2, h_0, 漢"),
                                                ("cp1252", "delta_a -0.1 µm, 2 × 3 N·m, >= 4 mm², h_0, ?"),
                                                ("utf-8", "δ_a −0.1 µm, 2 × 3 N·m, ≥ 4 mm², h_₀, 漢")])
 def test_missing_letters_become_similar_ones(encoding, printed, monkeypatch):

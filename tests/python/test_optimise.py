@@ -476,7 +476,8 @@ sys.exit(main(sys.argv[1:]))
 
 def test_an_interrupted_search_keeps_its_front_and_goes_on(folder, monkeypatch):
     given = f"optimise two.toml --out out {FOUR}"
-    process = subprocess.run([sys.executable, "-c", WITH_CTRL_C, *given.split()], cwd=folder, capture_output=True, text=True, timeout=60, preexec_fn=with_interrupts)
+    process = subprocess.run([sys.executable, "-c", WITH_CTRL_C, *given.split()], cwd=folder, capture_output=True, text=True,
+                             timeout=60, preexec_fn=with_interrupts)
     errors = process.stderr
     assert "generation 2 of 4" in process.stdout and "generation 3" not in process.stdout
     assert process.returncode == 130 and "continue with --resume" in errors and "Traceback" not in errors
