@@ -1,6 +1,6 @@
 """List of all commands for tests: quick examples by exit status, the files that they write, and the warnings that they print.
 
-Lines are those of a folder with `FILES`, and with the units good.fmu and bad.fmu (see test_every_command.py)."""
+Lines are those of a folder with `FILES`, and with the units good.fmu and bad.fmu (see conftest.py)."""
 
 import argparse
 import importlib

@@ -17,6 +17,7 @@ os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(os.environ.get("FMU", "")
 
 from bevel_differential import Differential, Fmu, style  # noqa: E402
 from driving import Drive  # noqa: E402
+from evidence_unit import packed  # noqa: E402
 from fmi3 import Unit3  # noqa: E402
 
 
@@ -151,3 +152,12 @@ def figures(monkeypatch):
     saved = []
     monkeypatch.setattr(style, "save", lambda figure, file, shaded=False: saved.append(figure))
     return saved
+
+
+@pytest.fixture(scope="session")
+def units(fmu_file, tmp_path_factory):
+    """Folder of FMUs with the evidence of one scene: good.fmu agrees with it, bad.fmu does not."""
+    folder = tmp_path_factory.mktemp("units")
+    for name, changes in (("good", {}), ("bad", {"results/one_wheel_on_ice.csv": lambda text: text.replace("\n0,", "\n0,1", 1)})):
+        packed(fmu_file, folder / f"{name}.fmu", ["one_wheel_on_ice"], changes)
+    return folder

@@ -1,10 +1,8 @@
-"""Pages for readers: links have targets, commands are known, and long texts are limited."""
+"""Pages for readers: links have targets, commands of the builder are known, and long texts are limited."""
 
-import importlib
 import re
 
 import pytest
-from bevel_differential import command
 from documents import FOR_USERS, MARKED, PAGES, ROOT, anchors, commands, links
 
 # of the pages for users: how many, and their words without generated tables; lines of the README; letters of a row of a table
@@ -39,17 +37,6 @@ def test_the_readme_begins_with_the_picture_and_the_commands_that_set_everything
         assert re.search(rf"^{command_line} +# (\d+ to )?\d+ minutes$", begin, re.MULTILINE)
         assert f"| `{command_line}` |" not in rest
     assert "figures/differential.png" in begin
-
-
-@pytest.mark.parametrize("shown", commands("bevel-differential"), ids=str)
-def test_a_command_of_the_package_is_understood(shown):
-    name, *arguments = shown.words[1:]
-    if name.isupper() or name.startswith("-"):
-        return
-    module = importlib.import_module(command.COMMANDS[name][0], command.PACKAGE)
-    parser = command.Parser(prog=name)
-    module.add_arguments(parser)
-    parser.parse_args([word for word in arguments if word not in ("…", "...")])
 
 
 @pytest.mark.parametrize("shown", commands("cargo run"), ids=str)

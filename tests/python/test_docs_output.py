@@ -12,11 +12,13 @@ import shutil
 import subprocess
 import sys
 import textwrap
+import webbrowser
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
 from bevel_differential import command
+from bevel_differential.command import page as page_command
 from documents import ROOT, blocks, commands, printed, saved
 from command_line import without_warnings
 
@@ -35,8 +37,6 @@ QUICKER = {
     "bench": ["breakaway"],
     "report": ["--quick"],
 }
-# opens a browser, and needs a file that only a build creates (test_page_command.py)
-NOT_RUN = "page"
 # file contents on pages that do not name the file, by a word that they contain: the name, and the command that reads the file
 FILES = {
     "stop_time": ("scene.toml", ["run"]),
@@ -49,10 +49,10 @@ FILES = {
 SHOWN = {}
 for source, block in printed():
     SHOWN.setdefault(source, []).append(block)
-COMMANDS = [one for one in commands("bevel-differential") if one.words[1] != NOT_RUN and not one.words[1].isupper()]
+COMMANDS = [one for one in commands("bevel-differential") if not one.words[1].isupper()]
 OF_FMPY = commands("target/python/bin/fmpy info")
-# one run of each command in a separate process, which shows that the command does not depend on others
-ALONE = list({one.words[1]: one for one in reversed(COMMANDS)}.values())
+# one run of each command in a separate process, which shows that the command does not depend on others; `page` opens a browser
+ALONE = list({one.words[1]: one for one in reversed(COMMANDS) if one.words[1] != "page"}.values())
 
 
 @pytest.fixture
@@ -66,8 +66,10 @@ def reader(fmu_file, tmp_path, monkeypatch):
         (tmp_path / "target" / "fmu").symlink_to(Path(fmu_file).resolve().parent)
         for name, text in (saved("docs/your-car.md") | saved(page)).items():
             (tmp_path / name).write_text(text, encoding="utf-8")
-        monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", str(Path(fmu_file).resolve()))
         monkeypatch.setenv("MPLBACKEND", "Agg")
+        # only a build creates this file
+        monkeypatch.setattr(page_command, "page_file", lambda: tmp_path / "page.html")
+        monkeypatch.setattr(webbrowser, "open", lambda address: True)
         monkeypatch.chdir(tmp_path)
         return tmp_path
 

@@ -17,7 +17,6 @@ import pandas as pd
 import pytest
 from command_line import command, without_warnings
 from command_list import EXAMPLES, having, line, options, prepare
-from evidence_unit import packed
 from refusals import pattern
 
 from bevel_differential import cad, library, verify
@@ -45,15 +44,6 @@ WRONG_SET = [
 ]
 # commands without a line that warns; the warnings of their sweeps, scenes and runs are tested in the package
 QUIET = {"variables", "tolerance", "bench", "study", "verify", "examples", "page"}
-
-
-@pytest.fixture(scope="module")
-def units(fmu_file, tmp_path_factory):
-    """FMUs with the evidence of one scene: good.fmu agrees with it, bad.fmu does not."""
-    folder = tmp_path_factory.mktemp("units")
-    for name, changes in (("good", {}), ("bad", {"results/one_wheel_on_ice.csv": lambda text: text.replace("\n0,", "\n0,1", 1)})):
-        packed(fmu_file, folder / f"{name}.fmu", ["one_wheel_on_ice"], changes)
-    return folder
 
 
 @pytest.fixture

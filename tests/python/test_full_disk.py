@@ -10,19 +10,12 @@ from pathlib import Path
 import pytest
 from command_line import command, without_warnings
 from command_list import EXAMPLES, line, prepare
-from evidence_unit import packed
 
 from bevel_differential import writing
 from bevel_differential.command import FAILED
 
 DISK = 200_000
 CASES = [(name, files) for name, example in EXAMPLES.items() for files in example.files]
-
-
-@pytest.fixture(scope="module")
-def unit(fmu_file, tmp_path_factory):
-    """FMU with the evidence of one scene."""
-    return packed(fmu_file, tmp_path_factory.mktemp("units") / "good.fmu", ["one_wheel_on_ice"])
 
 
 def mount(*arguments):
@@ -47,13 +40,13 @@ def content(folder):
 
 
 @pytest.fixture
-def refused(unit, monkeypatch):
+def refused(units, monkeypatch):
     """refused(name, files, folder, cause, change): runs a command in a folder with an old file, after a change due to which it must fail.
     Old files stay, new files are complete and allowed, and the message names a file and the cause."""
     def run(name, files, folder, cause, change):
         monkeypatch.chdir(folder)
         prepare(folder)
-        Path("good.fmu").symlink_to(unit)
+        Path("good.fmu").symlink_to(units / "good.fmu")
         if files.old:
             Path(files.old).parent.mkdir(exist_ok=True)
             Path(files.old).write_text("what was there before\n", encoding="utf-8")
