@@ -1,6 +1,5 @@
 """Calculations in scripts of the laboratory: errors of facets, deviations of hosts, counts of instructions, figures of the ladder."""
 
-import os
 import math
 import queue
 import sys
@@ -23,19 +22,6 @@ import precision  # noqa: E402
 import solids_errors  # noqa: E402
 import survey_scenes  # noqa: E402
 import tools  # noqa: E402
-
-
-@pytest.fixture(autouse=True, scope="module")
-def usual_fmu(fmu_file):
-    """Makes the FMU under test the default one."""
-    before = os.environ.get("BEVEL_DIFFERENTIAL_FMU")
-    os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(fmu_file)
-    yield
-    if before is None:
-        del os.environ["BEVEL_DIFFERENTIAL_FMU"]
-    else:
-        os.environ["BEVEL_DIFFERENTIAL_FMU"] = before
-
 
 
 def record(values):
