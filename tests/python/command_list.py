@@ -53,7 +53,7 @@ PROBLEM = """description = "light or strong"
 scene = "{scene}"
 objectives = ["minimise gears.mass", "maximise safety.root_min"]
 conditions = ["envelope.diameter <= {diameter} mm"]
-population = 8
+population = 4
 generations = 1
 [set]
 effects.strength = true
@@ -141,8 +141,8 @@ EXAMPLES = {
                      files=[Files("--csv a.csv"), Files("--out a.parquet --force", "a.parquet")]),
     "optimise": Example(f"light.toml {_OPTIMISE} out", f"none.toml {_OPTIMISE} out", finding=f"tiny.toml {_OPTIMISE} out",
                         files=[Files("", "out/front.png", 60_000, ("out/problem.json", "out/evaluations.parquet", "out/front.csv"))],
-                        warned=f"warning.toml {_OPTIMISE} out --quick --population 4 --starts 1", warnings=(STIFFNESS,),
-                        quick="--quick --population 8 --generations 1"),
+                        warned=f"warning.toml {_OPTIMISE} out --quick --starts 1", warnings=(STIFFNESS,),
+                        quick="--quick --population 4 --generations 1 --starts 1"),
     "tolerance": Example(f"narrow.toml {_TOLERANCE}", "narrow.toml --runs 9", finding=f"wide.toml {_TOLERANCE}",
                          files=[Files("--csv a.csv --plot a.png")], table="--csv"),
     "spectrum": Example("light.csv", "none.csv", finding="heavy.csv", files=[Files("--csv a.csv --plot a.pdf", "a.pdf", 4096, ("a.csv",))],
