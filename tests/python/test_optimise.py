@@ -462,7 +462,7 @@ def test_a_generation_has_its_front_in_the_file_when_its_line_is_printed(folder,
 INTERRUPTED_AT = 28
 WITH_CTRL_C = f"""
 import os, signal, sys
-from bevel_differential.command import INTERRUPTED
+from bevel_differential.command import main
 from bevel_differential.optimise.design_task import DesignTask
 evaluate = DesignTask.evaluate
 def interrupted(task, run, values):
