@@ -2,7 +2,7 @@
 
 use super::directions::Arcs;
 use super::face::Part;
-use super::sums::{LoadedNode, PairFriction, Sums};
+use super::sums::{Approach, LoadedNode, PairFriction, Sums};
 use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
 use crate::contact::{Spring, ToothPair};
 
@@ -24,19 +24,31 @@ pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
     pub motion: PairMotion<OPEN, SHARED>,
 }
 
-impl<P, const OPEN: bool, const SHARED: bool> Touching<'_, P, OPEN, SHARED> {
-    /// Load of one point of the face. The normal of the flanks has the `components` along the planet's axis, along the
-    /// side gear's axis, and forward. `moment` is the sum of the weights of all points.
+/// What the loads of a pair's points have in common.
+struct Seen<'a> {
+    name: &'a PairName,
+    pair: &'a ToothPair,
+    opening: &'a Opening,
+    approach: Approach,
+    /// Sign of the forward direction.
+    sign: f64,
+    /// Sum of the weights of all points.
+    moment: f64,
+}
+
+impl<'a> Seen<'a> {
+    /// Load of one point of the face. The normal of the flanks has these `components` along the axes of planet and side
+    /// gear, and forward.
     #[inline(always)]
-    fn slice_load<'a>(&'a self, loaded: &LoadedNode<'a>, components: [f64; 3], moment: f64) -> SliceLoad<'a> {
+    fn slice_load(&self, loaded: &LoadedNode<'a>, [planet, side, forward]: [f64; 3]) -> SliceLoad<'a> {
         let (LoadedNode { node, torque, friction, .. }, pair) = (loaded, self.pair);
-        let (force, [planet, side, forward]) = (torque * node.weight * node.per_cone, components);
+        let force = torque * node.weight * node.per_cone;
         SliceLoad {
             pair,
             spot: pair.spot,
             spot_arc: pair.spot_arc,
             cone: node.cone,
-            share: node.weight / moment,
+            share: node.weight / self.moment,
             line_load: force / node.width,
             arc: loaded.arc,
             s: pair.s,
@@ -45,8 +57,8 @@ impl<P, const OPEN: bool, const SHARED: bool> Touching<'_, P, OPEN, SHARED> {
             normal: force,
             friction: friction.map_or(0.0, |(h, _)| -h * force),
             sliding: friction.map(|(_, sliding)| sliding),
-            components: [planet, side, -self.motion.sign * forward],
-            approach: self.motion.approach,
+            components: [planet, side, -self.sign * forward],
+            approach: self.approach,
             opening: self.opening,
         }
     }
@@ -68,39 +80,46 @@ impl Detailed {
         touching: Touching<S::Local, OPEN, SHARED>,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let (pair, motion, mut arcs) = (touching.pair, &touching.motion, touching.arcs);
+        let Touching { name, pair, local, opening, mut arcs, parts, motion } = touching;
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }
-        let friction = self.friction.as_ref().map(|law| teeth.viscosity.map_or(*law, |of| law.with_viscosity(of)));
-        let pair_friction = friction.as_ref().map(|law| {
+        let warmed;
+        let friction = match (&self.friction, teeth.viscosity) {
+            (Some(law), Some(viscosity)) => {
+                warmed = law.with_viscosity(viscosity);
+                Some(&warmed)
+            }
+            (law, _) => law.as_ref(),
+        };
+        let pair_friction = friction.map(|law| {
             let geometry = self.directions.sliding_geometry(&arcs);
             let whole = self.friction_face.as_ref().filter(|_| !OPEN || !self.face.is_distributed()).map(Face::nodes);
             PairFriction { law, speeds: motion.speeds(&geometry), geometry, whole }
         });
         let normal = needs_thrust.then(|| self.directions.normal(teeth.engagement, pair.spot, &arcs, pair.spot_arc));
         let mut see = |node: &LoadedNode| {
-            if let Some(normal) = &normal {
-                look(&touching.slice_load(node, normal.components, self.moment));
-            }
+            let Some(normal) = &normal else { return };
+            let seen = Seen { name, pair, opening, approach: motion.approach, sign: motion.sign, moment: self.moment };
+            look(&seen.slice_load(node, normal.components));
         };
-        let local = touching.local.unwrap_or_else(|| spring.local(pair.s));
+        let local = local.unwrap_or_else(|| spring.local(pair.s));
         let law = (spring, &local, &self.damping);
         let mut sums = Sums::default();
-        for part in if OPEN { &touching.parts[..] } else { &touching.parts[..1] } {
+        for part in if OPEN { &parts[..] } else { &parts[..1] } {
             let (at, pair_friction) = (&motion.approach, pair_friction.as_ref());
             if const { ROWS > 0 } {
-                sums.add::<S, true, OPEN>(part, law, at, touching.opening, pair_friction, &mut see);
+                sums.add::<S, true, OPEN>(part, law, at, opening, pair_friction, &mut see);
             } else {
-                sums.add::<S, false, OPEN>(part, law, at, touching.opening, pair_friction, &mut see);
+                sums.add::<S, false, OPEN>(part, law, at, opening, pair_friction, &mut see);
             }
         }
-        totals.add_teeth(motion, &sums);
+        totals.add_teeth(&motion, &sums);
         if let Some(pair_friction) = &pair_friction {
-            totals.add_friction(motion, &sums, pair_friction);
+            totals.add_friction(&motion, &sums, pair_friction);
         }
         if let Some(normal) = &normal {
-            totals.add_thrust(motion, &sums, normal, pair.spot);
+            totals.add_thrust(&motion, &sums, normal, pair.spot);
         }
     }
 }

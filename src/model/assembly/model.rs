@@ -92,19 +92,7 @@ impl Model {
         let mut warnings = checked.warnings.clone();
         warnings.extend(effects.warnings());
         warnings.extend(advice::warnings(parameters));
-        let mut body_effects = BodyEffects::new(parameters, &effects, &plan);
-        body_effects.check().map_err(|p| vec![p])?;
-        let gears = match plan.contact {
-            GearContact::Ideal => {
-                // the closed form has no steps that an effect could record
-                body_effects.has_effects |= parameters.effects.record_steps();
-                Gears::Ideal(Box::new(IdealWithEffects::new(&ideal, body_effects)))
-            }
-            GearContact::Lumped | GearContact::Tooth | GearContact::Solid => {
-                let laws = Laws::new(parameters, &pair, &tooth, cache).map_err(|p| vec![p])?;
-                Gears::Teeth(Box::new(teeth(parameters, &effects, &ideal, (laws, tooth, body_effects), cache)))
-            }
-        };
+        let gears = gears(parameters, &effects, &ideal, tooth, cache).map_err(|p| vec![p])?;
         let merged = match &gears {
             Gears::Teeth(teeth) if parameters.solver.merge_planets => teeth.merged(),
             _ => None,
@@ -162,6 +150,25 @@ impl Model {
             }
         }
     }
+}
+
+/// Gears of the scene with the effects on bodies. Fails if the effects contradict the gears.
+fn gears(
+    parameters: &Parameters,
+    effects: &SceneEffects,
+    ideal: &Ideal,
+    tooth: ToothEffects,
+    cache: &GearCache,
+) -> Result<Gears, Problem> {
+    let mut body_effects = BodyEffects::new(parameters, effects, &ideal.plan);
+    body_effects.check()?;
+    if ideal.plan.contact == GearContact::Ideal {
+        // the closed form has no steps that an effect could record
+        body_effects.has_effects |= parameters.effects.record_steps();
+        return Ok(Gears::Ideal(Box::new(IdealWithEffects::new(ideal, body_effects))));
+    }
+    let laws = Laws::new(parameters, effects.setting.pair, &tooth, cache)?;
+    Ok(Gears::Teeth(Box::new(teeth(parameters, effects, ideal, (laws, tooth, body_effects), cache))))
 }
 
 /// Influence of effects on single teeth. Solid teeth include their errors directly.

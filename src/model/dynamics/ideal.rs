@@ -4,15 +4,13 @@
 //! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the
 //! constraint force λ_s = J_s ω̇_s − Q_s.
 
-use super::energy_floor::energy_floor;
-use super::shape::{set_twist_rates, turn_twist_rates};
 use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
-use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
+use crate::integrate::{Linearisation, Point, SecondOrder};
 use crate::model::assembly::BodyEffects;
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, BodyMotion, Slopes, SurfaceLoad};
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PLANET, Plan};
+use crate::model::scene::{CARRIER, Inputs, Layout, PAIRS, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// Torques that follow from the constraint.
@@ -39,12 +37,12 @@ type InputsNow<'a> = (&'a Inputs, &'a Inputs);
 
 impl<'a> IdealEquations<'a> {
     /// Index of the end of the half-shaft of side `s`.
-    fn end(&self, s: usize) -> usize {
+    pub(super) fn end(&self, s: usize) -> usize {
         PLANET + 1 + s
     }
 
     /// Number of degrees of freedom.
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.ideal.layout.count()
     }
 
@@ -58,7 +56,7 @@ impl<'a> IdealEquations<'a> {
 
     /// Calls `of` with the inputs at `time` [s] after they were set.
     #[inline(always)]
-    fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
+    pub(super) fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
         if self.applied.driven {
             let (inputs, derivatives) = self.applied.input_derivatives.after(time, &self.applied.inputs);
             of((&inputs, &derivatives.rates[0]))
@@ -69,13 +67,13 @@ impl<'a> IdealEquations<'a> {
 
     /// Inputs at the time at which they were set.
     #[inline(always)]
-    fn now(&self) -> InputsNow<'_> {
+    pub(super) fn now(&self) -> InputsNow<'_> {
         (&self.applied.inputs, &self.applied.input_derivatives.rates[0])
     }
 
     /// Forces, including the commanded torques of motions that are not imposed, and the accelerations of imposed
     /// motions.
-    fn forces(
+    pub(super) fn forces(
         &self,
         at: &Point<IDEAL_SIZE>,
         (inputs, rates): InputsNow,
@@ -214,7 +212,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Accelerations under inputs.
-    fn accelerate(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> [f64; IDEAL_SIZE] {
+    pub(super) fn accelerate(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> [f64; IDEAL_SIZE] {
         if self.linear().is_some() {
             let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
             return self.accelerations_by_shafts(&sum, &imposed);
@@ -224,7 +222,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Returns accelerations under inputs and adds to the ledger rates.
-    fn evaluate_under(
+    pub(super) fn evaluate_under(
         &self,
         at: &Point<IDEAL_SIZE>,
         now: InputsNow,
@@ -250,7 +248,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Writes the linearised equations under inputs to `lin`.
-    fn linearise_under(
+    pub(super) fn linearise_under(
         &self,
         at: &Point<IDEAL_SIZE>,
         now: InputsNow,
@@ -307,13 +305,13 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Kinetic energy [J].
-    fn kinetic_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
+    pub(super) fn kinetic_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
         // rows beyond the last degree of freedom have no inertia
         0.5 * (0..IDEAL_SIZE).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
     /// Energy stored in half-shafts and stuck friction [J].
-    fn stored_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
+    pub(super) fn stored_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
         let motion = self.motion(at, self.now());
         if self.linear().is_some() && self.applied.is_free() {
             return self.ideal.body_effects.forces[0].energy(&motion);
@@ -362,143 +360,5 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
 
     fn acceleration_by_inputs(&self, at: &Point<IDEAL_SIZE>) -> [f64; IDEAL_SIZE] {
         self.accelerate(at, self.now())
-    }
-}
-
-impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
-    type Rates = LedgerRates;
-
-    fn degrees_of_freedom(&self) -> usize {
-        self.count()
-    }
-
-    #[inline]
-    fn rows(&self) -> usize {
-        IDEAL_SIZE
-    }
-
-    fn energy(&self, at: &Point<IDEAL_SIZE>) -> [f64; 2] {
-        [self.kinetic_energy(at), self.stored_energy(at)]
-    }
-
-    fn imbalance(&self, energies: [[f64; 2]; 2], h: f64, ledger_rates: &[LedgerRates; 3]) -> Imbalance {
-        LedgerRates::imbalance::<true>(energies, h, ledger_rates)
-    }
-
-    fn energy_floor(&self, ends: [&Point<IDEAL_SIZE>; 2], tolerance: f64, residual: f64) -> f64 {
-        let spring_forces = || {
-            let rest = Point { q: ends[1].q, v: [0.0; IDEAL_SIZE] };
-            let (force, _) = self.forces(&rest, (&Inputs::ZERO, &Inputs::ZERO), &mut LedgerRates::default());
-            std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
-        };
-        energy_floor(self, ends, (tolerance, false), residual, spring_forces, |at| self.kinetic_energy(at))
-    }
-
-    #[inline]
-    fn rates(&self, v: &[f64; IDEAL_SIZE]) -> [f64; IDEAL_SIZE] {
-        let mut rates = *v;
-        for s in 0..2 {
-            rates[s] -= v[CARRIER];
-        }
-        // constant indices of the ends need no tests
-        for s in (0..2).filter(|_| self.has_ends()) {
-            rates[self.end(s)] = v[s] - v[self.end(s)];
-        }
-        set_twist_rates(self.ideal.others.iter().copied(), v, &mut rates);
-        rates
-    }
-
-    #[inline]
-    fn times_rates(&self, m: &mut Matrix<IDEAL_SIZE>) {
-        let has_ends = self.has_ends();
-        for row in m.iter_mut() {
-            row[CARRIER] -= row[0] + row[1];
-            for s in (0..2).filter(|_| has_ends) {
-                let end = self.end(s);
-                row[s] += row[end];
-                row[end] = -row[end];
-            }
-            turn_twist_rates(self.ideal.others.iter().copied(), row);
-        }
-    }
-
-    fn evaluate(&self, at: &Point<IDEAL_SIZE>) -> ([f64; IDEAL_SIZE], LedgerRates) {
-        let mut ledger_rates = LedgerRates::default();
-        (self.evaluate_under(at, self.now(), &mut ledger_rates), ledger_rates)
-    }
-
-    fn linearise(&self, at: &Point<IDEAL_SIZE>) -> Linearisation<IDEAL_SIZE, LedgerRates> {
-        let mut lin = Linearisation::default();
-        self.linearise_under(at, self.now(), &mut lin);
-        lin
-    }
-
-    #[inline]
-    fn is_driven(&self) -> bool {
-        self.applied.driven
-    }
-
-    #[inline]
-    fn evaluate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> ([f64; IDEAL_SIZE], LedgerRates) {
-        let mut ledger_rates = LedgerRates::default();
-        (self.at_time(time, |now| self.evaluate_under(at, now, &mut ledger_rates)), ledger_rates)
-    }
-
-    #[inline]
-    fn accelerate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
-        self.at_time(time, |now| self.accelerate(at, now))
-    }
-
-    fn linearise_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> Linearisation<IDEAL_SIZE, LedgerRates> {
-        let mut lin = Linearisation::default();
-        self.at_time(time, |now| self.linearise_under(at, now, &mut lin));
-        lin
-    }
-
-    #[inline]
-    fn linearise_with_energy(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        time: f64,
-        lin: &mut Linearisation<IDEAL_SIZE, LedgerRates>,
-    ) -> [f64; 2] {
-        self.at_time(time, |now| self.linearise_under(at, now, lin));
-        self.energy(at)
-    }
-
-    fn drift(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
-        let (_, InputDerivatives { rates: [first, second] }) =
-            self.applied.input_derivatives.after(time, &self.applied.inputs);
-        let with = self.accelerate(at, (&first, &second));
-        let without = self.accelerate(at, (&Inputs::ZERO, &Inputs::ZERO));
-        std::array::from_fn(|i| with[i] - without[i])
-    }
-
-    fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {
-        LedgerRates::combined(of)
-    }
-
-    fn undo_torque_change(&self, at: &Point<IDEAL_SIZE>, ledger_rates: &mut LedgerRates) {
-        self.undo_input_change(at, ledger_rates);
-        for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
-            ledger_rates.shaft[s] = self.applied.inputs.load_torque[s] - self.applied.change[s];
-        }
-    }
-
-    fn weights(&self, at: &Point<IDEAL_SIZE>) -> Point<IDEAL_SIZE> {
-        let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
-        let mut weights = Point { q: [1.0; IDEAL_SIZE], v: [1.0 / (carrier + at.v[PLANET].abs()); IDEAL_SIZE] };
-        if self.has_dry_friction() {
-            // a stuck clutch or wheel turns by milliradians
-            (weights.q[0], weights.q[1]) = (1e3, 1e3);
-        }
-        for (i, _) in self.ideal.layout.attached() {
-            weights.q[i] = 1.0 / (1e-3 + at.q[i].abs());
-        }
-        weights
-    }
-
-    fn crossing(&self, start: TimedPoint<IDEAL_SIZE>, end: TimedPoint<IDEAL_SIZE>) -> Option<f64> {
-        self.friction_crossing(start, end)
     }
 }

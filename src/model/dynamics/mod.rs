@@ -6,7 +6,8 @@
 //!   `dry_friction`: friction under these loads;
 //! - `equations`: effects on bodies, inputs, and the resulting accelerations; `driven`: inputs that change with time;
 //! - `motion`: interface of the equations to an integrator;
-//! - `ideal`: equations without teeth; `closed_form`: motion of ideal gears without effects, in closed form;
+//! - `ideal`, `ideal_motion`: equations without teeth, and their interface to an integrator; `closed_form`: motion of
+//!   ideal gears without effects, in closed form;
 //! - `ledger_rates`, `energy_floor`: powers that are computed with the forces, and the energy that a step does not
 //!   resolve;
 //! - `state`, `acting_inputs`, `timeline`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
@@ -25,6 +26,7 @@ mod energy_floor_tests;
 pub mod equations;
 pub mod event;
 pub mod ideal;
+mod ideal_motion;
 #[cfg(test)]
 #[path = "tests/ideal.rs"]
 mod ideal_tests;

@@ -148,16 +148,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
 ) -> Result<(), StepFailure> {
     let before = state.statistics;
     let Integration { clock, begin, is_returned, pauses, inputs, change, mut memories } = integration;
-    let mut trajectory = Trajectory {
-        longest: LONGEST,
-        resolution: RESOLUTION,
-        expected: clock.expected,
-        ..Trajectory::new(state.point(), clock.time, clock.end)
-    };
-    if let Some(pending_step) = &state.pending_step {
-        pending_step.resume(&mut trajectory);
-        trajectory.end_at(clock.end);
-    }
+    let mut trajectory = resumed(state, clock);
     if let Some((time, acceleration_change)) = change {
         change_torques(equations, state, &mut trajectory, inputs, (time, acceleration_change));
     }
@@ -205,6 +196,23 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     state.friction = equations.applied().friction_state;
     store(state, clock, &trajectory, outcome.is_ok());
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
+}
+
+/// Trajectory from the last completed step, or within the pending step if there is one. Always inlined, so that this large
+/// value is written in place.
+#[inline(always)]
+fn resumed<const N: usize>(state: &State, clock: &Clock) -> Trajectory<N, LedgerRates> {
+    let mut trajectory = Trajectory {
+        longest: LONGEST,
+        resolution: RESOLUTION,
+        expected: clock.expected,
+        ..Trajectory::new(state.point(), clock.time, clock.end)
+    };
+    if let Some(pending_step) = &state.pending_step {
+        pending_step.resume(&mut trajectory);
+        trajectory.end_at(clock.end);
+    }
+    trajectory
 }
 
 /// Applies the torques of `inputs` from a `time` on the clock [s] within the pending step. The accelerations change
