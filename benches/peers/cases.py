@@ -80,7 +80,7 @@ def measures(case, time, speeds, angles, forces, cpu):
 def settings():
     """Settings from run.py: a JSON object as the only argument."""
     if len(sys.argv) != 2:
-        raise SystemExit("this is started by run.py with its settings as JSON; use: cargo run -p lab --release -- compare-simulators")
+        raise SystemExit("this is started by run.py with its settings as JSON; use: python3 crates/lab/lab.py compare-simulators")
     return json.loads(sys.argv[1])
 
 

@@ -5,7 +5,7 @@ usage: run.py FMU FOLDER [--quick]
 FOLDER receives table.md, results.csv, results.json and peers.png. Each run is a separate process. Repetitions alternate
 between all rows, so that a slow period of the machine affects every tool. Costs are medians. A tool that is not installed
 is left out. Lines "progress FRACTION WHAT" on standard error report progress; the table is written to standard output.
-`cargo run -p lab --release -- compare-simulators` creates the environment and runs all of it.
+`python3 crates/lab/lab.py compare-simulators` creates the environment and runs all of it.
 """
 
 import contextlib

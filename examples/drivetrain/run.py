@@ -5,7 +5,7 @@
 FMU is the FMU of this program, LIBRARY is foreign-solvers as cargo built it. Writes SSP archives, errors.csv, summary.md and
 pictures to FOLDER and prints the tables. Fails if an archive does not conform to its version of SSP, if archives or hosts disagree, or if
 errors, orders or limits contradict theory.
-`cargo run -p lab --release -- drivetrain` creates the environment and runs this script.
+`python3 crates/lab/lab.py drivetrain` creates the environment and runs this script.
 """
 
 import contextlib

@@ -5,6 +5,7 @@ use std::ffi::OsString;
 use anyhow::Result;
 use clap::{Args as _, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
+use crate::environment::EnvironmentCommand;
 use crate::fmu::BuildCommand;
 use crate::study::StudyCommand;
 use crate::tools::program::{Program, Stop};
@@ -12,7 +13,7 @@ use crate::tools::program::{Program, Stop};
 /// Command line of this program.
 pub const PROGRAM: &str = "cargo run --release --";
 /// Command line of the laboratory, a separate program.
-pub const LABORATORY: &str = "cargo run -p lab --release --";
+pub const LABORATORY: &str = "python3 crates/lab/lab.py";
 
 #[derive(Parser)]
 #[command(name = "fmu-build", version, disable_help_subcommand = true)]
@@ -31,6 +32,8 @@ pub enum AnyCommand {
     Study(StudyCommand),
     #[command(flatten)]
     Build(BuildCommand),
+    #[command(hide = true)]
+    Environment(EnvironmentCommand),
     /// Shows this overview, or the options of a command
     #[command(hide = true)]
     Help {
@@ -45,6 +48,7 @@ impl AnyCommand {
         match self {
             Self::Study(command) => command.run(),
             Self::Build(command) => command.run(),
+            Self::Environment(command) => command.run(),
             // already handled while parsing
             Self::Help { .. } => Ok(()),
         }

@@ -4,10 +4,12 @@
 //! - [`tools`]: shared tools, independent of gears
 //! - [`fmu`]: builds the FMU
 //! - [`study`]: the default command
+//! - [`environment`]: Python environments for the scripts of the laboratory
 
 #![warn(missing_docs)]
 
 pub mod command_line;
+pub mod environment;
 pub mod fmu;
 pub mod study;
 pub mod tools;

@@ -33,7 +33,7 @@ fn left_out(report: &str) -> String {
     }
     let mut text = String::from("left out: ");
     skipped.iter().for_each(|(reason, count)| text.push_str(&format!("{count} Python tests ({reason}); ")));
-    text + "checks with valgrind, node, Chromium and other hosts: cargo run -p lab --release -- help"
+    text + "checks with valgrind, node, Chromium and other hosts: python3 crates/lab/lab.py help"
 }
 
 #[test]

@@ -1,6 +1,6 @@
 """Fixtures for the tests of the page: the page in Chromium, the native FMU and node.
 
-The command `cargo run -p lab --release -- test-page` runs the tests and sets the environment variables PAGE, FMU, CHROMIUM and NODE."""
+The command `python3 crates/lab/lab.py test-page` runs the tests and sets the environment variables PAGE, FMU, CHROMIUM and NODE."""
 
 import csv
 import os
@@ -55,7 +55,7 @@ def named_file(variable):
     """Returns the path in an environment variable. Ends the tests if the file does not exist."""
     path = Path(os.environ.get(variable, ""))
     if not path.is_file():
-        pytest.exit(f"{variable} names no file; use: cargo run -p lab --release -- test-page", returncode=2)
+        pytest.exit(f"{variable} names no file; use: python3 crates/lab/lab.py test-page", returncode=2)
     return path
 
 

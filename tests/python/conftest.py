@@ -36,7 +36,7 @@ def fmu_file():
     """Path of the .fmu file, from the environment variable FMU."""
     path = os.environ["BEVEL_DIFFERENTIAL_FMU"]
     if not os.path.isfile(path):
-        pytest.exit("FMU does not name the packaged .fmu; use: cargo run -p lab --release -- test-python", returncode=2)
+        pytest.exit("FMU does not name the packaged .fmu; use: python3 crates/lab/lab.py test-python", returncode=2)
     return path
 
 

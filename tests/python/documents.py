@@ -11,7 +11,7 @@ FOR_USERS = sorted(ROOT.glob("docs/*.md"))
 PAGES = [ROOT / "README.md", *FOR_USERS, *sorted(ROOT.glob("docs/inside/*.md")), *sorted(ROOT.glob("examples/*/README.md"))]
 LINK = re.compile(r'\]\(([^)\s]+)\)|(?:src|href)="([^"]+)"')
 # a command may be in an HTML comment if the page's text describes it in other words
-COMMAND = re.compile(r"^(?: {4}|\$ |<!-- )?((?:bevel-differential|cargo run|target/python/bin/fmpy) (?:.*\\\n)*.*?)(?: -->)?$", re.MULTILINE)
+COMMAND = re.compile(r"^(?: {4}|\$ |<!-- )?((?:bevel-differential|cargo run|python3 crates/lab/lab.py|target/python/bin/fmpy) (?:.*\\\n)*.*?)(?: -->)?$", re.MULTILINE)
 SAVED = re.compile(r"`(\w+\.toml)`[^\n]*\n\n```toml\n(.*?)```", re.DOTALL)
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 # sections that a command of the laboratory updates

@@ -1,9 +1,13 @@
 """Pages for readers: links have targets, commands of the builder are known, and long texts are limited."""
 
 import re
+import sys
 
 import pytest
 from documents import FOR_USERS, MARKED, PAGES, ROOT, anchors, commands, links
+
+sys.path.append(str(ROOT / "crates" / "lab"))
+import lab  # noqa: E402
 
 # of the pages for users: how many, and their words without generated tables; lines of the README; letters of a row of a table
 MOST_PAGES, WORDS, LINES, WIDEST = 12, 22_000, 120, 160
@@ -40,15 +44,20 @@ def test_the_readme_begins_with_the_picture_and_the_commands_that_set_everything
 
 
 @pytest.mark.parametrize("shown", commands("cargo run"), ids=str)
-def test_a_command_of_the_builder_or_the_laboratory_is_there(shown):
+def test_a_command_of_the_builder_is_there(shown):
     words = list(shown.words)
     given = words[words.index("--") + 1:] if "--" in words else []
     if not given or given[0].isupper() or given[0].startswith("-"):
         return
-    crate = "crates/lab" if "lab" in words else "fmu-build"
-    source = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / crate / "src").rglob("*.rs"))
+    source = "\n".join(file.read_text(encoding="utf-8") for file in (ROOT / "fmu-build" / "src").rglob("*.rs"))
     spoken = "".join(part.capitalize() for part in given[0].split("-"))
     assert re.search(rf"\b{spoken}\b|\b{spoken}Command\b|\"{given[0]}\"", source), given[0]
     for option in (word for word in given[1:] if word.startswith("--")):
         field = option[2:].replace("-", "_")
         assert re.search(rf"\b{field}\b|\"{option[2:]}\"", source), option
+
+
+@pytest.mark.parametrize("shown", commands("python3 crates/lab/lab.py"), ids=str)
+def test_a_command_of_the_laboratory_is_understood(shown):
+    name, *arguments = shown.words[2:]
+    lab.Parser(lab.COMMANDS[name]).parsed(arguments)

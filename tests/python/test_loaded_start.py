@@ -1,7 +1,7 @@
 """The start `equilibrium` carries its loads with any tooth errors, or the log says that it does not.
 
 Unbalanced torques are inertias times accelerations at t = 0. If the log reports a missing equilibrium, own_statics
-searches for one. `cargo run -p lab --release -- test-python -k loaded_start --scenes 2000` tries more random scenes."""
+searches for one. `python3 crates/lab/lab.py test-python -k loaded_start --scenes 2000` tries more random scenes."""
 
 import numpy as np
 import pytest

@@ -1,6 +1,6 @@
 """Ordinary drives: launches, stops, holds, turns and parking of vehicles from a pedal car to a truck.
 
-`cargo run -p lab --release -- drives` runs a thousand drives, and repeats one by its seed and index."""
+`python3 crates/lab/lab.py drives` runs a thousand drives, and repeats one by its seed and index."""
 
 import dataclasses
 import json
@@ -38,7 +38,7 @@ def stop(fmu):
 def test_an_ordinary_drive_meets_all_requirements(fmu, index):
     drive = ordinary_drives.drive(SEED, index, LEVELS)
     verdict = judge(fmu, drive)
-    assert not verdict.problems, f"{verdict}\nagain: cargo run -p lab --release -- drives --seed {SEED} --index {index}"
+    assert not verdict.problems, f"{verdict}\nagain: python3 crates/lab/lab.py drives --seed {SEED} --index {index}"
 
 
 def test_a_drive_is_the_same_again_and_has_a_json_form():

@@ -1,7 +1,7 @@
 """Random scenes on the packaged FMU: each finishes in balance or is refused with a clear error.
 
 None panics, hangs, accepts a step whose values are not numbers, or exceeds the allowed number of steps. The default is 200 scenes;
-`cargo run -p lab --release -- test-python -k random --scenes 10000` runs more."""
+`python3 crates/lab/lab.py test-python -k random --scenes 10000` runs more."""
 
 import collections
 

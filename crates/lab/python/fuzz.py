@@ -26,9 +26,9 @@ class Worker:
     `round`: seed of the present round; `rounds`: number of begun rounds; `tally`: its counts; `why`: reason for its failure."""
 
     def __init__(self, program, seed, rounds, calls, command, version):
-        self.again = " ".join([command, "fuzz", *version, "--calls", str(calls), "--seed "])
+        self.again = " ".join([command, *version, "--calls", str(calls), "--seed "])
         self.round, self.rounds, self.tally, self.why, self.since = seed, 0, None, None, time.monotonic()
-        self.process = subprocess.Popen([program, "fuzz", "--worker", "--seed", str(seed), "--calls", str(rounds * calls), *version], text=True,
+        self.process = subprocess.Popen([program, "fuzz", "--seed", str(seed), "--rounds", str(rounds), "--calls", str(calls), *version], text=True,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def follow(self, ended):
@@ -42,8 +42,8 @@ class Worker:
         messages = self.process.stderr.read().rstrip().removeprefix("error: ")
         status = self.process.wait()
         if self.tally is None and self.why is None:
-            crash = f"crashed (signal {-status})\nagain: {self.again}{self.round}\n" if status < 0 else ""
-            self.why = f"{crash}{messages}" or "a worker reported no counts"
+            what = f"crashed (signal {-status})" if status < 0 else messages or "a worker reported no counts"
+            self.why = f"{what}\nagain: {self.again}{self.round}" + (f"\n{messages}" if status < 0 else "")
         ended.put(self)
 
     def stop(self, why):

@@ -1,15 +1,14 @@
-//! The laboratory: measurements and checks of the library. Users do not need it, and their commands do not compile it.
+//! The commands of the laboratory that call the library directly. `crates/lab/lab.py` lists all commands and starts
+//! these. Users do not need the laboratory, and their commands do not compile it.
 //!
-//! - [`measure`]: time and error of this program, of solid teeth, of coupled FMUs, and of other programs on the same
-//!   cases
-//! - [`check`]: commands that fail if the library breaks a promise
-//! - [`all`]: runs every command of both
-//! - [`tools`]: tools for both, in addition to the tools of `fmu_build`
+//! - [`fuzz`]: random calls of the C functions
+//! - [`questions`]: random questions to the library of answers
+//! - [`stiffness`]: stiffness of the contact laws compared with finite elements
 
 #![warn(missing_docs)]
 
-pub mod all;
-pub mod check;
-pub mod command_line;
-pub mod measure;
-pub mod tools;
+pub mod fuzz;
+pub mod questions;
+#[path = "../../../tests/common/random.rs"]
+pub mod random;
+pub mod stiffness;

@@ -1,13 +1,23 @@
-//! `cargo run -p lab --release -- NAME` runs a command of the laboratory.
+//! Program behind some commands of `crates/lab/lab.py`, which passes all options.
 
 use std::process::ExitCode;
 
+use clap::Parser;
 use fmu_build::tools::program;
-use lab::command_line;
+use lab::{fuzz::FuzzCommand, questions::QuestionsCommand, stiffness};
+
+#[derive(Parser)]
+enum Command {
+    Fuzz(FuzzCommand),
+    Questions(QuestionsCommand),
+    /// Prints tables of the stiffness of each law and of 3-D finite elements
+    Stiffness,
+}
 
 fn main() -> ExitCode {
-    match command_line::parse(std::env::args_os()) {
-        Ok(command) => program::end(command.run()),
-        Err(stop) => stop.report(),
-    }
+    program::end(match Command::parse() {
+        Command::Fuzz(command) => command.run(),
+        Command::Questions(command) => command.run(),
+        Command::Stiffness => stiffness::run(),
+    })
 }

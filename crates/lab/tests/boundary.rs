@@ -1,15 +1,16 @@
 //! Calls of the C functions from outside: at random, and by hosts written in C. The commands `fuzz` and `memcheck` make
 //! longer runs.
 
-use std::ffi::OsString;
 use std::process::Command;
 
+use bevel_differential::variables::{guid, index_of};
 use fmu_build::fmu::libraries::own;
-use lab::check::fuzz::{self, Tally, VERSIONS};
-use lab::check::memcheck;
+use fmu_build::tools::paths;
+use lab::fuzz::{self, Tally, VERSIONS};
 
-/// Number of calls of the short run of each version of FMI.
+/// Number of calls of the short run of each version of FMI, and of one of its rounds.
 const CALLS: usize = 4000;
+const ROUND: usize = 500;
 /// Minimum fraction of calls that must be carried out, because a run with many refusals shows little.
 const DONE: f64 = 0.4;
 /// Minimum number of steps of either kind, and of updates within steps, in a thousand calls.
@@ -19,9 +20,10 @@ const STEPS: u64 = 5;
 fn calls_at_random_keep_every_promise() {
     for version in VERSIONS {
         let mut tally = Tally::default();
-        for seed in 1..=(CALLS / fuzz::CALLS) as u64 {
-            if let Err(broken) = fuzz::run(version, seed, fuzz::CALLS, &mut tally) {
-                panic!("{broken:?}\nagain: {}", fuzz::again(seed, Some(version.interface.number)));
+        for seed in 1..=(CALLS / ROUND) as u64 {
+            if let Err(broken) = fuzz::run(version, seed, ROUND, &mut tally) {
+                let number = version.interface.number;
+                panic!("{broken:?}\nagain: python3 crates/lab/lab.py fuzz --fmi {number} --calls {ROUND} --seed {seed}");
             }
         }
         assert_eq!(tally.calls(), CALLS as u64);
@@ -48,7 +50,7 @@ fn the_same_seed_makes_the_same_calls() {
     for version in VERSIONS {
         let counts = |seed| {
             let mut tally = Tally::default();
-            fuzz::run(version, seed, fuzz::CALLS, &mut tally).unwrap();
+            fuzz::run(version, seed, ROUND, &mut tally).unwrap();
             let done: Vec<u64> = version.functions.iter().map(|function| tally.returned_ok(function.name)).collect();
             (done, tally.started_instances, tally.compared)
         };
@@ -85,12 +87,28 @@ fn the_library_exports_the_functions_of_fmi_and_nothing_else() {
     assert_eq!(exported, known);
 }
 
-/// Runs a host in C on the library and returns what it printed.
+/// Value reference of a variable, as an argument.
 #[cfg(target_os = "linux")]
-fn host(name: &str, further: &[OsString]) -> String {
-    let library = own::beside_program().unwrap();
-    let program = memcheck::compiled(name, &[]).unwrap();
-    let output = Command::new(&program).args(memcheck::arguments(&library).unwrap()).args(further).output().unwrap();
+fn reference(name: &str) -> String {
+    index_of(name).unwrap().to_string()
+}
+
+/// Runs a host in C on the library and returns what it printed. The command `memcheck` passes the same arguments.
+#[cfg(target_os = "linux")]
+fn host(name: &str, further: &[String]) -> String {
+    let folder = paths::target().join("memory");
+    paths::create_folder(&folder).unwrap();
+    // tests compile concurrently: each uses a separate file
+    let program = folder.join(format!("{name}-{}", std::process::id()));
+    let mut compiler = Command::new("cc");
+    compiler.args(["-std=gnu11", "-O1", "-g", "-Wall", "-Wextra", "-Werror", "-o"]).arg(&program);
+    compiler.arg(paths::workspace().join("tests/c").join(format!("{name}.c"))).args(["-ldl", "-lm"]);
+    let compiled = compiler.output().expect("a C compiler builds the hosts: install one (apt-get install gcc)");
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    let references = [reference("left.load_torque"), reference("left.speed")];
+    let mut command = Command::new(&program);
+    command.arg(own::beside_program().unwrap()).arg(guid()).args(references).args(further);
+    let output = command.output().unwrap();
     std::fs::remove_file(&program).unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8(output.stdout).unwrap()
@@ -105,7 +123,7 @@ fn a_host_in_c_uses_instances_of_both_kinds_from_creation_to_end() {
 #[test]
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 fn the_hosts_floating_point_settings_are_preserved() {
-    let said = host("surroundings", &[memcheck::reference("inertia.left_end").unwrap()]);
+    let said = host("surroundings", &[reference("inertia.left_end")]);
     // denormal numbers have no influence
     assert!(said.contains("flush_to_zero 0\n"), "{said}");
     // other rounding modes change the speed by less than the solver's tolerance

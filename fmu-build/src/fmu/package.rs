@@ -21,6 +21,9 @@ pub struct PackageCommand {
     /// Also build BevelDifferential_sources.fmu, with the unit as sources in C (FMI 2.0) for real-time systems
     #[arg(long)]
     sources: bool,
+    /// Compile the sources in C faster, for a check: they give the same results with more instructions
+    #[arg(long, hide = true, requires = "sources")]
+    quick: bool,
 }
 
 impl PackageCommand {
@@ -31,8 +34,9 @@ impl PackageCommand {
         let mut variants = if self.integers { vec![plain_types::package(&fmu)?] } else { Vec::new() };
         if self.sources {
             progress.stage("building the library for sources in C");
+            let packing = if self.quick { Packing::Quick } else { Packing::Small };
             match sources::Tools::found() {
-                Ok(tools) => variants.push(sources::package(&tools, Packing::Small, &fmu)?),
+                Ok(tools) => variants.push(sources::package(&tools, packing, &fmu)?),
                 Err(remark) => left_out.push(remark),
             }
         }

@@ -94,13 +94,13 @@ impl ToolchainsCommand {
 }
 
 /// Linker for old Linux systems, on x86-64 and on ARM.
-pub fn old_linux() -> Wanted {
+pub fn old_linux() -> Wanted<'static> {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("requirements.txt");
     Wanted { folder: paths::toolchains().join("linux"), requirements, holds: "zig, cargo-zigbuild" }
 }
 
 /// Translator from WebAssembly to C. It needs the tool chain for WebAssembly.
-pub fn sources() -> Wanted {
+pub fn sources() -> Wanted<'static> {
     let requirements = paths::workspace().join("fmu-build").join("cross").join("sources.txt");
     Wanted { folder: paths::toolchains().join("sources"), requirements, holds: "wasm2c" }
 }

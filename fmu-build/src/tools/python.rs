@@ -26,16 +26,16 @@ pub struct Environment {
 }
 
 /// Specification of an environment.
-pub struct Wanted {
+pub struct Wanted<'a> {
     /// Folder of the environment.
     pub folder: PathBuf,
     /// File with the list of packages.
     pub requirements: PathBuf,
     /// Short description of the packages.
-    pub holds: &'static str,
+    pub holds: &'a str,
 }
 
-impl Wanted {
+impl Wanted<'_> {
     /// Returns the environment. It is created if it does not exist or has other requirements; `report` receives the
     /// current stage.
     pub fn made(&self, report: impl Fn(&str)) -> Result<Environment> {

@@ -94,39 +94,6 @@ impl Table {
         }
         drawn
     }
-
-    /// Parses the table in `lines` of Markdown.
-    fn read(lines: &[&str]) -> Self {
-        let cells = |line: &str| -> Vec<String> {
-            line.trim().trim_matches('|').split('|').map(|cell| cell.trim().replace('`', "")).collect()
-        };
-        let mut table = Self::new(cells(lines[0]));
-        for line in &lines[1..] {
-            let cells = cells(line);
-            if cells.iter().all(|cell| !cell.is_empty() && cell.chars().all(|c| c == '-' || c == ':')) {
-                table.left.extend((0..cells.len()).filter(|&i| !cells[i].ends_with(':')));
-            } else {
-                table.rows.push(cells);
-            }
-        }
-        table
-    }
-}
-
-/// Formats a page of Markdown for a terminal: tables are aligned, everything else is unchanged.
-pub fn for_terminal(page: &str) -> String {
-    let mut out = String::new();
-    let lines: Vec<&str> = page.lines().collect();
-    for part in lines.chunk_by(|a, b| a.starts_with('|') == b.starts_with('|')) {
-        if part[0].starts_with('|') {
-            out.push_str(&Table::read(part).terminal());
-        } else {
-            part.iter().for_each(|line| {
-                let _ = writeln!(out, "{line}");
-            });
-        }
-    }
-    out
 }
 
 /// Wraps `text` to the terminal's width.
@@ -184,14 +151,6 @@ mod tests {
         assert_eq!(lines[0], "|case|error,µm|");
         assert!(lines[1].starts_with("|--") && lines[1].ends_with("-:|"), "{}", lines[1]);
         assert_eq!(lines[3], "|straightahead|128|");
-    }
-
-    #[test]
-    fn a_page_of_markdown_is_shown_with_aligned_tables() {
-        let page = format!("Before.\n\n{}\nAfter.\n", table().markdown());
-        let shown = for_terminal(&page);
-        assert!(shown.starts_with("Before.\n\ncase  ") && shown.ends_with("\nAfter.\n"), "{shown}");
-        assert!(!shown.contains(['|', '`']) && shown.contains("\nstraight ahead        128\n"), "{shown}");
     }
 
     #[test]

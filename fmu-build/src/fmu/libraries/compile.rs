@@ -6,17 +6,8 @@ use std::process::Command;
 
 use anyhow::{Context, Result, bail};
 
-use super::library::{CRATES, HOST};
+use super::library::CRATES;
 use crate::tools::paths;
-
-/// Builds the dynamic library of `package`, other than the FMU's, for this machine with cargo. Returns its path.
-pub fn build_library(package: &str) -> Result<PathBuf> {
-    let mut command = Command::new(cargo());
-    // together with fmu-build, so that both have the same features and shared crates are compiled once
-    command.arg("build").args(["-p", "fmu-build", "--target-dir"]).arg(paths::target());
-    let [library] = built_by(command, [package], HOST.1)?;
-    Ok(library)
-}
 
 /// Builds the libraries of [`CRATES`] with `options` of the compiler, without paths of this machine. The target folder
 /// is separate, because the options always differ and the compiler may differ.
@@ -29,7 +20,7 @@ pub(super) fn distributable(mut command: Command, name: &str, ending: &str, opti
         // independent of the other builds: with one unit, the important functions are inlined
         .env("CARGO_PROFILE_RELEASE_CODEGEN_UNITS", "1")
         .env("CARGO_ENCODED_RUSTFLAGS", options.join("\u{1f}"));
-    built_by(command, CRATES, ending).with_context(|| format!("the library for {name}"))
+    built_by(command, ending).with_context(|| format!("the library for {name}"))
 }
 
 /// Options that replace the folders of this machine in the locations of panics.
@@ -55,20 +46,19 @@ pub(super) fn folders() -> Vec<(PathBuf, &'static str)> {
     known
 }
 
-/// Runs `command`, cargo with a target, and returns the libraries of `packages`. One run compiles shared crates only
-/// once.
-fn built_by<const N: usize>(mut command: Command, packages: [&str; N], ending: &str) -> Result<[PathBuf; N]> {
+/// Runs `command`, cargo with a target, and returns the libraries of [`CRATES`]. One run compiles shared crates only once.
+fn built_by(mut command: Command, ending: &str) -> Result<[PathBuf; 2]> {
     let output = command
         .current_dir(paths::workspace())
         .args(["--release", "--lib", "--quiet", "--message-format", "json-render-diagnostics"])
-        .args(packages.iter().flat_map(|package| ["-p", package]))
+        .args(CRATES.iter().flat_map(|package| ["-p", package]))
         .output()
         .with_context(|| format!("{} cannot be run", command.get_program().display()))?;
     if !output.status.success() {
         bail!("the library does not build:\n{}", String::from_utf8_lossy(&output.stderr).trim_end());
     }
     let artifacts = String::from_utf8_lossy(&output.stdout);
-    let built = packages.map(|package| {
+    let built = CRATES.map(|package| {
         let crate_name = package.replace('-', "_");
         artifacts.lines().filter_map(|line| library_in(line, &crate_name, ending)).next_back()
     });

@@ -11,7 +11,7 @@ mod windows;
 use anyhow::Result;
 
 pub(super) use compile::without_folders;
-pub use compile::{build_library, cargo};
+pub use compile::cargo;
 pub use library::{AddedPart, CRATES, Library};
 pub use own::for_this_machine;
 
