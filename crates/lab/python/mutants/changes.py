@@ -1,12 +1,12 @@
-"""Possible changes of the source, in which one expression replaces another, and the source with several of them built in, each inactive
-until it is selected."""
+"""Changes of the source, in which one expression replaces another, and the source with several of them built in, each inactive until it is
+selected."""
 
 import random
 from dataclasses import dataclass
 from pathlib import Path
 
 import tree_sitter_rust
-from tree_sitter import Language, Node, Parser
+from tree_sitter import Language, Parser
 
 BINARY = {"+": "-", "-": "+", "*": "/", "/": "*", "<": ">", "<=": ">=", ">": "<", ">=": "<=", "==": "!=", "!=": "==", "&&": "||",
           "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
@@ -31,25 +31,27 @@ class Change:
     line: int
 
     @property
-    def name(self) -> str:
+    def name(self):
         """Description of the change, independent of line numbers."""
         return f"{' '.join(self.before.split())} → {' '.join(self.after.split())}"
 
     @property
-    def module(self) -> str:
+    def module(self):
         """Folder of the file; in the model, the folder within it."""
         parts = self.file.split("/")
         return "/".join(parts[:3 if parts[1] == "model" else 2])
 
 
-def drawn(root: Path, modules: list[str], count: int, seed: int, without: set[Change] = frozenset(), kind=None) -> list[Change]:
-    """Draws `count` changes of the files in `modules` by a seed, without overlaps and without those in `without`. `kind` returns all
-    changes of a file; `possible` is the default."""
-    files = sorted(file.relative_to(root).as_posix() for module in modules for file in (root / module).rglob("*.rs")
+def drawn(root, judge, count, seed, without=frozenset()):
+    """Draws `count` changes of the files in the judge's `modules` by a seed, without overlaps and without those in `without`.
+    `judge.replacement(file, node)` returns the text that replaces a node, or None; `judge.is_closed(node)` excludes a node and all below."""
+    files = sorted(file.relative_to(root).as_posix() for module in judge.modules for file in (root / module).rglob("*.rs")
                    if not file.stem.endswith("tests") and "tests" not in file.parts)
-    everything = [change for file in files for change in (kind or possible)(root, file)]
+    everything = [Change(file, node.start_byte, node.end_byte, text_of(node), after, node.start_point[0] + 1)
+                  for file in files for node in nodes(parsed((root / file).read_bytes()), judge.is_closed)
+                  if (after := judge.replacement(file, node))]
     random.Random(seed).shuffle(everything)
-    taken: list[Change] = []
+    taken = []
     for change in everything:
         apart = all(change.file != other.file or change.end <= other.begin or other.end <= change.begin for other in taken)
         if len(taken) < count and apart and change not in without:
@@ -57,66 +59,59 @@ def drawn(root: Path, modules: list[str], count: int, seed: int, without: set[Ch
     return sorted(taken, key=lambda change: (change.file, change.begin))
 
 
-def possible(root: Path, file: str) -> list[Change]:
-    """All changes of a file except those in its tests."""
-    text = (root / file).read_bytes()
-    found: list[Change] = []
-    _walk(tree(text), text, file, found)
-    return found
-
-
-def tree(text: bytes) -> Node:
-    """Syntax tree of a source text."""
+def parsed(text):
+    """Root of the syntax tree of a source text."""
     return Parser(Language(tree_sitter_rust.language())).parse(text).root_node
 
 
-def _walk(node, text, file, found):
-    if node.type in CLOSED or is_const(node, text) or is_tests(node, text):
-        return
-    after = _changed(node, text)
-    if after is not None:
-        before = text[node.start_byte:node.end_byte].decode()
-        found.append(Change(file, node.start_byte, node.end_byte, before, after, node.start_point[0] + 1))
-    for child in node.children:
-        _walk(child, text, file, found)
+def nodes(node, is_closed):
+    """A node and all nodes below it, except closed ones."""
+    if not is_closed(node):
+        yield node
+        for child in node.children:
+            yield from nodes(child, is_closed)
 
 
-def _changed(node, text):
-    """Replacement of an expression, or None if the expression is not changed."""
-    def piece(begin, end):
-        return text[begin:end].decode()
+def is_closed(node):
+    """True if an expression in the node cannot be chosen at run time, or belongs to a test."""
+    return (node.type in CLOSED or node.type == "mod_item" and node.text.startswith(b"mod tests")
+            or node.type == "function_item" and any(child.type == "function_modifiers" and b"const" in child.text for child in node.children))
 
+
+def text_of(node):
+    """Text of a node."""
+    return node.text.decode()
+
+
+def value_of(literal):
+    """Value of a decimal literal."""
+    return float(text_of(literal).removesuffix("f64").replace("_", ""))
+
+
+def replacement(node):
+    """Expression that replaces another one, or None if it is not changed."""
+    part, new = None, None
     if node.type in ("binary_expression", "compound_assignment_expr"):
-        operator = node.child_by_field_name("operator")
-        other = BINARY.get(operator.type)
-        return other and piece(node.start_byte, operator.start_byte) + other + piece(operator.end_byte, node.end_byte)
-    if node.type == "unary_expression" and node.children[0].type == "-":
-        return piece(node.children[1].start_byte, node.end_byte)
-    if node.type == "float_literal":
-        number = piece(node.start_byte, node.end_byte)
-        value = float(number.removesuffix("f64").replace("_", ""))
-        return (repr(value * LARGER) + ("f64" if number.endswith("f64") else "")) if value else None
-    if node.type == "call_expression":
+        part = node.child_by_field_name("operator")
+        new = BINARY.get(part.type)
+    elif node.type == "unary_expression" and node.children[0].type == "-":
+        part, new = node.children[0], ""
+    elif node.type == "float_literal" and value_of(node):
+        part, new = node, repr(value_of(node) * LARGER) + "f64" * node.text.endswith(b"f64")
+    elif node.type == "call_expression":
         function = node.child_by_field_name("function")
-        name = function.child_by_field_name("field") if function.type == "field_expression" else function
-        other = NAMES.get(piece(name.start_byte, name.end_byte))
-        return other and piece(node.start_byte, name.start_byte) + other + piece(name.end_byte, node.end_byte)
-    return None
+        part = function.child_by_field_name("field") if function.type == "field_expression" else function
+        new = NAMES.get(text_of(part))
+    if new is None:
+        return None
+    begin, end = part.start_byte - node.start_byte, part.end_byte - node.start_byte
+    return (node.text[:begin] + new.encode() + node.text[end:]).decode()
 
 
-def is_const(node, text):
-    return node.type == "function_item" and any(child.type == "function_modifiers" and b"const" in text[child.start_byte:child.end_byte]
-                                                for child in node.children)
-
-
-def is_tests(node, text):
-    return node.type == "mod_item" and text[node.start_byte:node.end_byte].startswith(b"mod tests")
-
-
-def build_in(root: Path, changes: list[Change]) -> dict[str, list[tuple[int, int, Change]]]:
+def build_in(root, changes):
     """Writes the changes into the files under `root`; number k, counted from 1, is active if `MUTANT=k`. Returns by file the written byte
     ranges with their changes."""
-    places: dict[str, list[tuple[int, int, Change]]] = {}
+    places = {}
     for file in {change.file for change in changes}:
         text, out, at = (root / file).read_bytes(), b"", 0
         for number, change in enumerate(changes, 1):

@@ -7,7 +7,7 @@ use fastrand::Rng;
 
 use crate::random::Draws;
 
-#[path = "../../../../../tests/common/recorder.rs"]
+#[path = "../../../../tests/common/recorder.rs"]
 mod recorder;
 
 pub use recorder::{Line, Recorder};
