@@ -11,7 +11,7 @@ from bevel_differential import Fmu, Scene
 from bevel_differential.designs import Space, Task
 from bevel_differential.designs.plan import Plan
 from bevel_differential.text import aligned, markdown
-from tools import renew
+from laboratory.documents import renew
 
 TURN = {"scene.planet_spin": "imposed", "spin.command": "200 deg/s", "carrier.speed_command": "954 deg/s",
         "geometry.face_width": "17 mm"}
@@ -56,7 +56,7 @@ def main():
         rows.append((what, *(f"{1e3 * seconds:.3g}" for seconds in taken)))
     print("\n".join(aligned(rows, left=1)))
     if given.write:
-        renew("docs/design.md", ("<!-- cost begin -->", "<!-- cost end -->"), markdown(rows))
+        renew("docs/design.md", "cost", markdown(rows))
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from pathlib import Path
 from bevel_differential import DifferentialWarning, Fmu
 from bevel_differential.text import aligned
 from effects_list import effects
-from tools import WORKSPACE, Finding, say, significant
+from tools import WORKSPACE, Finding, lines, say, significant
 
 sys.path.append(str(WORKSPACE / "tests" / "python"))
 import drive_requirements  # noqa: E402
@@ -76,16 +76,13 @@ class Worker:
 
     def _follow(self, process, found):
         """Passes verdicts on until the process ends. Returns the reason for its end."""
-        lines = queue.Queue()
-        threading.Thread(target=lambda: [*map(lines.put, process.stdout), lines.put(None)], daemon=True).start()
         try:
-            while (line := lines.get(timeout=PATIENCE)) is not None:
+            for line in lines(process, PATIENCE):
                 record = json.loads(line)
                 found.put(record)
                 self.next = record["number"] + WORKERS
-        except queue.Empty:
-            process.kill()
-            return f"no answer in {PATIENCE:g} s"
+        except TimeoutError as error:
+            return str(error)
         said = process.stderr.read().strip().splitlines()[-1:]
         return f"the process ended with {process.wait()}: {' '.join(said)}"
 

@@ -4,77 +4,69 @@ usage: fuzz.py PROGRAM ROUNDS CALLS SEED COMMAND [FMI]    CALLS: per round; COMM
 
 import json
 import os
-import queue
 import subprocess
 import sys
 import textwrap
-import threading
 import time
 from collections import Counter
+from concurrent.futures import ThreadPoolExecutor, as_completed
 
 from bevel_differential.text import markdown
-from tools import Finding, say
+from tools import Finding, lines, say
 
 # a round takes several seconds, at most half a minute, and several times longer on a busy machine; a longer one hangs
 PATIENCE = 600.0
 HEAD = ["function", "calls", "OK", "warning", "discard", "error", "mean, µs", "longest, ms"]
 
 
-class Worker:
-    """A process that executes rounds, starting with a seed.
-
-    `round`: seed of the present round; `rounds`: number of begun rounds; `tally`: its counts; `why`: reason for its failure."""
-
-    def __init__(self, program, seed, rounds, calls, command, version):
-        self.again = " ".join([command, *version, "--calls", str(calls), "--seed "])
-        self.round, self.rounds, self.tally, self.why, self.since = seed, 0, None, None, time.monotonic()
-        self.process = subprocess.Popen([program, "fuzz", "--seed", str(seed), "--rounds", str(rounds), "--calls", str(calls), *version], text=True,
-                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-
-    def follow(self, ended):
-        """Reads its output until it ends, and puts it into the queue `ended`."""
-        for line in self.process.stdout:
-            self.since = time.monotonic()
-            if line.startswith("round "):
-                self.round, self.rounds = int(line.split()[1]), self.rounds + 1
-            else:
-                self.tally = json.loads(line)
-        messages = self.process.stderr.read().rstrip().removeprefix("error: ")
-        status = self.process.wait()
-        if self.tally is None and self.why is None:
-            what = f"crashed (signal {-status})" if status < 0 else messages or "a worker reported no counts"
-            self.why = f"{what}\nagain: {self.again}{self.round}" + (f"\n{messages}" if status < 0 else "")
-        ended.put(self)
-
-    def stop(self, why):
-        """Ends the process unless it has ended; `why` may be empty."""
-        if self.process.poll() is None:
-            self.why = why
-            self.process.kill()
+class Broken(Exception):
+    """A broken promise, a crash or a hang."""
 
 
-def worked(workers, rounds, calls):
-    """Waits for all workers. If one fails, the others are stopped."""
-    ended, left = queue.Queue(), set(workers)
-    for worker in workers:
-        threading.Thread(target=worker.follow, args=[ended], daemon=True).start()
-    while left:
+class Workers:
+    """Processes that execute `rounds` rounds of calls.
+
+    `again`: command that repeats a round, without its seed; `begun`: seeds of all begun rounds."""
+
+    def __init__(self, program, rounds, calls, again, version):
+        self.command, self.again = [program, "fuzz", "--calls", str(calls), *version], again
+        self.rounds, self.calls, self.begun, self.processes = rounds, calls, [], []
+
+    def tallies(self, seed):
+        """Counts of all processes. If one fails, the others are stopped."""
+        crew = min(os.cpu_count() or 1, max(self.rounds, 1))
+        ends = [seed + self.rounds * number // crew for number in range(crew + 1)]
+        with ThreadPoolExecutor(crew) as pool:
+            try:
+                return [done.result() for done in as_completed([pool.submit(self.tally, *ends[k:k + 2]) for k in range(crew)])]
+            except Broken as broken:
+                raise Finding(str(broken)) from None
+            finally:
+                for process in self.processes:
+                    process.kill()
+
+    def tally(self, seed, end):
+        """Counts of a process that executes the rounds with these seeds."""
+        process = subprocess.Popen([*self.command, "--seed", str(seed), "--rounds", str(end - seed)], stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        self.processes.append(process)
+        counts = None
         try:
-            last = ended.get(timeout=0.2)
-            left.discard(last)
-            if last.why:
-                for worker in left:
-                    worker.stop("")
-        except queue.Empty:
-            for worker in left:
-                if time.monotonic() - worker.since > PATIENCE:
-                    worker.stop(f"a round took more than {PATIENCE:g} s\nagain: {worker.again}{worker.round}")
-        done = sum(worker.rounds - (worker.tally is None) for worker in workers)
-        say(max(done, 0) / max(rounds, 1), f"{max(done, 0) * calls} calls")
-    failures = [worker.why for worker in workers if worker.why]
-    if failures:
-        raise Finding("\n\n".join(failures))
-    return [worker.tally for worker in workers]
+            for line in lines(process, PATIENCE):
+                if line.startswith("round "):
+                    seed = line.split()[1]
+                    done = len(self.begun)
+                    self.begun.append(seed)
+                    say(done / self.rounds, f"{done * self.calls} calls")
+                else:
+                    counts = json.loads(line)
+        except TimeoutError:
+            raise Broken(f"a round took more than {PATIENCE:g} s\nagain: {self.again} --seed {seed}") from None
+        said, status = process.stderr.read().rstrip().removeprefix("error: "), process.wait()
+        if counts is None:
+            why = f"crashed (signal {-status})" if status < 0 else said or "a worker reported no counts"
+            raise Broken("\n".join([why, f"again: {self.again} --seed {seed}", *([said] if status < 0 and said else [])]))
+        return counts
 
 
 def page(tallies):
@@ -104,14 +96,9 @@ def page(tallies):
 
 def main():
     program, rounds, calls, seed, command = sys.argv[1], *map(int, sys.argv[2:5]), sys.argv[5]
-    version = ["--fmi", *sys.argv[6:]] if len(sys.argv) > 6 else []
-    begin, first, workers = time.monotonic(), seed, []
-    crew = min(os.cpu_count() or 1, max(rounds, 1))
-    for k in range(crew):
-        share = rounds // crew + (k < rounds % crew)
-        workers.append(Worker(program, first, share, calls, command, version))
-        first += share
-    print(page(worked(workers, rounds, calls)))
+    version, begin = ["--fmi", *sys.argv[6:]] if len(sys.argv) > 6 else [], time.monotonic()
+    workers = Workers(program, rounds, calls, " ".join([command, *version, "--calls", str(calls)]), version)
+    print(page(workers.tallies(seed)))
     print(f"every promise kept in {rounds} rounds, {time.monotonic() - begin:.0f} s")
 
 

@@ -4,7 +4,9 @@ import csv
 import math
 import os
 import platform
+import queue
 import sys
+import threading
 from pathlib import Path
 
 from bevel_differential.command import FINDING
@@ -27,6 +29,18 @@ class Finding(SystemExit):
 def say(fraction, what):
     """Moves the bar of the command that runs the script."""
     print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
+
+
+def lines(process, patience):
+    """Lines that a process prints. If it prints nothing for `patience` seconds, it is ended, and the error is a `TimeoutError`."""
+    found = queue.Queue()
+    threading.Thread(target=lambda: [*map(found.put, process.stdout), found.put(None)], daemon=True).start()
+    try:
+        while (line := found.get(timeout=patience)) is not None:
+            yield line
+    except queue.Empty:
+        process.kill()
+        raise TimeoutError(f"no answer in {patience:g} s") from None
 
 
 def machine():
@@ -58,17 +72,6 @@ def significant(value, digits):
     if abs(value) < SMALL:
         return f"{value:.{max(digits - 2, 0)}e}".replace("e-0", "e-")
     return f"{value:.{max(digits - 1 - math.floor(math.log10(abs(value))), 0)}f}"
-
-
-def renew(document, marks, text):
-    """Replaces the text between two lines of a document of the repository."""
-    file = WORKSPACE / document
-    old = file.read_text(encoding="utf-8")
-    before, begin, rest = old.partition(marks[0])
-    _, end, after = rest.partition(marks[1])
-    if not (begin and end):
-        raise SystemExit(f"{document} has no marked section; add the lines \"{marks[0]}\" and \"{marks[1]}\"")
-    file.write_text(f"{before}{begin}\n{text}{end}{after}", encoding="utf-8")
 
 
 def percent(fraction):

@@ -23,7 +23,9 @@ fn calls_at_random_keep_every_promise() {
         for seed in 1..=(CALLS / ROUND) as u64 {
             if let Err(broken) = fuzz::run(version, seed, ROUND, &mut tally) {
                 let number = version.interface.number;
-                panic!("{broken:?}\nagain: python3 crates/lab/lab.py fuzz --fmi {number} --calls {ROUND} --seed {seed}");
+                panic!(
+                    "{broken:?}\nagain: python3 crates/lab/lab.py fuzz --fmi {number} --calls {ROUND} --seed {seed}"
+                );
             }
         }
         assert_eq!(tally.calls(), CALLS as u64);

@@ -9,7 +9,8 @@ from pathlib import Path
 from . import memcheck as memory
 from . import page_tests, platform_units
 from .command import Option, command, flag, number, path, write
-from .paths import CALL, FMU, SCENES, TARGET, TOOLCHAINS, WORKSPACE, builder, packaged, plain, printed, program, shown, version
+from .paths import CALL, FMU, SCENES, TARGET, TOOLCHAINS, WORKSPACE, builder, packaged, plain, program, shown, version
+from .questions import asked
 from .terminal import Failure, Finding
 from .work import TESTS
 
@@ -41,7 +42,7 @@ def drives(work):
 
     Drives alternate between three seeds. A drive that violates a requirement is written as JSON."""
     options = work.options
-    work.run("crates/lab/python/drives.py", packaged(), work.folder("drives"), options.seed, options.count, f"{CALL} drives",
+    work.run("crates/lab/python/drives.py", packaged, work.folder("drives"), options.seed, options.count, f"{CALL} drives",
              *([] if options.index is None else [options.index]), doing="driving")
 
 
@@ -73,9 +74,14 @@ def test_page(work):
 @command(flag("quick", "Leave out what each effect costs when it is on"), write("the table in docs/inside/cost.md", without=["quick"]))
 def zero_cost(work):
     """Checks that inactive effects cost nothing, compared with a build without effects in bits and instructions (needs valgrind)."""
-    effects = [] if work.options.quick else json.loads(packaged().with_name("effects.json").read_text(encoding="utf-8"))
-    work.run("crates/lab/python/zero_cost.py", TARGET / "off", *(effect["name"].rpartition(".")[2] for effect in effects), doing="counting",
+    work.run("crates/lab/python/zero_cost.py", TARGET / "off", [] if work.options.quick else effects, doing="counting",
              sections=[("docs/inside/cost.md", "off", "")])
+
+
+def effects():
+    """Names of all effects."""
+    listed = packaged().with_name("effects.json").read_text(encoding="utf-8")
+    return [effect["name"].rpartition(".")[2] for effect in json.loads(listed)]
 
 
 @command(flag("quick", "Leave out steps of 10 µs and the levels"), write("the tables in docs/inside/cost.md and docs/accuracy.md", without=["quick"]))
@@ -99,7 +105,7 @@ def fuzz(work):
 @command(number("count", 100_000, "Number of questions"), number("threads", 8, "Number of threads"), number("seed", 1, "Seed of the random numbers"))
 def questions(work):
     """Asks the library of answers random questions, from several threads at the same time."""
-    print(printed("lab", "questions", *work.given("count", "threads", "seed")), end="")
+    print(asked(work.options.count, work.options.seed, work.options.threads))
 
 
 @command(number("questions", 200, "Number of random questions"))
@@ -120,7 +126,7 @@ def mutants(work):
 @command(number("count", 20, "Number of coefficients"), SEED, write("docs/coefficients.csv"), short=["--count", "8"])
 def coefficients(work):
     """Makes coefficients of the physics 2 % larger, one at a time, and lists what `verify` notices."""
-    change(work, "coefficients", packaged(), doing="verifying", sections=[("docs/coefficients.csv", "", "coefficients.csv")])
+    change(work, "coefficients", packaged, doing="verifying", sections=[("docs/coefficients.csv", "", "coefficients.csv")])
 
 
 def change(work, name, *fmu, **options):
@@ -134,14 +140,14 @@ def change(work, name, *fmu, **options):
          flag("with-fmi-sim", "Also run fmi-sim (builds for many minutes)"))
 def hosts(work):
     """Runs the FMU in other FMI hosts on the same scenes and compares their results with fmpy's."""
-    work.run("crates/lab/python/hosts.py", *plain(), work.folder("hosts"), *work.given("require", "with-fmi-sim"), environment=HOSTS,
+    work.run("crates/lab/python/hosts.py", FMU, plain, work.folder("hosts"), *work.given("require", "with-fmi-sim"), environment=HOSTS,
              doing="running hosts", sections=[("docs/inside/hosts.md", "hosts", "")])
 
 
 @command(write("docs/inside/hosts.md"))
 def platforms(work):
     """Checks that the libraries of all platforms give the same bits, Windows under wine, ARM under qemu; inspects the one for macOS."""
-    work.run("crates/lab/python/platforms.py", SCENES, *platform_units.arguments(work), environment=TESTS, doing="comparing",
+    work.run("crates/lab/python/platforms.py", SCENES, lambda: platform_units.arguments(work), environment=TESTS, doing="comparing",
              sections=[("docs/inside/hosts.md", "platforms", "")])
 
 
@@ -151,10 +157,14 @@ def sources(work):
 
     It needs the tool chains `sources` and, for clang and ARMv7, `linux64`; for ARM apt install gcc-aarch64-linux-gnu
     libc6-dev-arm64-cross qemu-user. Missing compilers are left out."""
-    unit = FMU.with_name("BevelDifferential_sources.fmu")
-    said = builder("package", "--sources", *work.given("quick")).splitlines()
-    if not any(line.endswith(unit.name) for line in said):
-        raise Failure(said[-1])
+
+    def unit():
+        file = FMU.with_name("BevelDifferential_sources.fmu")
+        said = builder("package", "--sources", *work.given("quick")).splitlines()
+        if not any(line.endswith(file.name) for line in said):
+            raise Failure(said[-1])
+        return file
+
     zig = next((TOOLCHAINS / "linux").glob("lib/python*/site-packages/ziglang/zig"), "")
     work.run("crates/lab/python/sources.py", *work.given("quick"), work.folder("sources"), SCENES, FMU, unit, zig, environment=TESTS,
              doing="comparing", sections=[("docs/inside/hosts.md", "sources", "")])

@@ -15,7 +15,7 @@ DRIVETRAIN = ("examples/drivetrain", "drivetrain/venv", "pythonfmu, fmpy, libcos
          write("the tables in docs/accuracy.md and docs/inside/cost.md, and their figures"))
 def cost(work):
     """Measures what accuracy costs: methods, levels of gear contact and settings."""
-    work.run("crates/lab/python/cost.py", packaged(), work.folder("cost"), *work.given("quick", "decisions"), pictures=True,
+    work.run("crates/lab/python/cost.py", packaged, work.folder("cost"), *work.given("quick", "decisions"), pictures=True,
              sections=[("docs/accuracy.md", "decisions", "decisions.md"), ("docs/inside/cost.md", "cost", "summary.md")])
 
 
@@ -24,7 +24,7 @@ def solids(work):
     """Measures how the number of facets of solid teeth affects accuracy and time.
 
     Fails if solids miss the mean force of exact teeth."""
-    work.run("crates/lab/python/solids.py", packaged(), work.folder("solids"), *work.given("quick"), pictures=True,
+    work.run("crates/lab/python/solids.py", packaged, work.folder("solids"), *work.given("quick"), pictures=True,
              sections=[("docs/inside/cost.md", "solids", ""), ("docs/study.md", "solids", "study.md")])
 
 
@@ -43,21 +43,21 @@ def stiffness(work):
 def survey(work):
     """Checks answers of `accuracy` on random scenes, in the FMU, against another method."""
     options = work.options
-    work.run("crates/lab/python/survey.py", packaged(), work.folder("survey"), options.scenes, options.seed, *work.given("shipped"),
+    work.run("crates/lab/python/survey.py", packaged, work.folder("survey"), options.scenes, options.seed, *work.given("shipped"),
              doing="answering", sections=[("docs/accuracy.md", name, f"{name}.md") for name in ("survey", "shipped")])
 
 
 @command(flag("quick", "A few rows, once"), write("docs/inside/compare.md"))
 def compare_simulators(work):
     """Compares MuJoCo and Drake with this program on the study's cases (a few minutes)."""
-    work.run("benches/peers/run.py", packaged(), work.folder("peers"), *work.given("quick"), environment=PEERS, doing="comparing",
+    work.run("benches/peers/run.py", packaged, work.folder("peers"), *work.given("quick"), environment=PEERS, doing="comparing",
              sections=[("docs/inside/compare.md", "peers", "")], pictures=True)
 
 
 @command(flag("quick", "Two cases, once"), write("docs/inside/compare.md"))
 def compare_solvers(work):
     """Compares scipy's LSODA and Radau and CVODE with this program's method on the same equations (many minutes)."""
-    work.run("benches/foreign/compare.py", equations(), work.folder("cost"), *work.given("quick"), environment=SOLVERS, doing="comparing",
+    work.run("benches/foreign/compare.py", equations, work.folder("cost"), *work.given("quick"), environment=SOLVERS, doing="comparing",
              sections=[("docs/inside/compare.md", "foreign", "")])
 
 
@@ -65,8 +65,7 @@ def compare_solvers(work):
 def drivetrain(work):
     """Couples a drivetrain of FMUs and compares it with one integration of all equations (many minutes)."""
     # libcosim cannot set enumerations
-    _, fmu = plain()
-    work.run("examples/drivetrain/run.py", fmu, equations(), work.folder("drivetrain"), *work.given("quick"), environment=DRIVETRAIN,
+    work.run("examples/drivetrain/run.py", plain, equations, work.folder("drivetrain"), *work.given("quick"), environment=DRIVETRAIN,
              doing="coupling", sections=[("docs/inside/hosts.md", "drivetrain", ""), ("docs/coupling.md", "drivetrain", "summary.md")],
              pictures=True)
 
@@ -83,7 +82,7 @@ def patterns(work):
          write("the tables in docs/accuracy.md and the prices that `accuracy` uses", without=["against", "quick"]))
 def prices(work):
     """Times levels, laws and effects, or compares the FMUs of two builds (an idle machine, some minutes)."""
-    work.run("crates/lab/python/prices.py", *work.given("against"), packaged(), work.folder("prices"), *work.given("quick"), doing="timing",
+    work.run("crates/lab/python/prices.py", *work.given("against"), packaged, work.folder("prices"), *work.given("quick"), doing="timing",
              sections=[("docs/accuracy.md", "prices", ""), ("crates/answers/data/prices.csv", "", "prices.csv")])
 
 

@@ -11,6 +11,7 @@ import xml.etree.ElementTree as xml
 from pathlib import Path
 
 from .paths import CALL, WORKSPACE, library, program
+from .questions import write
 from .terminal import Failure, Finding, aligned
 
 # number of rounds of random calls, half of them for each version of FMI, and calls of a round
@@ -31,11 +32,13 @@ def run(work):
         done = completed(compiler, "a C compiler builds the hosts: install one (apt-get install gcc)")
         if done.returncode:
             raise Failure(f"life.c: {done.stderr}")
+        asked = Path(folder, "questions")
+        write(asked, work.options.questions, seed=1)
         work.progress.stage("looking for calls that take no time")
         checks = {
             "life of instances, in C": [life, *host_arguments()],
             "calls at random": [lab, "fuzz", "--rounds", str(ROUNDS), "--calls", str(CALLS), "--seed", str(quick_seed(lab))],
-            "questions at random": [lab, "questions", "--threads", "1", "--count", str(work.options.questions), "--seed", "1"],
+            "questions at random": [lab, "questions", asked, "1"],
         }
         rows = [["program", "checker", "errors", "bytes lost", "time, s"]]
         for name, command in checks.items():

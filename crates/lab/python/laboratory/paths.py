@@ -76,8 +76,8 @@ def packaged(*options):
 
 
 def plain():
-    """Paths of the packaged FMU and of its variant with integers instead of enumerations."""
-    return packaged("--integers"), FMU.with_name("BevelDifferential_integers.fmu")
+    """Path of the packaged FMU with integers instead of enumerations."""
+    return packaged("--integers").with_name("BevelDifferential_integers.fmu")
 
 
 def equations():

@@ -58,14 +58,21 @@ class Work:
         """Runs a script of the workspace or a Python module, prints its tables, and renews documents if the option `write` is set.
 
         `sections`: the document, the name in the markers of the section, and the file of results, or "" for the output. If the name is
-        "", the document becomes a copy of the file. A section whose file the run does not write is unchanged."""
+        "", the document becomes a copy of the file. A section whose file the run does not write is unchanged.
+
+        An argument may be a function that returns one or a list of them. It is called when Python is ready, so that a missing
+        installation is reported immediately."""
         python, variables = self.environment(*environment)
+        given = []
+        for argument in arguments:
+            value = argument() if callable(argument) else argument
+            given += value if isinstance(value, list) else [value]
         for file in (self.results / name for _, _, name in sections if name):
             # so that every file in the folder after the run is from this run
             file.unlink(missing_ok=True)
         self.progress.stage(doing)
         words = [WORKSPACE / script] if script.endswith(".py") else ["-m", script]
-        text = self.follow([python, *words, *arguments], Path(script).name, env=variables)
+        text = self.follow([python, *words, *given], Path(script).name, env=variables)
         self.progress.finish()
         print(for_terminal(text), end="")
         if self.results:

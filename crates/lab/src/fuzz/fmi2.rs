@@ -22,15 +22,15 @@ use crate::random::Draws;
 /// Functions of FMI 2.0.
 pub static VERSION: Version = Version {
     functions: functions! {
-        fmi2GetTypesPlatform 1 None, |s| text(s, fmi2GetTypesPlatform);
-        fmi2GetVersion 1 None, |s| text(s, fmi2GetVersion);
+        fmi2GetTypesPlatform 1 None: text;
+        fmi2GetVersion 1 None: text;
         fmi2Instantiate 2 None, instantiate;
         fmi2FreeInstance 1 None, |s| free(s);
-        fmi2SetDebugLogging 3 None, |s| logging(s, fmi2SetDebugLogging);
-        fmi2SetupExperiment 4 None, |s| setup(s, fmi2SetupExperiment);
-        fmi2EnterInitializationMode 4 None, |s| plain(s, fmi2EnterInitializationMode);
-        fmi2ExitInitializationMode 4 None, |s| plain(s, fmi2ExitInitializationMode);
-        fmi2Terminate 1 None, |s| plain(s, fmi2Terminate);
+        fmi2SetDebugLogging 3 None: logging;
+        fmi2SetupExperiment 4 None: setup;
+        fmi2EnterInitializationMode 4 None: plain;
+        fmi2ExitInitializationMode 4 None: plain;
+        fmi2Terminate 1 None: plain;
         fmi2Reset 1 None, reset;
         fmi2GetReal 20 None, |s| get_reals(s, V::Real, |c, v, n, x, _| unsafe { fmi2GetReal(c, v, n, x) });
         fmi2GetInteger 5 None, |s| get(s, V::Integer, |c, v, n, x, _| unsafe { fmi2GetInteger(c, v, n, x) });
@@ -49,16 +49,16 @@ pub static VERSION: Version = Version {
         fmi2GetDirectionalDerivative 15 None, |s| sensitivity(s, false, |c, v, n, by, m, along, _, x, _| unsafe {
             fmi2GetDirectionalDerivative(c, v, n, by, m, along, x)
         });
-        fmi2EnterEventMode 6 EXCHANGE, |s| plain(s, fmi2EnterEventMode);
+        fmi2EnterEventMode 6 EXCHANGE: plain;
         fmi2NewDiscreteStates 10 EXCHANGE, discrete;
-        fmi2EnterContinuousTimeMode 15 EXCHANGE, |s| plain(s, fmi2EnterContinuousTimeMode);
-        fmi2CompletedIntegratorStep 20 EXCHANGE, |s| completed(s, fmi2CompletedIntegratorStep);
-        fmi2SetTime 15 EXCHANGE, |s| set_time(s, fmi2SetTime);
-        fmi2SetContinuousStates 15 EXCHANGE, |s| set_states(s, fmi2SetContinuousStates);
-        fmi2GetDerivatives 15 EXCHANGE, |s| fill(s, STATES, fmi2GetDerivatives);
-        fmi2GetEventIndicators 15 EXCHANGE, |s| fill(s, EVENT_INDICATORS, fmi2GetEventIndicators);
-        fmi2GetContinuousStates 10 EXCHANGE, |s| fill(s, STATES, fmi2GetContinuousStates);
-        fmi2GetNominalsOfContinuousStates 4 None, |s| fill(s, STATES, fmi2GetNominalsOfContinuousStates);
+        fmi2EnterContinuousTimeMode 15 EXCHANGE: plain;
+        fmi2CompletedIntegratorStep 20 EXCHANGE: completed;
+        fmi2SetTime 15 EXCHANGE: set_time;
+        fmi2SetContinuousStates 15 EXCHANGE: set_states;
+        fmi2GetDerivatives 15 EXCHANGE: fill(STATES);
+        fmi2GetEventIndicators 15 EXCHANGE: fill(EVENT_INDICATORS);
+        fmi2GetContinuousStates 10 EXCHANGE: fill(STATES);
+        fmi2GetNominalsOfContinuousStates 4 None: fill(STATES);
         fmi2SetRealInputDerivatives 8 STEPS, |s| set_rates(s, |c, v, n, orders, x| unsafe {
             fmi2SetRealInputDerivatives(c, v, n, orders, x)
         });
@@ -68,8 +68,8 @@ pub static VERSION: Version = Version {
         fmi2DoStep 40 STEPS, |s| step(s, |s, point, h| {
             (unsafe { fmi2DoStep(s.c, point, h, s.r.below(2) as i32) }, None, false)
         });
-        fmi2CancelStep 2 STEPS, |s| plain(s, fmi2CancelStep);
-        fmi2GetStatus 4 None, |s| status_of(s, Status::Ok, fmi2GetStatus);
+        fmi2CancelStep 2 STEPS: plain;
+        fmi2GetStatus 4 None: status_of(Status::Ok);
         fmi2GetRealStatus 4 None, |s| {
             let mut number = f64::NAN;
             let place = s.place(&raw mut number, true);
@@ -80,7 +80,7 @@ pub static VERSION: Version = Version {
             let status = unsafe { fmi2GetIntegerStatus(s.c, a_kind(s), &mut 0) };
             s.result(status)
         };
-        fmi2GetBooleanStatus 3 None, |s| status_of(s, 0, fmi2GetBooleanStatus);
+        fmi2GetBooleanStatus 3 None: status_of(0);
         fmi2GetStringStatus 3 None, |s| {
             let mut text = ptr::null();
             let place = s.place(&raw mut text, true);
@@ -91,8 +91,8 @@ pub static VERSION: Version = Version {
     interface: Interface {
         number: 2,
         make,
-        free: |c| unsafe { fmi2FreeInstance(c) },
-        reset: |c| unsafe { fmi2Reset(c) },
+        free: fmi2FreeInstance,
+        reset: fmi2Reset,
         log_all: |c| unsafe { fmi2SetDebugLogging(c, 0, 0, ptr::null()) },
         initialise: |c| unsafe {
             fmi2SetupExperiment(c, 0, 0.0, 0.0, 0, 0.0);
@@ -115,10 +115,10 @@ pub static VERSION: Version = Version {
         get_states: fmi2GetContinuousStates,
         get_rates: fmi2GetDerivatives,
         get_indicators: fmi2GetEventIndicators,
-        get_state: |c, state| unsafe { fmi2GetFMUstate(c, state) },
-        set_state: |c, state| unsafe { fmi2SetFMUstate(c, state) },
-        free_state: |c, state| unsafe { fmi2FreeFMUstate(c, state) },
-        state_size: |c, state, size| unsafe { fmi2SerializedFMUstateSize(c, state, size) },
+        get_state: fmi2GetFMUstate,
+        set_state: fmi2SetFMUstate,
+        free_state: fmi2FreeFMUstate,
+        state_size: fmi2SerializedFMUstateSize,
         serialize: |c, state, bytes, size| unsafe { fmi2SerializeFMUstate(c, state, bytes.cast(), size) },
         deserialize: |c, bytes, size, state| unsafe { fmi2DeSerializeFMUstate(c, bytes.cast(), size, state) },
     },

@@ -38,8 +38,8 @@ macro_rules! values {
 /// Functions of FMI 3.0.
 pub static VERSION: Version = Version {
     functions: functions! {
-        fmi3GetVersion 1 None, |s| text(s, fmi3GetVersion);
-        fmi3SetDebugLogging 3 None, |s| logging(s, fmi3SetDebugLogging);
+        fmi3GetVersion 1 None: text;
+        fmi3SetDebugLogging 3 None: logging;
         fmi3InstantiateModelExchange 1 None, |s| instantiate(s, |r, name, token, host, log| unsafe {
             fmi3InstantiateModelExchange(name, token, ptr::null(), 0, r.u8(..), host, log)
         });
@@ -58,11 +58,11 @@ pub static VERSION: Version = Version {
             s.result(Status::Ok).unless(!c.is_null() || silent, "an instance was made, or refused without a line in the log")
         };
         fmi3FreeInstance 1 None, |s| free(s);
-        fmi3EnterInitializationMode 6 None, |s| setup(s, fmi3EnterInitializationMode);
-        fmi3ExitInitializationMode 4 None, |s| plain(s, fmi3ExitInitializationMode);
-        fmi3EnterConfigurationMode 3 None, |s| plain(s, fmi3EnterConfigurationMode);
-        fmi3ExitConfigurationMode 6 None, |s| plain(s, fmi3ExitConfigurationMode);
-        fmi3Terminate 1 None, |s| plain(s, fmi3Terminate);
+        fmi3EnterInitializationMode 6 None: setup;
+        fmi3ExitInitializationMode 4 None: plain;
+        fmi3EnterConfigurationMode 3 None: plain;
+        fmi3ExitConfigurationMode 6 None: plain;
+        fmi3Terminate 1 None: plain;
         fmi3Reset 1 None, reset;
         fmi3GetFloat32 1 None, none!(fmi3GetFloat32(ptr::null_mut(), 0));
         fmi3GetFloat64 20 None, |s| {
@@ -125,20 +125,20 @@ pub static VERSION: Version = Version {
         fmi3SetIntervalFraction 1 None, none!(fmi3SetIntervalFraction(ptr::null(), ptr::null()));
         fmi3SetShiftDecimal 1 None, none!(fmi3SetShiftDecimal(ptr::null()));
         fmi3SetShiftFraction 1 None, none!(fmi3SetShiftFraction(ptr::null(), ptr::null()));
-        fmi3EvaluateDiscreteStates 3 None, |s| plain(s, fmi3EvaluateDiscreteStates);
+        fmi3EvaluateDiscreteStates 3 None: plain;
         fmi3UpdateDiscreteStates 10 None, update_discrete_states;
-        fmi3EnterEventMode 6 None, |s| plain(s, fmi3EnterEventMode);
-        fmi3EnterStepMode 15 STEPS, |s| plain(s, fmi3EnterStepMode);
-        fmi3EnterContinuousTimeMode 15 EXCHANGE, |s| plain(s, fmi3EnterContinuousTimeMode);
-        fmi3CompletedIntegratorStep 20 EXCHANGE, |s| completed(s, fmi3CompletedIntegratorStep);
-        fmi3SetTime 15 EXCHANGE, |s| set_time(s, fmi3SetTime);
-        fmi3SetContinuousStates 15 EXCHANGE, |s| set_states(s, fmi3SetContinuousStates);
-        fmi3GetContinuousStateDerivatives 15 EXCHANGE, |s| fill(s, STATES, fmi3GetContinuousStateDerivatives);
-        fmi3GetEventIndicators 15 EXCHANGE, |s| fill(s, EVENT_INDICATORS, fmi3GetEventIndicators);
-        fmi3GetContinuousStates 10 EXCHANGE, |s| fill(s, STATES, fmi3GetContinuousStates);
-        fmi3GetNominalsOfContinuousStates 4 None, |s| fill(s, STATES, fmi3GetNominalsOfContinuousStates);
-        fmi3GetNumberOfEventIndicators 2 None, |s| number(s, EVENT_INDICATORS, fmi3GetNumberOfEventIndicators);
-        fmi3GetNumberOfContinuousStates 2 None, |s| number(s, STATES, fmi3GetNumberOfContinuousStates);
+        fmi3EnterEventMode 6 None: plain;
+        fmi3EnterStepMode 15 STEPS: plain;
+        fmi3EnterContinuousTimeMode 15 EXCHANGE: plain;
+        fmi3CompletedIntegratorStep 20 EXCHANGE: completed;
+        fmi3SetTime 15 EXCHANGE: set_time;
+        fmi3SetContinuousStates 15 EXCHANGE: set_states;
+        fmi3GetContinuousStateDerivatives 15 EXCHANGE: fill(STATES);
+        fmi3GetEventIndicators 15 EXCHANGE: fill(EVENT_INDICATORS);
+        fmi3GetContinuousStates 10 EXCHANGE: fill(STATES);
+        fmi3GetNominalsOfContinuousStates 4 None: fill(STATES);
+        fmi3GetNumberOfEventIndicators 2 None: number(EVENT_INDICATORS);
+        fmi3GetNumberOfContinuousStates 2 None: number(STATES);
         fmi3GetOutputDerivatives 15 STEPS, |s| get_rates(s, |c, v, n, orders, x, m| unsafe {
             fmi3GetOutputDerivatives(c, v, n, orders, x, m)
         });
@@ -148,8 +148,8 @@ pub static VERSION: Version = Version {
     interface: Interface {
         number: 3,
         make,
-        free: |c| unsafe { fmi3FreeInstance(c) },
-        reset: |c| unsafe { fmi3Reset(c) },
+        free: fmi3FreeInstance,
+        reset: fmi3Reset,
         log_all: |c| unsafe { fmi3SetDebugLogging(c, 0, 0, ptr::null()) },
         initialise: |c| unsafe { [fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), fmi3ExitInitializationMode(c)] },
         run: |c, kind| unsafe {
@@ -173,10 +173,10 @@ pub static VERSION: Version = Version {
         get_states: fmi3GetContinuousStates,
         get_rates: fmi3GetContinuousStateDerivatives,
         get_indicators: fmi3GetEventIndicators,
-        get_state: |c, state| unsafe { fmi3GetFMUState(c, state) },
-        set_state: |c, state| unsafe { fmi3SetFMUState(c, state) },
-        free_state: |c, state| unsafe { fmi3FreeFMUState(c, state) },
-        state_size: |c, state, size| unsafe { fmi3SerializedFMUStateSize(c, state, size) },
+        get_state: fmi3GetFMUState,
+        set_state: fmi3SetFMUState,
+        free_state: fmi3FreeFMUState,
+        state_size: fmi3SerializedFMUStateSize,
         serialize: |c, state, bytes, size| unsafe { fmi3SerializeFMUState(c, state, bytes, size) },
         deserialize: |c, bytes, size, state| unsafe { fmi3DeserializeFMUState(c, bytes, size, state) },
     },

@@ -11,9 +11,9 @@ pub struct Interface {
     /// Creates an instance; NULL if it is refused.
     pub make: fn(&InstanceOptions, &Host) -> ComponentPointer,
     /// Frees an instance.
-    pub free: unsafe fn(ComponentPointer),
+    pub free: unsafe extern "C" fn(ComponentPointer),
     /// Resets an instance.
-    pub reset: unsafe fn(ComponentPointer) -> Status,
+    pub reset: unsafe extern "C" fn(ComponentPointer) -> Status,
     /// Selects all log categories and switches debug logging off, so that only calls without the status OK are logged.
     pub log_all: unsafe fn(ComponentPointer) -> Status,
     /// Initialises an instance with its present start values.
@@ -39,13 +39,13 @@ pub struct Interface {
     /// Reads event indicators.
     pub get_indicators: unsafe extern "C" fn(ComponentPointer, *mut f64, usize) -> Status,
     /// Stores the state.
-    pub get_state: unsafe fn(ComponentPointer, *mut FmuState) -> Status,
+    pub get_state: unsafe extern "C" fn(ComponentPointer, *mut FmuState) -> Status,
     /// Restores a state.
-    pub set_state: unsafe fn(ComponentPointer, FmuState) -> Status,
+    pub set_state: unsafe extern "C" fn(ComponentPointer, FmuState) -> Status,
     /// Frees a state.
-    pub free_state: unsafe fn(ComponentPointer, *mut FmuState) -> Status,
+    pub free_state: unsafe extern "C" fn(ComponentPointer, *mut FmuState) -> Status,
     /// Returns the size of a serialised state.
-    pub state_size: unsafe fn(ComponentPointer, FmuState, *mut usize) -> Status,
+    pub state_size: unsafe extern "C" fn(ComponentPointer, FmuState, *mut usize) -> Status,
     /// Serialises a state.
     pub serialize: unsafe fn(ComponentPointer, FmuState, *mut u8, usize) -> Status,
     /// Creates a state from bytes.

@@ -27,10 +27,16 @@ pub struct Version {
     pub functions: &'static [Function],
 }
 
-/// Creates a table of functions: name, weight, kind of instance, call.
+/// Creates a table of functions: name, weight, kind of instance, and the call. The call follows a comma, or is a shape
+/// after a colon, with its argument between the site and the C function.
 macro_rules! functions {
-    ($($name:ident $weight:literal $kind:expr, $call:expr;)+) => {
-        &[$(Function { name: stringify!($name), weight: $weight, kind: $kind, call: $call }),+]
+    ($($name:ident $weight:literal $kind:ident $(: $shape:ident $(($further:expr))?)? $(, $call:expr)?;)+) => {
+        &[$(Function {
+            name: stringify!($name),
+            weight: $weight,
+            kind: $kind,
+            call: { $($call)? $(|s| $shape(s, $($further,)? $name))? },
+        }),+]
     };
 }
 

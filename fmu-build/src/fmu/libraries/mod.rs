@@ -10,8 +10,8 @@ mod windows;
 
 use anyhow::Result;
 
-pub(super) use compile::without_folders;
 pub use compile::cargo;
+pub(super) use compile::without_folders;
 pub use library::{AddedPart, CRATES, Library};
 pub use own::for_this_machine;
 
