@@ -23,7 +23,6 @@ def test_python(work):
     """Packages the FMU and runs the Python tests on it.
 
     Arguments are passed on to pytest."""
-    work.progress.stage("looking for Python")
     python, variables = work.environment(*TESTS)
     fmu, built = packaged(), program("fmu-build")
     work.progress.stage("running pytest")

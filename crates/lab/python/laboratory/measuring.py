@@ -19,7 +19,8 @@ def cost(work):
              sections=[("docs/accuracy.md", "decisions", "decisions.md"), ("docs/inside/cost.md", "cost", "summary.md")])
 
 
-@command(flag("quick", "Only 4 to 32 facets over 0.1 s"), write("the tables in docs/inside/cost.md and docs/study.md and the figures", without=["quick"]))
+@command(flag("quick", "Only 4 to 32 facets over 0.1 s"),
+         write("the tables in docs/inside/cost.md and docs/study.md and the figures", without=["quick"]))
 def solids(work):
     """Measures how the number of facets of solid teeth affects accuracy and time.
 

@@ -21,7 +21,6 @@ def run(work):
     if not page.is_file():
         raise Failure(f"{shown(page)} is not there; make it: cargo run --release -- page")
     node, chromium = runnable("node", "node is not installed: apt install nodejs (or see nodejs.org)"), chromium_file()
-    work.progress.stage("looking for Python")
     python, variables = work.environment(*ENVIRONMENT)
     fmu = packaged()
     work.progress.stage("testing the page")

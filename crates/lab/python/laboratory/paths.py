@@ -51,8 +51,20 @@ def cargo(*words):
 @functools.cache
 def program(name):
     """Path of a program of the workspace. It is built again if a source has changed."""
-    cargo("build", "--bin", name)
-    return TARGET / "release" / (f"{name}.exe" if sys.platform == "win32" else name)
+    file = TARGET / "release" / (f"{name}.exe" if sys.platform == "win32" else name)
+    if not is_current(file):
+        cargo("build", "--bin", name)
+    return file
+
+
+def is_current(file):
+    """True if a program is newer than its sources, which cargo lists next to it. Cargo itself would wait for other builds."""
+    listed = file.with_suffix(".d")
+    if not (file.is_file() and listed.is_file()):
+        return False
+    sources = listed.read_text(encoding="utf-8").partition(": ")[2].replace("\\ ", "\0").split()
+    sources = [Path(source.replace("\0", " ")) for source in sources] + [WORKSPACE / "Cargo.lock"]
+    return all(source.is_file() and source.stat().st_mtime <= file.stat().st_mtime for source in sources)
 
 
 def printed(name, *words):
