@@ -1,16 +1,18 @@
 //! Stiffness of the contact laws compared with 3-D finite elements of several gears on two supports.
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Result, anyhow};
 use bevel_differential::contact::bodies::{MeshOnBodies, Support};
 use bevel_differential::contact::stiffness::{PairStiffness, RootSpec};
-use bevel_differential::geometry::{AddendumSystem, GearSpec, Pair};
+use bevel_differential::geometry::{AddendumSystem, Pair};
 
 use answers::text::table::Table;
+use golden_pairs::{FILLET, Set, sets};
 
-/// Reference values.
-const ROWS: &str = include_str!("../../../tests/data/golden_fe3d_pairs.csv");
-/// Fillet radius of the reference [modules].
-const FILLET: f64 = 0.40;
+/// Reference values, which the tests of the library share.
+#[path = "../../../tests/contact/golden_pairs.rs"]
+#[allow(dead_code)] // each program uses only some items
+mod golden_pairs;
+
 /// Young's modulus of the reference [Pa].
 const YOUNG: f64 = 2.07e11;
 /// Poisson's ratio of the reference.
@@ -22,155 +24,65 @@ const IMPACT: [f64; 2] = [5.77e5 * 31_622.776_601_683_79, 1.5];
 /// Number of Pa in 1 N/(mm·µm).
 const PER_MM_UM: f64 = 1e9;
 
-/// Rows of one gear set on one support.
-struct Set {
-    /// Cells that describe the gear set and its support.
-    columns: Vec<String>,
-    /// Position s on the path of contact [rad] and stiffness c [Pa] of single pairs.
-    single: Vec<[f64; 2]>,
-    /// Position s of the first of two pairs [rad], stiffness c of both [Pa], and the ratio of c to the stiffness of two
-    /// separate pairs.
-    double: Vec<[f64; 3]>,
-}
-
-/// A gear set in the representation of this program.
-struct Gears {
-    spec: GearSpec,
-    pair: Pair,
-    stiffness: PairStiffness,
-    mesh: MeshOnBodies,
-}
-
 /// Prints the tables as Markdown.
 pub fn run() -> Result<()> {
-    print!("{}", page(&sets()?)?);
+    let head = ["gears", "b/R_e", "held", "`impact`", "`lumped`", "`line`", "bodies"];
+    let mut single = Table::new(head).left([0, 2]);
+    let head = ["gears", "b/R_e", "held", "`line`", "bodies", "coupling, reference", "coupling, bodies"];
+    let mut double = Table::new(head).left([0, 2]);
+    for set in sets() {
+        let pair = Pair::new(&set.spec);
+        let stiffness = PairStiffness::new(&pair, &RootSpec { fillet: FILLET }, YOUNG, POISSON, LINE_LOAD)
+            .map_err(|problem| anyhow!("{problem}"))?;
+        let mesh =
+            MeshOnBodies::new(&pair, &stiffness.teeth, set.supports, 1).map_err(|problem| anyhow!("{problem}"))?;
+        let reference = LINE_LOAD / pair.mean_cone;
+        let line = |s: f64| stiffness.exact(s, reference).stiffness();
+        let impact = impact(&set, &pair);
+        let lumped = stiffness.mesh_mean() * pair.base_pitch / (pair.path.high - pair.path.low);
+        let offs = |c: &dyn Fn(f64) -> f64| off(set.single.iter().map(|row| c(row[0]) / (row[4] * PER_MM_UM)));
+        single.push(name(&set, &pair).into_iter().chain([
+            offs(&|_| impact),
+            offs(&|_| lumped),
+            offs(&line),
+            offs(&|s| mesh.alone(s, reference).stiffness()),
+        ]));
+        let both = |c: &dyn Fn(f64, [f64; 2]) -> f64| {
+            off(set.double.iter().map(|&[s, coupled, free]| c(s, [coupled * PER_MM_UM, free * PER_MM_UM])))
+        };
+        double.push(name(&set, &pair).into_iter().chain([
+            both(&|s, [coupled, _]| (line(s) + line(s + pair.base_pitch)) / coupled),
+            both(&|s, [coupled, _]| mesh.two_pairs(s, reference)[0] / coupled),
+            both(&|_, [coupled, free]| coupled / free),
+            both(&|s, _| {
+                let [coupled, free] = mesh.two_pairs(s, reference);
+                coupled / free
+            }),
+        ]));
+    }
+    println!("Single pairs along the path: deviation of c in %, mean (smallest…largest).\n\n{}", single.markdown());
+    println!("Two pairs that share a rotation: deviation of c in %, and how much coupling softens them, in %.\n");
+    print!("{}", double.markdown());
     Ok(())
 }
 
-fn sets() -> Result<Vec<Set>> {
-    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(ROWS.as_bytes());
-    let mut sets: Vec<Set> = Vec::new();
-    for row in reader.records() {
-        let row = row?;
-        let number = |i: usize| -> Result<f64> { row[i].parse().with_context(|| format!("column {i} of {row:?}")) };
-        let columns: Vec<String> = row.iter().take(9).map(str::to_owned).collect();
-        if sets.last().is_none_or(|set| set.columns != columns) {
-            sets.push(Set { columns, single: Vec::new(), double: Vec::new() });
-        }
-        let Some(set) = sets.last_mut() else { continue };
-        let s = number(10)?.to_radians();
-        match &row[9] {
-            "one" => set.single.push([s, number(14)? * PER_MM_UM]),
-            "two" => set.double.push([s, number(15)? * PER_MM_UM, number(15)? / number(16)?]),
-            other => bail!("no kind \"{other}\""),
-        }
-    }
-    Ok(sets)
-}
-
-impl Set {
-    /// Gears of the set on their supports.
-    fn gears(&self) -> Result<Gears> {
-        let number = |i: usize| -> Result<f64> { Ok(self.columns[i].parse()?) };
-        let spec = GearSpec {
-            module: number(0)? * 1e-3,
-            planet_teeth: number(1)? as i32,
-            side_teeth: number(2)? as i32,
-            pressure_angle: number(3)?.to_radians(),
-            addendum_system: match self.columns[5].as_str() {
-                "gleason" => AddendumSystem::Gleason,
-                "iso" => AddendumSystem::Iso23509,
-                other => bail!("no addenda \"{other}\""),
-            },
-            ..GearSpec::default()
-        };
-        let spec = GearSpec { face_width: number(4)? * Pair::new(&spec).outer_cone, ..spec };
-        let pair = Pair::new(&spec);
-        let root = RootSpec { fillet: FILLET };
-        let stiffness = PairStiffness::new(&pair, &root, YOUNG, POISSON, LINE_LOAD)
-            .map_err(|problem| anyhow::anyhow!("{problem}"))?;
-        let supports = match self.columns[6].as_str() {
-            "tooth" => [Support::NearRoot; 2],
-            // the reference contains radii
-            "full" => [Support::Bore(2e-3 * number(7)?), Support::Bore(2e-3 * number(8)?)],
-            other => bail!("no support \"{other}\""),
-        };
-        let mesh =
-            MeshOnBodies::new(&pair, &stiffness.teeth, supports, 1).map_err(|problem| anyhow::anyhow!("{problem}"))?;
-        Ok(Gears { spec, pair, stiffness, mesh })
-    }
-
-    /// Labels of the set: gears, face width, and support.
-    fn name(&self, gears: &Gears) -> [String; 3] {
-        let c = &self.columns;
-        let face = gears.spec.face_width / gears.pair.outer_cone;
-        let held = match c[6].as_str() {
-            "tooth" => "root".to_owned(),
-            _ => format!("bores {}/{}", diameter(&c[7]), diameter(&c[8])),
-        };
-        let system = if c[5] == "iso" { "ISO" } else { "Gleason" };
-        [format!("{}/{} {system}", c[1], c[2]), format!("{face:.2}"), held]
-    }
-}
-
-/// Diameter as text, from the text of a radius.
-fn diameter(radius: &str) -> String {
-    radius.parse().map_or_else(|_| radius.to_owned(), |radius: f64| format!("{}", 2.0 * radius))
-}
-
-/// All tables.
-fn page(sets: &[Set]) -> Result<String> {
-    let head = ["gears", "b/R_e", "held", "`impact`", "`lumped`", "`line`", "bodies"];
-    let mut single = Table::new(head).left([0, 2]);
-    let mut double =
-        Table::new(["gears", "b/R_e", "held", "`line`", "bodies", "coupling, reference", "coupling, bodies"])
-            .left([0, 2]);
-    for set in sets {
-        let gears = set.gears()?;
-        let reference = LINE_LOAD / gears.pair.mean_cone;
-        let impact = impact(&gears);
-        let lumped = gears.stiffness.mesh_mean() * gears.pair.base_pitch / (gears.pair.path.high - gears.pair.path.low);
-        let offs = |c: &dyn Fn(f64) -> f64| off(set.single.iter().map(|&[s, expected]| c(s) / expected));
-        single.push(set.name(&gears).into_iter().chain([
-            offs(&|_| impact),
-            offs(&|_| lumped),
-            offs(&|s| gears.stiffness.exact(s, reference).stiffness()),
-            offs(&|s| gears.mesh.alone(s, reference).stiffness()),
-        ]));
-        let both: Vec<[f64; 3]> = set
-            .double
-            .iter()
-            .map(|&[s, ..]| {
-                let by_line: f64 = [s, s + gears.pair.base_pitch]
-                    .iter()
-                    .map(|&s| gears.stiffness.exact(s, reference).stiffness())
-                    .sum();
-                let [coupled, uncoupled] = gears.mesh.two_pairs(s, reference);
-                [by_line, coupled, coupled / uncoupled]
-            })
-            .collect();
-        let ratio = |k: usize| off(both.iter().zip(&set.double).map(|(found, expected)| found[k] / expected[1]));
-        let coupling = |values: Vec<f64>| off(values.into_iter());
-        double.push(set.name(&gears).into_iter().chain([
-            ratio(0),
-            ratio(1),
-            coupling(set.double.iter().map(|row| row[2]).collect()),
-            coupling(both.iter().map(|found| found[2]).collect()),
-        ]));
-    }
-    Ok(format!(
-        "Single pairs along the path: deviation of c in %, mean (smallest…largest).\n\n{}\n\
-         Two pairs that share a rotation: deviation of c in %, and how much coupling softens them, in %.\n\n{}",
-        single.markdown(),
-        double.markdown()
-    ))
+/// Labels of a set: gears, face width, and support.
+fn name(set: &Set, pair: &Pair) -> [String; 3] {
+    let spec = &set.spec;
+    let system = if spec.addendum_system == AddendumSystem::Iso23509 { "ISO" } else { "Gleason" };
+    let held = match set.supports {
+        [Support::Bore(planet), Support::Bore(side)] => format!("bores {:.0}/{:.0}", 1e3 * planet, 1e3 * side),
+        _ => "root".to_owned(),
+    };
+    let gears = format!("{}/{} {system}", spec.planet_teeth, spec.side_teeth);
+    [gears, format!("{:.2}", spec.face_width / pair.outer_cone), held]
 }
 
 /// Secant stiffness of IMPACT under the reference load [Pa]: torque divided by the arc and by ∫R²dR. IMPACT has a
 /// single force, which acts at the mean cone distance.
-fn impact(gears: &Gears) -> f64 {
-    let Pair { mean_cone, outer_cone, inner_cone, .. } = gears.pair;
-    let force = LINE_LOAD * gears.spec.face_width;
+fn impact(set: &Set, pair: &Pair) -> f64 {
+    let &Pair { mean_cone, outer_cone, inner_cone, .. } = pair;
+    let force = LINE_LOAD * set.spec.face_width;
     let depth = (force / IMPACT[0]).powf(1.0 / IMPACT[1]);
     let moment = (outer_cone.powi(3) - inner_cone.powi(3)) / 3.0;
     force * mean_cone * mean_cone / (depth * moment)

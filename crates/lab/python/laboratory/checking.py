@@ -86,7 +86,7 @@ def effects():
 @command(flag("quick", "Leave out steps of 10 µs and the levels"), write("the tables in docs/inside/cost.md and docs/accuracy.md", without=["quick"]))
 def real_time(work):
     """Checks that no step of the fixed-step method costs more than twice the median, in instructions (needs valgrind)."""
-    work.run("crates/lab/python/real_time.py", TARGET / "real-time", TARGET / "off", *work.given("quick"), doing="counting",
+    work.run("crates/lab/python/real_time.py", work.folder("real-time"), TARGET / "off", *work.given("quick"), doing="counting",
              sections=[("docs/inside/cost.md", "real-time", ""), ("docs/accuracy.md", "levels", "levels.md")])
 
 
