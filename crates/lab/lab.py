@@ -6,6 +6,7 @@ that it creates."""
 
 import argparse
 import difflib
+import inspect
 import sys
 from pathlib import Path
 
@@ -25,8 +26,7 @@ class Parser(argparse.ArgumentParser):
     """Parser of a command that reports errors in one line."""
 
     def __init__(self, command):
-        sentence, _, more = command.explained.partition("\n\n")
-        super().__init__(prog=f"{CALL} {command.name}", description="\n\n".join(filter(None, [sentence, more])), allow_abbrev=False,
+        super().__init__(prog=f"{CALL} {command.name}", description=inspect.getdoc(command.function), allow_abbrev=False,
                          formatter_class=argparse.RawDescriptionHelpFormatter)
         for option in command.options:
             self.add_argument(*option.names, **option.settings)

@@ -16,7 +16,10 @@ use serde_json::{Value, json};
 /// Time after which the caller stops the work.
 const PATIENCE: Duration = Duration::from_millis(20);
 
-/// Asks the questions of a file and prints the index of each, the kind of its reply, and the seconds
+/// Maximum number of characters of a reply that is printed.
+const LONGEST: usize = 400;
+
+/// Asks the questions of a file and prints the index of each, the kind of its reply, the seconds, and an unexpected reply
 #[derive(Args, Clone, Debug)]
 pub struct QuestionsCommand {
     /// File with a question and its numbers on each line, as JSON; numbers are texts
@@ -46,7 +49,10 @@ impl QuestionsCommand {
 fn ask((index, question, numbers): &(usize, CString, Vec<f64>)) {
     let begin = Instant::now();
     let reply = as_in_c(question, numbers, || begin.elapsed() < PATIENCE);
-    println!("{}", json!([index, kind(&reply), begin.elapsed().as_secs_f64()]));
+    let (seconds, kind) = (begin.elapsed().as_secs_f64(), kind(&reply));
+    let is_finding = kind.as_ref().is_none_or(|kind| kind == "internal");
+    let shown: String = reply.chars().take(if is_finding { LONGEST } else { 0 }).collect();
+    println!("{}", json!([index, kind, seconds, shown]));
 }
 
 /// Kind of a reply. `None` if the reply contains neither an answer nor a kind with problems that all have messages.

@@ -10,7 +10,7 @@ from . import memcheck as memory
 from . import page_tests, platform_units
 from .command import Option, command, flag, number, path, write
 from .paths import CALL, FMU, SCENES, TARGET, TOOLCHAINS, WORKSPACE, builder, packaged, plain, program, shown, version
-from .questions import asked
+from .questions import ask
 from .terminal import Failure, Finding
 from .work import TESTS
 
@@ -104,7 +104,9 @@ def fuzz(work):
 @command(number("count", 100_000, "Number of questions"), number("threads", 8, "Number of threads"), number("seed", 1, "Seed of the random numbers"))
 def questions(work):
     """Asks the library of answers random questions, from several threads at the same time."""
-    print(asked(work.options.count, work.options.seed, work.options.threads))
+    program("lab")
+    work.progress.stage("asking")
+    ask(work.options.count, work.options.seed, work.options.threads)
 
 
 @command(number("questions", 200, "Number of random questions"))

@@ -37,15 +37,9 @@ class Command:
     passes_on: bool
 
     @property
-    def explained(self):
-        """Sentence about the command, and further paragraphs."""
-        sentence, *more = inspect.getdoc(self.function).split("\n\n")
-        return "\n\n".join([" ".join(sentence.split()).rstrip("."), *more])
-
-    @property
     def sentence(self):
         """Sentence about the command, without a full stop."""
-        return self.explained.partition("\n\n")[0]
+        return " ".join(inspect.getdoc(self.function).partition("\n\n")[0].split()).rstrip(".")
 
 
 COMMANDS: Dict[str, Command] = {}

@@ -13,6 +13,8 @@ from .terminal import Finding, aligned
 
 # absurd numbers and texts
 ODD = ["0", "-1", "1e308", "-1e-320", "1e999", "nan", "inf", "", "°", "4.5 mm", "3 kg", "true", "line_weber", "a\0b"]
+# maximum number of characters of a question that is printed
+LONGEST = 400
 # kinds of questions, each with its keys; "of[]" is the key "of" with a list of scenes
 KINDS = {
     "scenes": ["scenes"], "scene": ["of"], "plan": ["of"], "run": ["of", "out"], "export": ["of", "format"], "loads": ["of", "out", "every"],
@@ -121,18 +123,17 @@ def write(file, count, seed):
     Path(file).write_text("".join(f"{questions.line()}\n" for _ in range(count)), encoding="utf-8")
 
 
-def asked(count, seed, threads):
-    """Asks the questions and returns a table of the replies. Fails if a reply is invalid or reports an internal error."""
+def ask(count, seed, threads):
+    """Asks the questions and prints a table of the replies. Fails if a reply is invalid or reports an internal error."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder, "questions")
         write(file, count, seed)
-        replies = [json.loads(line) for line in printed("lab", "questions", file, threads).splitlines()]
-        questions = file.read_text(encoding="utf-8").splitlines()
-    counts = Counter(kind or "invalid" for _, kind, _ in replies)
-    index, _, seconds = max(replies, key=lambda reply: reply[2], default=(0, "", 0.0))
-    rows = [["reply", "questions"], *([kind, str(number)] for kind, number in sorted(counts.items()))]
-    text = "\n".join([*aligned(rows, (0,)), f"longest: {seconds:.1f} s, {questions[index][:400] if questions else ''}"])
-    findings = [questions[index][:400] for index, kind, _ in replies if kind in (None, "internal")]
+        replies = [json.loads(line) for line in printed("lab", "questions", file, threads).split("\n") if line]
+        questions = [json.loads(line)[0][:LONGEST] for line in file.read_text(encoding="utf-8").splitlines()]
+    counts = Counter(kind or "" for _, kind, *_ in replies)
+    print("\n".join(aligned([["reply", "questions"], *([kind, str(number)] for kind, number in sorted(counts.items()))], (0,))))
+    for index, _, seconds, _ in sorted(replies, key=lambda reply: -reply[2])[:1]:
+        print(f"longest: {seconds:.1f} s, {questions[index]}")
+    findings = [f"{questions[index]} was answered by {reply}" for index, kind, _, reply in replies if kind in (None, "internal")]
     if findings:
-        raise Finding(f"{len(findings)} findings, the first: {findings[0]}\n{text}")
-    return text
+        raise Finding(f"{len(findings)} findings, the first: {findings[0]}")
