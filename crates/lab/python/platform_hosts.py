@@ -25,6 +25,20 @@ REPEATS = 3
 PORT, START_TIMEOUT, PAUSE = 8080, 60.0, 0.1
 
 
+def course(fmu, events, tables, duration):
+    """Communication points of a scene: time, next step (0 at the end), and values that change there."""
+    step, events = duration / STEPS, sorted(events, key=lambda event: event["time"])
+    for k in range(STEPS + 1):
+        now, settings = k * step, {}
+        while events and events[0]["time"] <= now + 1e-9 * step:
+            settings |= {name: value for name, value in events.pop(0).items() if name != "time"}
+        for table in tables:
+            within = now % table["period"] if "period" in table else now
+            points = [fmu.variable(table["input"]).number(value) for value in table["value"]]
+            settings[table["input"]] = float(np.interp(within, table["time"], points))
+        yield now, step if k < STEPS else 0.0, settings
+
+
 class Platform:
     """An FMU with one library that runs in this process."""
 
@@ -65,20 +79,11 @@ class Platform:
 
     def record(self, values, events, tables, duration):
         """All outputs at all communication points."""
-        step = duration / STEPS
-        instance = self.start(values)
-        rows, events = [], sorted(events, key=lambda event: event["time"])
-        for k in range(STEPS + 1):
+        instance, rows = self.start(values), []
+        for now, step, settings in course(self.fmu, events, tables, duration):
             rows.append(instance.read(self.outputs))
-            now = k * step
-            while events and events[0]["time"] <= now + 1e-9 * step:
-                event = events.pop(0)
-                instance.set({name: value for name, value in event.items() if name != "time"})
-            for table in tables:
-                within = now % table["period"] if "period" in table else now
-                points = [self.fmu.variable(table["input"]).number(value) for value in table["value"]]
-                instance.set({table["input"]: np.interp(within, table["time"], points)})
-            if k < STEPS:
+            instance.set(settings)
+            if step:
                 instance.do_step(now, step)
         self.end(instance)
         return np.array(rows, dtype=float)

@@ -23,7 +23,7 @@ import binaries
 import platform_scenes
 from bevel_differential.text import markdown
 from effects_list import effects
-from platform_hosts import STEPS, Platform
+from platform_hosts import Platform, course
 from platforms import FMU, compared
 from tools import WORKSPACE, Finding, say
 
@@ -129,20 +129,12 @@ def set_line(fmu, name, value):
 
 def calls_of(platform, values, events, tables, duration):
     """Calls of `Platform.record` for a scene."""
-    fmu, step = platform.fmu, duration / STEPS
+    fmu = platform.fmu
     lines = [f"n {fmu.description.guid}", *(set_line(fmu, name, value) for name, value in values.items())]
     lines += [f"o {fmu.variable(name).reference}" for name in platform.outputs] + ["x"]
-    events = sorted(events, key=lambda event: event["time"])
-    for k in range(STEPS + 1):
-        lines.append("g")
-        now = k * step
-        while events and events[0]["time"] <= now + 1e-9 * step:
-            lines += [set_line(fmu, name, value) for name, value in events.pop(0).items() if name != "time"]
-        for table in tables:
-            within = now % table["period"] if "period" in table else now
-            points = [fmu.variable(table["input"]).number(value) for value in table["value"]]
-            lines.append(set_line(fmu, table["input"], float(np.interp(within, table["time"], points))))
-        if k < STEPS:
+    for now, step, settings in course(fmu, events, tables, duration):
+        lines += ["g", *(set_line(fmu, name, value) for name, value in settings.items())]
+        if step:
             lines.append(f"d {float(now).hex()} {float(step).hex()}")
     return lines
 
