@@ -38,8 +38,8 @@ def library(name):
 
 
 def cargo(*words):
-    """Runs cargo with the profile of the user's first command, so that nothing is compiled twice. Fails with its errors."""
-    command = [os.environ.get("CARGO", "cargo"), *words, "--release", "--quiet"]
+    """Runs cargo with the profile of the user's first command, so that nothing is compiled twice. It shows its progress and errors."""
+    command = [os.environ.get("CARGO", "cargo"), *words, "--release"]
     try:
         done = subprocess.run(command, cwd=WORKSPACE, stdin=subprocess.DEVNULL)
     except FileNotFoundError:
