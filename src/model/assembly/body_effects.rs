@@ -1,4 +1,4 @@
-//! Effects on bodies of a scene: forces, and sources of dry friction.
+//! Effects on bodies of a scene: forces, and surfaces with dry friction.
 
 use std::sync::Arc;
 

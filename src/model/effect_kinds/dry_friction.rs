@@ -11,7 +11,7 @@ use super::body_friction::BodyFriction;
 use super::{ActingSurface, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
 use crate::numeric::{TAU, quotient};
 
-/// Damping of the spring over its stiffness τ if the source gives none [s].
+/// Damping of the spring over its stiffness τ if the surface gives none [s].
 pub const DAMPING_TIME: f64 = 1e-4;
 /// Tolerance of the limit torque at the end of a step, relative to the limit torque.
 const LIMIT_TOLERANCE: f64 = 1e-5;

@@ -10,9 +10,9 @@ use super::scene::{Scene, output, outputs};
 use super::table::{Parity, line_of, lines};
 use super::teeth::{self, View};
 
-/// Index of the first planet among the bodies that may stick; side gears come first.
+/// Index of the first planet among the pairs that rub; side gears come first.
 const PLANETS: usize = 2;
-/// Index of the first wheel among the bodies that may stick.
+/// Index of the first wheel among the pairs that rub.
 const WHEELS: usize = 6;
 
 /// Output in an image: `factor` times the value in the scene plus `added`.
