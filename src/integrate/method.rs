@@ -131,6 +131,12 @@ pub const IN_REGISTERS: usize = 6;
 /// Chunk size of sums over stages of larger systems.
 const CHUNK: usize = 8;
 
+/// Smallest size of points for this number of degrees of freedom: a point either fits in registers, or consists of
+/// whole chunks.
+pub const fn size_for(freedoms: usize) -> usize {
+    if freedoms <= IN_REGISTERS { freedoms } else { freedoms.next_multiple_of(CHUNK / 2) }
+}
+
 /// y += scale Σ weight_j u_j, over as many stages as there are weights.
 #[inline]
 pub fn combine<const N: usize>(y: &mut Point<N>, weights: &[f64], scale: f64, u: &[Point<N>]) {

@@ -21,7 +21,7 @@ pub use control::Control;
 pub use curve::Curve;
 pub use driver::{AfterStep, Failure, SolverContext, Step, advance, proceed};
 pub use fixed::advance_fixed;
-pub use method::{ErrorNorm, Method, StepOutput, Trial};
+pub use method::{ErrorNorm, Method, StepOutput, Trial, size_for};
 pub use radau::Radau;
 pub use rodas5p::Rodas5P;
 pub use statistics::Statistics;

@@ -78,7 +78,9 @@ impl Method for Radau {
         real.fill(system, shape, lin, h / GAMMA)?;
         let complex = ComplexBlock::new(system, lin, Complex { re: LAMBDA.re * per_h, im: LAMBDA.im * per_h })?;
         let slope = Point { q: system.rates(&start.v), v: lin.acceleration };
-        let newton = Newton { system, start, time, h, norm, real, complex, by_position: &lin.by_position };
+        let rounding = ROUNDING * norm.size(start);
+        let newton =
+            Newton { system, shape, start, time, h, norm, rounding, real, complex, by_position: &lin.by_position };
         let z = newton.stages(slope, counts)?;
 
         let mut defect = Point::ZERO;
@@ -106,10 +108,13 @@ impl Method for Radau {
 /// Simplified Newton iteration for the stages of a step.
 struct Newton<'a, S: ?Sized, const N: usize> {
     system: &'a S,
+    shape: Shape,
     start: &'a Point<N>,
     time: f64,
     h: f64,
     norm: &'a ErrorNorm<N>,
+    /// Rounding error of a stage, in the error norm.
+    rounding: f64,
     /// Inverse of γ/h − J.
     real: Block<N>,
     /// Inverse of (α + iβ)/h − J.
@@ -187,7 +192,7 @@ impl<const N: usize, S: SecondOrder<N> + ?Sized> Newton<'_, S, N> {
         combine(&mut change[1], &[-LAMBDA.re, LAMBDA.im], per_h, &w[1..]);
         combine(&mut change[2], &[-LAMBDA.im, -LAMBDA.re], per_h, &w[1..]);
         let [first, re, im] = &mut change;
-        self.real.solve(self.system, Shape::of(self.system), first);
+        self.real.solve(self.system, self.shape, first);
         self.complex.solve(self.system, self.by_position, re, im);
         change
     }
@@ -195,11 +200,10 @@ impl<const N: usize, S: SecondOrder<N> + ?Sized> Newton<'_, S, N> {
     /// Progress after a change of this `size`, where the change before it had the size `last`. Each change is smaller
     /// than the last by about the same factor, so the remaining changes are a geometric series.
     fn progress(&self, size: f64, last: f64, iterations_left: i32) -> Progress {
-        let rounding = ROUNDING * self.norm.size(self.start);
-        let enough = LEFT_OVER.max(rounding);
+        let enough = LEFT_OVER.max(self.rounding);
         let shrink = size / last;
         let to_come = size * shrink / (1.0 - shrink);
-        if size <= rounding || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1) {
+        if size <= self.rounding || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1) {
             Progress::Converged
         } else if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(iterations_left)) > enough {
             Progress::Diverges

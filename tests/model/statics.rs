@@ -36,19 +36,23 @@ fn equilibrium_starts_with_balanced_torques_and_no_acceleration() {
 }
 
 #[test]
-fn brakes_with_hot_linings_start_with_the_torque_of_this_temperature() {
-    for (direction, torque) in [(1.0, 400.0), (-1.0, 400.0), (1.0, 0.0)] {
+fn brakes_start_with_the_torque_of_their_temperature_and_sliding_speed() {
+    for (direction, torque, slope) in
+        [(1.0, 400.0, 0.0), (-1.0, 400.0, 0.0), (1.0, 0.0, 0.0), (1.0, 400.0, -0.05), (-1.0, 400.0, 0.1)]
+    {
         let mut p = Parameters::default();
         p.effects.wheel_brake = true;
         let brakes = &mut p.specs.wheel_brake;
         (brakes.temperature, brakes.sliding.hot_temperature, brakes.sliding.hot_factor) = (473.15, 473.15, 0.25);
+        (brakes.sliding.slip_slope, brakes.mean_radius) = (slope, 0.12);
         let speed = direction * Inputs::default().carrier_speed;
         let inputs =
             Inputs { carrier_speed: speed, load_torque: [0.0; 2], brake_torque: [torque; 2], ..Inputs::default() };
         let f = *started(&p, &inputs).forces();
         for side in 0..2 {
             let at_start = f.side_tangential[side] * 0.5 * 4.5e-3 * 16.0;
-            assert!((at_start - direction * 0.25 * torque).abs() < 1e-6, "{direction} {torque}: {at_start}");
+            let expected = direction * 0.25 * torque * (1.0 + slope * 0.12 * speed.abs());
+            assert!((at_start - expected).abs() < 1e-6, "{direction} {torque} {slope}: {at_start} for {expected}");
         }
     }
 }

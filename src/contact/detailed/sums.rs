@@ -136,15 +136,15 @@ impl Sums {
                 (moves, along)
             });
             let friction = pair_friction.map(|pair_friction| {
-                let loaded = (node, damped.total);
-                self.add_friction::<SLOPES, OPEN>(pair_friction, loaded, by, along.as_ref())
+                self.add_friction::<SLOPES, OPEN>(pair_friction, (node, damped.total), by, along.as_ref())
             });
             look(&LoadedNode { node, arc, elastic, torque: damped.total, friction });
         }
     }
 
-    /// Adds the friction at a `node`, whose torque is `total` per unit of weight, with the derivatives `by` depth, s and rate.
-    /// `along` contains the motion of the node, and the derivatives of torque and load along the face. Returns the signed coefficient of friction and the sliding of the flanks.
+    /// Adds the friction at a `node` whose torque per unit of weight is `total`. `by` contains the derivatives of this
+    /// torque with respect to depth, s and rate. `along` contains the motion of the node, and the derivatives of torque
+    /// and load along the face. Returns the signed coefficient of friction and the sliding of the flanks.
     #[inline(always)]
     fn add_friction<const SLOPES: bool, const OPEN: bool>(
         &mut self,

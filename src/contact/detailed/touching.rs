@@ -24,7 +24,7 @@ pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
     pub motion: PairMotion<OPEN, SHARED>,
 }
 
-/// What the loads of a pair's points have in common.
+/// Data that the loads of all points of a pair share.
 struct Seen<'a> {
     name: &'a PairName,
     pair: &'a ToothPair,

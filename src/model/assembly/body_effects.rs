@@ -102,8 +102,8 @@ impl BodyEffects {
         self.oil.is_some() || self.surfaces.iter().any(|surface| surface.sliding.varies_with_temperature())
     }
 
-    /// True if friction other than that of a lock depends on the loads of the meshes.
+    /// True if friction depends on the loads of the meshes.
     pub fn needs_loads(&self) -> bool {
-        self.surfaces.iter().any(|surface| surface.kind != RubbingKind::Wheel && surface.limit.varies())
+        self.surfaces.iter().any(RubbingSurface::depends_on_meshes)
     }
 }

@@ -6,15 +6,14 @@
 //! P_fᵀ and f = (1 − W M) P_c.
 
 use super::{BodyEffects, Ideal};
-use crate::integrate::Matrix;
+use crate::integrate::{Matrix, size_for};
 use crate::model::effect_kinds::{BodyMotion, Slopes};
 use crate::model::scene::layout::LEFT;
 use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
-/// Maximum number of degrees of freedom: side gears, carrier, planets in one group, and attached bodies. It is even, for
-/// vectors of two numbers.
-pub const IDEAL_SIZE: usize = (PLANET + 1 + ATTACHED_COUNT).next_multiple_of(2);
+/// Size of vectors and matrices for side gears, carrier, planets in one group, and attached bodies.
+pub const IDEAL_SIZE: usize = size_for(PLANET + 1 + ATTACHED_COUNT);
 
 /// Number of motions that may be imposed: carrier, spin, left and right end.
 pub const IMPOSED: usize = 4;

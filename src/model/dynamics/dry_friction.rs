@@ -76,7 +76,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
 
     /// Adds the torques of sliding brakes, which depend only on inputs and speeds.
     pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
-        let surface_loads = self.all_surface_loads(None);
+        let surface_loads = self.applied.friction().commanded_loads(&self.applied.inputs);
         for number in RubbingKind::Wheel.numbers() {
             if let (Some(pair), Some((friction, direction, speed))) = (self.pair(number), self.sliding(at, number)) {
                 sum[pair.body] -= direction * friction.sliding_limit(speed, &surface_loads[number])[0];

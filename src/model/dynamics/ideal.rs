@@ -91,7 +91,7 @@ impl<'a> IdealEquations<'a> {
             effect.act(&motion, &mut out);
         }
         if self.has_dry_friction() {
-            self.add_friction_torques(at, &self.brake_loads(inputs), &mut sum, ledger_rates);
+            self.add_friction_torques(at, &self.applied.friction().commanded_loads(inputs), &mut sum, ledger_rates);
         }
         for s in (0..2).filter(|_| self.has_ends()) {
             let end = self.end(s);
@@ -107,13 +107,6 @@ impl<'a> IdealEquations<'a> {
     fn motion<'b>(&'b self, at: &'b Point<IDEAL_SIZE>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
         let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
         BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
-    }
-
-    /// Loads on all rubbing surfaces. Without teeth, only brakes have loads.
-    fn brake_loads(&self, inputs: &Inputs) -> [SurfaceLoad; PAIRS] {
-        let mut all = [SurfaceLoad::default(); PAIRS];
-        self.applied.friction().add_commands(inputs, &mut all);
-        all
     }
 
     /// Accelerations W Q + f u̇_c.
@@ -273,7 +266,7 @@ impl<'a> IdealEquations<'a> {
             let mut by_rate = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
             let by_velocity = &mut by_velocity;
             let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity };
-            self.friction_slopes(at, &self.brake_loads(now.0), j);
+            self.friction_slopes(at, &self.applied.friction().commanded_loads(now.0), j);
             self.times_rates(&mut by_rate);
             for (row, by_rate) in by_velocity.iter_mut().zip(&by_rate) {
                 lanes::add_times(row, 1.0, by_rate);

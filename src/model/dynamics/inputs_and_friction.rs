@@ -298,8 +298,7 @@ pub trait FrictionEquations<const N: usize> {
 
     /// Torques of the friction on the wheels [N·m].
     fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
-        let mut loads = [SurfaceLoad::default(); PAIRS];
-        self.applied().friction().add_commands(&self.applied().inputs, &mut loads);
+        let loads = self.applied().friction().commanded_loads(&self.applied().inputs);
         [0, 1].map(|s| {
             let Some(pair) = self.pair(RubbingKind::Wheel.number(s)) else { return 0.0 };
             let (friction, state) = self.friction_on(pair);

@@ -147,8 +147,8 @@ impl<'a> DryFriction<'a> {
             }
     }
 
-    /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each surface
-    /// to the heat of its cause.
+    /// Returns the limit torque of a body that slides at `speed` [rad/s]. Adds `sliding` times the torque of each
+    /// surface to the heat of its cause.
     #[inline(never)]
     fn limit_with_heat_at(&self, (speed, sliding): (f64, f64), by: &SurfaceLoad, heat: &mut [f64]) -> f64 {
         self.surfaces().fold(0.0, |limit, (acting, surface)| {

@@ -30,14 +30,14 @@ pub struct Friction {
     pub mask: u32,
     /// Parts that convert the mesh torques on the side gears to pressure.
     pub ramps: Ramps,
-    /// Function that returns the limit torques of both wheels [N·m]; `None` without brakes.
-    limits: Option<fn(&Inputs) -> [f64; 2]>,
+    /// Pairs on a left and a right side whose limit torques are commanded, and the function that returns these [N·m].
+    commanded: Option<(RubbingKind, fn(&Inputs) -> [f64; 2])>,
 }
 
 impl Friction {
     /// No friction.
     pub const NONE: Self =
-        Self { frictions: [BodyFriction::NONE; FRICTIONS], mask: 0, ramps: Ramps::OWN_SIDE, limits: None };
+        Self { frictions: [BodyFriction::NONE; FRICTIONS], mask: 0, ramps: Ramps::OWN_SIDE, commanded: None };
 
     /// Friction of `surfaces` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their
     /// derivatives. A brake whose torque and its derivatives are 0 adds no friction.
@@ -73,7 +73,7 @@ impl Friction {
         all
     }
 
-    /// Adds the brakes with surface number `index`, whose limit torques are `limits`.
+    /// Adds surface number `index`, whose limit torques on the left and the right side are `limits`.
     fn command(
         &mut self,
         (index, surface): (u16, &RubbingSurface),
@@ -85,13 +85,13 @@ impl Friction {
         let commanded = [inputs, first, second].map(limits);
         for s in 0..2 {
             let damping_time = surface.damping_time[s];
-            let friction = &mut self.frictions[FRICTION_OF[RubbingKind::Wheel.number(s)]];
+            let friction = &mut self.frictions[FRICTION_OF[surface.kind.number(s)]];
             *friction = BodyFriction::commanded(damping_time, surface.heat_index);
             if commanded.iter().any(|limit| limit[s] != 0.0) {
                 friction.push((index, surface), [1.0, factor, damping_time]);
             }
         }
-        self.limits = Some(limits);
+        self.commanded = Some((surface.kind, limits));
     }
 
     /// Fails if there are too many surfaces on one kind of pair.
@@ -123,9 +123,16 @@ impl Friction {
     /// Adds the commanded limit torques under `inputs` to the loads on the surfaces.
     #[inline]
     pub fn add_commands(&self, inputs: &Inputs, loads: &mut [SurfaceLoad; PAIRS]) {
-        let Some(limits) = self.limits else { return };
+        let Some((kind, limits)) = self.commanded else { return };
         for (s, load) in limits(inputs).into_iter().enumerate() {
-            loads[RubbingKind::Wheel.number(s)].load = load;
+            loads[kind.number(s)].load = load;
         }
+    }
+
+    /// Loads on the surfaces under `inputs` if meshes press none of them.
+    pub fn commanded_loads(&self, inputs: &Inputs) -> [SurfaceLoad; PAIRS] {
+        let mut loads = [SurfaceLoad::default(); PAIRS];
+        self.add_commands(inputs, &mut loads);
+        loads
     }
 }

@@ -3,7 +3,6 @@
 
 pub mod body_effect;
 pub mod body_friction;
-pub mod by_load;
 pub mod dry_friction;
 #[cfg(test)]
 #[path = "tests/dry_friction.rs"]
@@ -16,6 +15,7 @@ pub mod element_tests;
 pub mod friction;
 pub mod friction_state;
 pub mod memory;
+pub mod pv_limit;
 pub mod ramps;
 pub mod rubbing_surface;
 pub mod slip_law;
@@ -24,15 +24,15 @@ pub mod teeth;
 pub mod torque_curve;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
-pub use by_load::{ByLoad, PvLimit};
 pub(super) use effect::readings;
 pub use effect::{Attached, BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
 pub use friction_state::{FrictionState, Mode};
 pub use memory::{Memory, Remembered};
+pub use pv_limit::PvLimit;
 pub use ramps::Ramps;
-pub use rubbing_surface::{ActingSurface, Command, RubbingSurface, Slip, SurfaceLoad, SurfaceTemperature};
+pub use rubbing_surface::{ActingSurface, ByLoad, Command, RubbingSurface, Slip, SurfaceLoad, SurfaceTemperature};
 pub use slip_law::SlipLaw;
 pub(super) use slip_spec::check_slip;
 pub use slip_spec::{Slides, SlipSpec, depends_on_temperature};

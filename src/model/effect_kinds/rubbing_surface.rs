@@ -2,7 +2,7 @@
 //! the loads on the surface and on the slip of the pair.
 
 use super::dry_friction::DAMPING_TIME;
-use super::{ByLoad, PvLimit, Ramps, SlipLaw, SlipSpec, TorqueCurve};
+use super::{PvLimit, Ramps, SlipLaw, SlipSpec, TorqueCurve};
 use crate::model::scene::{Inputs, RubbingKind};
 use crate::model::thermal::{NODES, OIL};
 
@@ -14,6 +14,38 @@ pub struct SurfaceLoad {
     /// Mesh torque that presses the pack of a side gear [N·m], magnitude of the force across a planet's pin
     /// [N], or limit torque of a wheel [N·m].
     pub load: f64,
+}
+
+/// Quantity of a surface that is linear in thrust and load: its limit torque [N·m], or its pressure times radius [N/m].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ByLoad {
+    /// Constant value.
+    pub constant: f64,
+    /// Value per newton of thrust.
+    pub per_thrust: f64,
+    /// Value per unit of the load.
+    pub per_load: f64,
+}
+
+impl ByLoad {
+    /// Zero.
+    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0 };
+
+    /// True if it depends on the loads.
+    pub fn varies(&self) -> bool {
+        self.per_thrust != 0.0 || self.per_load != 0.0
+    }
+
+    /// Value under the loads `by`.
+    pub fn at(&self, by: &SurfaceLoad) -> f64 {
+        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+
+    /// Returns `factor` times the quantity.
+    pub fn times(self, factor: f64) -> Self {
+        let Self { constant, per_thrust, per_load } = self;
+        Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load }
+    }
 }
 
 /// Motion of a body against the surface it rubs on.
@@ -112,6 +144,11 @@ impl RubbingSurface {
         matches!(self.command, Command::Lock)
     }
 
+    /// True if its friction depends on the loads of the meshes.
+    pub fn depends_on_meshes(&self) -> bool {
+        !matches!(self.command, Command::Limits(_)) && self.limit.varies()
+    }
+
     /// Law of friction over slip speed.
     fn law(&self) -> SlipLaw {
         let SlipSpec { stribeck_speed, slip_slope: slope, static_ratio, .. } = self.sliding;
@@ -130,7 +167,8 @@ impl RubbingSurface {
     }
 }
 
-/// Surface that acts now: its limit torque at the present temperature and command. The law of sliding is in the surface.
+/// Surface that acts now, with its limit torque at the present temperature and command. The law of sliding belongs to
+/// the [`RubbingSurface`].
 #[derive(Clone, Copy, Debug)]
 pub struct ActingSurface {
     /// Kinetic limit torque without its change over speed [N·m].

@@ -80,6 +80,7 @@ mod tests {
         assert_eq!(CLUTCH.factor(1e6), [LEAST, 0.0]);
         let jump = SlipLaw { stribeck_speed: 0.0, slope: 0.0, ..CLUTCH };
         assert_eq!(jump.factor(3.0), [1.0, 0.0]);
-        assert!(jump.is_constant() && !CLUTCH.is_constant());
+        let constant = SlipLaw { radius: 0.0, excess: 0.0, stribeck_speed: 0.0, slope: 0.0 };
+        assert!(constant.is_constant() && jump.is_constant() && !CLUTCH.is_constant());
     }
 }

@@ -34,6 +34,31 @@ fn twists() -> [Condition; 2] {
     ]
 }
 
+/// Wheel at the end of the half-shaft on a side.
+macro_rules! wheel {
+    ($side:literal) => {
+        Attached {
+            name: concat!("the ", $side, " wheel"),
+            of: $side,
+            states: ["shaft_twist", "end_speed"],
+            descriptions: [
+                concat!(
+                    "Twist of the ",
+                    $side,
+                    " half-shaft, positive if the side gear is ahead; 0 without a separate wheel end"
+                ),
+                concat!(
+                    "Speed of the wheel end of the ",
+                    $side,
+                    " half-shaft; 0 without a separate wheel end, so for the wheel read ",
+                    $side,
+                    ".wheel_speed"
+                ),
+            ],
+        }
+    };
+}
+
 impl Declare for HalfShaftSpec {
     const DESCRIPTION: &'static str = "Torsion of the half-shafts, with inertia at the wheels";
     const HEAT: Option<Heat> = Some(Heat {
@@ -47,28 +72,7 @@ impl Declare for HalfShaftSpec {
         /// Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid half-shaft
         "right.twist": RADIAN | DEG, Always(|shafts, at| shafts.twist(1, at));
     };
-    const BODIES: &'static [Attached] = &[
-        Attached {
-            name: "the left wheel",
-            of: "left",
-            states: ["shaft_twist", "end_speed"],
-            descriptions: [
-                "Twist of the left half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
-                "Speed of the wheel end of the left half-shaft; 0 without a separate wheel end, so for the wheel read \
-                 left.wheel_speed",
-            ],
-        },
-        Attached {
-            name: "the right wheel",
-            of: "right",
-            states: ["shaft_twist", "end_speed"],
-            descriptions: [
-                "Twist of the right half-shaft, positive if the side gear is ahead; 0 without a separate wheel end",
-                "Speed of the wheel end of the right half-shaft; 0 without a separate wheel end, so for the wheel read \
-                 right.wheel_speed",
-            ],
-        },
-    ];
+    const BODIES: &'static [Attached] = &[wheel!("left"), wheel!("right")];
     /// A speed-driven side acts through its half-shaft.
     const MAY_ACT_UNSWITCHED: bool = true;
     const EXAMPLE: &'static [(&'static str, f64)] = &[("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];

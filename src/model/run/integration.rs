@@ -198,8 +198,8 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
     outcome.map_err(|failure| explain(failure, begin + clock.time, (model, inputs, state), &before))
 }
 
-/// Trajectory from the last completed step, or within the pending step if there is one. Always inlined, so that this large
-/// value is written in place.
+/// Trajectory from the last completed step, or within the pending step if there is one. Always inlined, so that this
+/// large value is written in place.
 #[inline(always)]
 fn resumed<const N: usize>(state: &State, clock: &Clock) -> Trajectory<N, LedgerRates> {
     let mut trajectory = Trajectory {

@@ -5,7 +5,7 @@ mod inputs;
 pub mod layout;
 mod material;
 mod oil;
-mod plan;
+pub mod plan;
 mod rubbing;
 mod solver;
 

@@ -1,8 +1,8 @@
 //! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes.
 //!
-//! The slip of a pair is a sum of positions. Its rate is the speed of the body minus that of its base, so friction pushes
-//! the body back and the base forward. A new kind of pair is a line in each function of [`RubbingKind`], and its bodies
-//! in [`Plan::rubbing`].
+//! The slip of a pair is a sum of positions. Its rate is the speed of the body minus the speed of its base, so friction
+//! pushes the body back and the base forward. A new kind of pair is a line in each function of [`RubbingKind`], and its
+//! bodies in [`Plan::rubbing`].
 
 use std::ops::Range;
 
@@ -35,7 +35,7 @@ impl RubbingKind {
         }
     }
 
-    /// True if all pairs of this kind have the same friction. Others have a command or a damping each.
+    /// True if all pairs of this kind have the same friction. Otherwise, each pair has its own command and damping.
     pub const fn is_alike(self) -> bool {
         match self {
             Self::Side | Self::Planet => true,
@@ -75,7 +75,7 @@ pub struct RubbingPair {
     pub number: usize,
     /// Degree of freedom of the body.
     pub body: usize,
-    /// Degree of freedom of the base; `None` for the housing, and for pins that turn with the carrier.
+    /// Degree of freedom of the base. `None` for the housing; also for planets, whose speed is relative to the carrier.
     pub base: Option<usize>,
     /// Number of identical pairs.
     pub count: f64,

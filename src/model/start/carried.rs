@@ -2,8 +2,9 @@
 
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
-use crate::model::effect_kinds::{Action, BodyMotion, SurfaceLoad};
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PAIRS, RubbingKind};
+use crate::model::effect_kinds::dry_friction::DryFriction;
+use crate::model::effect_kinds::{Action, BodyMotion};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, RubbingKind};
 use crate::model::setup::HEATS;
 
 /// Torques at the start, and the corresponding accelerations.
@@ -69,13 +70,13 @@ impl Carried {
 /// Brake torques on turning wheels [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
     let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
-    let mut loads = [SurfaceLoad::default(); PAIRS];
-    friction.add_commands(inputs, &mut loads);
+    let loads = friction.commanded_loads(inputs);
     [0, 1].map(|s| {
         let Some(pair) = &model.body_effects().pairs[RubbingKind::Wheel.number(s)] else { return 0.0 };
         let speed = state.v[pair.body];
         let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
-        direction * friction.on(pair.number).limit(&loads[pair.number])
+        let friction = DryFriction::new(friction.on(pair.number), &model.body_effects().surfaces);
+        direction * friction.sliding_limit(direction * speed, &loads[pair.number])[0]
     })
 }
 

@@ -1,12 +1,13 @@
 //! Tests of dry friction with sticking.
 
 use super::body_friction::{BodyFriction, MOST_SURFACES};
-use super::by_load::ByLoad;
 use super::dry_friction::*;
 use super::friction::Friction;
 use super::friction_state::{FrictionState, Mode};
-use super::rubbing_surface::{RubbingSurface, Slip, SurfaceLoad};
+use super::rubbing_surface::{ByLoad, RubbingSurface, Slip, SurfaceLoad};
+use crate::model::assembly::{Given, Model};
 use crate::model::scene::RubbingKind;
+use crate::model::setup::Parameters;
 
 const STIFFNESS: f64 = 1e3;
 
@@ -154,9 +155,17 @@ fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
 
 #[test]
 fn all_frictions_of_a_side_gear_fit_on_it_and_more_are_refused() {
+    let mut p = Parameters::default();
+    (p.effects.thrust_friction, p.effects.limited_slip) = (true, true);
+    p.specs.limited_slip.curve[0].torque = 1.0;
+    let model = Model::new(&p, &Given::default()).unwrap();
     // washer, clutch pack with its measured curve, and lock
-    let surfaces = vec![surface(STIFFNESS); MOST_SURFACES + 1];
-    assert!(Friction::check(&surfaces[1..]).is_ok());
+    let mut surfaces = model.body_effects().surfaces.clone();
+    surfaces.retain(|surface| surface.kind == RubbingKind::Side);
+    assert_eq!(surfaces.len(), MOST_SURFACES);
+    let mut surfaces = vec![surface(STIFFNESS); MOST_SURFACES];
+    assert!(Friction::check(&surfaces).is_ok());
+    surfaces.push(surface(STIFFNESS));
     let refused = Friction::check(&surfaces).unwrap_err();
     assert!(refused.to_string().contains("5 dry frictions on one body, but it takes at most 4"), "{refused}");
 }

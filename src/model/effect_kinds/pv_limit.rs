@@ -12,42 +12,8 @@
 //! Source: J. E. Shigley, Mechanical Engineering Design, on boundary-lubricated bearings: p v limits what a surface can
 //! bear.
 
-use super::SurfaceLoad;
-
 /// Width of the band in which friction changes, as a fraction of the limit.
 const BAND: f64 = 0.05;
-
-/// Quantity of a surface that is linear in thrust and load: its limit torque [N·m], or its pressure times radius [N/m].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct ByLoad {
-    /// Constant value.
-    pub constant: f64,
-    /// Value per thrust [N].
-    pub per_thrust: f64,
-    /// Value per load, in the unit of the load.
-    pub per_load: f64,
-}
-
-impl ByLoad {
-    /// Zero.
-    pub const NONE: Self = Self { constant: 0.0, per_thrust: 0.0, per_load: 0.0 };
-
-    /// True if it depends on the loads.
-    pub fn varies(&self) -> bool {
-        self.per_thrust != 0.0 || self.per_load != 0.0
-    }
-
-    /// Value under the loads `by`.
-    pub fn at(&self, by: &SurfaceLoad) -> f64 {
-        self.constant + self.per_thrust * by.thrust + self.per_load * by.load
-    }
-
-    /// Returns `factor` times the quantity.
-    pub fn times(self, factor: f64) -> Self {
-        let Self { constant, per_thrust, per_load } = self;
-        Self { constant: factor * constant, per_thrust: factor * per_thrust, per_load: factor * per_load }
-    }
-}
 
 /// Limit of p·v.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,7 +48,7 @@ impl PvLimit {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::effect_kinds::{ActingSurface, RubbingSurface, SlipSpec};
+    use crate::model::effect_kinds::{ActingSurface, ByLoad, RubbingSurface, SlipSpec, SurfaceLoad};
     use crate::model::scene::RubbingKind;
 
     const PRESSED: ByLoad = ByLoad { constant: 2e3, per_thrust: 9.0, per_load: 40.0 };
