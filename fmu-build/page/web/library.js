@@ -54,14 +54,15 @@ export class Library {
   // Writes references and values of a kind to the library's memory: [{reference, value}].
   written(kind, assignments) {
     const count = assignments.length;
-    const known = this.rooms.get(kind);
-    if (known && known.count < count) {
-      this.exports.page_free(known.references, 4 * known.count);
-      this.exports.page_free(known.values, 8 * known.count);
+    let room = this.rooms.get(kind);
+    if (!room || room.count < count) {
+      if (room) {
+        this.exports.page_free(room.references, 4 * room.count);
+        this.exports.page_free(room.values, 8 * room.count);
+      }
+      room = { count, references: this.exports.page_allocate(4 * count), values: this.exports.page_allocate(8 * count) };
+      this.rooms.set(kind, room);
     }
-    const room = known?.count >= count ? known
-      : { count, references: this.exports.page_allocate(4 * count), values: this.exports.page_allocate(8 * count) };
-    this.rooms.set(kind, room);
     // new views each time, because the memory moves when it grows
     const { buffer } = this.exports.memory;
     const references = new Uint32Array(buffer, room.references, count);

@@ -2,6 +2,7 @@
 
 use super::body_friction::{BodyFriction, MOST_SURFACES};
 use super::dry_friction::DAMPING_TIME;
+use super::rubbing_surface::SideLimits;
 use super::{Command, Ramps, RubbingSurface, SurfaceLoad};
 use crate::model::scene::{InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::thermal::NODES;
@@ -30,8 +31,8 @@ pub struct Friction {
     pub mask: u32,
     /// Parts that convert the mesh torques on the side gears to pressure.
     pub ramps: Ramps,
-    /// Pairs on a left and a right side whose limit torques are commanded, and the function that returns these [N·m].
-    commanded: Option<(RubbingKind, fn(&Inputs) -> [f64; 2])>,
+    /// Pairs on a left and a right side whose limit torques are commanded, and the function that returns these.
+    commanded: Option<(RubbingKind, SideLimits)>,
 }
 
 impl Friction {
@@ -77,7 +78,7 @@ impl Friction {
     fn command(
         &mut self,
         (index, surface): (u16, &RubbingSurface),
-        limits: fn(&Inputs) -> [f64; 2],
+        limits: SideLimits,
         factor: f64,
         (inputs, input_derivatives): (&Inputs, &InputDerivatives),
     ) {

@@ -57,6 +57,9 @@ pub struct Slip {
     pub speed: f64,
 }
 
+/// Function of the inputs that returns the limit torques on the left and the right side [N·m].
+pub type SideLimits = fn(&Inputs) -> [f64; 2];
+
 /// Command that acts on a surface.
 #[derive(Clone, Copy, Debug)]
 pub enum Command {
@@ -64,8 +67,8 @@ pub enum Command {
     None,
     /// The command of the lock presses the surface and sets its stiffness at the start of a step.
     Lock,
-    /// Function of the inputs that returns the limit torques on the left and the right side [N·m].
-    Limits(fn(&Inputs) -> [f64; 2]),
+    /// The inputs give the limit torques.
+    Limits(SideLimits),
 }
 
 /// Origin of the temperature of a surface.

@@ -3,6 +3,7 @@
 import os
 import shutil
 import sys
+import time
 from contextlib import contextmanager
 
 from .paths import TARGET, WORKSPACE, shown
@@ -11,28 +12,29 @@ from .terminal import Failure
 
 @contextmanager
 def locked(place, note=lambda text: print(text, file=sys.stderr, flush=True)):
-    """Context in which no other process works in `place`. The lock is the one of the programs in Rust. `note` receives a remark about a
-    wait."""
+    """Context in which no other process works in `place`. Programs in Rust use the same lock file. `note` receives a remark if
+    another run has the lock."""
     place.parent.mkdir(parents=True, exist_ok=True)
     with place.with_suffix(".lock").open("a+") as file:
-        if not _try_lock(file, wait=False):
+        if not _try_lock(file):
             note(f"waiting for another run that works in {shown(place)}")
-            _try_lock(file, wait=True)
+            while not _try_lock(file):
+                time.sleep(0.2)
         yield
 
 
-def _try_lock(file, wait):
+def _try_lock(file):
     """Locks a file until it is closed. Returns False if another process has locked it."""
     try:
         if sys.platform == "win32":
             import msvcrt
 
-            msvcrt.locking(file.fileno(), msvcrt.LK_LOCK if wait else msvcrt.LK_NBLCK, 1)
+            msvcrt.locking(file.fileno(), msvcrt.LK_NBLCK, 1)
         else:
             import fcntl
 
-            fcntl.flock(file, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-    except OSError:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except (BlockingIOError, PermissionError):
         return False
     return True
 

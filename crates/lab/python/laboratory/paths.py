@@ -32,9 +32,9 @@ def version():
 
 
 def library(name):
-    """Path of a dynamic library that cargo built."""
+    """Path of a dynamic library that cargo built. Cargo updates the copy outside `deps` only if the library itself was requested."""
     prefix, ending = {"win32": ("", "dll"), "darwin": ("lib", "dylib")}.get(sys.platform, ("lib", "so"))
-    return TARGET / "release" / f"{prefix}{name}.{ending}"
+    return TARGET / "release" / "deps" / f"{prefix}{name}.{ending}"
 
 
 def cargo(*words):
@@ -70,6 +70,8 @@ def is_current(file):
 def printed(name, *words):
     """Output of a program of the workspace, which shows its own progress and errors. If it fails, the laboratory ends with its status."""
     done = subprocess.run([program(name), *map(str, words)], stdout=subprocess.PIPE, stdin=subprocess.DEVNULL, encoding="utf-8", cwd=WORKSPACE)
+    if done.returncode < 0:
+        raise Failure(f"{name} crashed (signal {-done.returncode})")
     if done.returncode:
         print(done.stdout, end="", flush=True)
         sys.exit(done.returncode)

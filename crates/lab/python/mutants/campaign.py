@@ -30,11 +30,15 @@ def main(repository, folder, count, seed, *fmu):
     fates = dict(map(json.loads, store.read_text(encoding="utf-8").splitlines())) if store.is_file() else {}
     with ThreadPoolExecutor(os.cpu_count()) as pool, store.open("a", encoding="utf-8") as file:
         tried = {pool.submit(judge.fate, number): key for number, key in enumerate(keys, 1) if key not in fates}
-        for done in as_completed(tried):
-            fates[tried[done]] = found = done.result()
-            file.write(json.dumps([tried[done], found]) + "\n")
-            file.flush()
-            say(len(fates) / len(changes), f"{found['fate']}: {tried[done]}")
+        try:
+            for done in as_completed(tried):
+                fates[tried[done]] = found = done.result()
+                file.write(json.dumps([tried[done], found]) + "\n")
+                file.flush()
+                say(len(fates) / len(changes), f"{found['fate']}: {tried[done]}")
+        finally:
+            # otherwise, an error or Ctrl-C would wait for all further changes
+            pool.shutdown(wait=False, cancel_futures=True)
     explained = tomllib.loads((repository / "docs" / "mutants.toml").read_text(encoding="utf-8")).get(kind.explained, [])
     print(judge.report(list(zip(changes, map(fates.get, keys))), seed, explained))
 

@@ -3,7 +3,6 @@ selected."""
 
 import random
 from dataclasses import dataclass
-from pathlib import Path
 
 import tree_sitter_rust
 from tree_sitter import Language, Parser

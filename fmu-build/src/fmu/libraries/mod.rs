@@ -13,7 +13,6 @@ use anyhow::Result;
 pub use compile::cargo;
 pub(super) use compile::without_folders;
 pub use library::{AddedPart, CRATES, Library};
-pub use own::for_this_machine;
 
 use crate::fmu::toolchains::{self, GLIBC};
 use library::{CROSS, HOST};
