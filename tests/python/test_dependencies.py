@@ -40,7 +40,7 @@ def absolute(module, path, modules):
 
 
 def graph(texts):
-    """Files that each file uses, by module. Tests of a file may use what they like."""
+    """Files that each file uses, by module. Tests within a file are not counted."""
     found = {}
     for module, text in texts.items():
         code = re.sub(r"//[^\n]*", "", text.partition("#[cfg(test)]\nmod tests {")[0])

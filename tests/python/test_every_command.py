@@ -62,7 +62,8 @@ def folder(folder, units, monkeypatch):
 
 def test_every_command_is_in_the_list():
     assert EXAMPLES.keys() == COMMANDS.keys()
-    assert all(example.failed is not None or example.files for example in EXAMPLES.values())
+    # all others write files; test_full_disk.py runs them
+    assert {name for name, example in EXAMPLES.items() if not example.files} == {"page"}
     assert {name for name, example in EXAMPLES.items() if example.warned is None} == QUIET
 
 
@@ -157,9 +158,10 @@ def test_an_impossible_file_is_refused_before_any_work(name, option, folder, mon
     before = {*folder.iterdir()}
     for file, why in (("x.xlsx", "a … ends with"), ("none/a.csv", "there is no folder"), (".", "it is a folder; name a file")):
         [said] = command(f"{line(name)} {option} {file}", WRONG).errors
-        assert f"argument {option}: {file}: {why.partition(' … ')[0]}" in said and why.rpartition(" … ")[2] in said, said
-        kind = next((kind for kind in ENDINGS if f": a {kind} ends with" in said), None)
-        assert kind is None or all(ending in said for ending in ENDINGS[kind])
+        assert re.search(pattern(f"argument {option}: {file}: {why}"), said), said
+        if file == "x.xlsx":
+            kind = next(kind for kind in ENDINGS if f"{file}: a {kind} ends with" in said)
+            assert all(ending in said for ending in ENDINGS[kind])
     assert {*folder.iterdir()} == before
 
 
