@@ -51,6 +51,12 @@ pub trait Scalar:
         let slope = 1.0 - t * t;
         self.through([t, slope, -2.0 * t * slope])
     }
+    /// Arc tangent.
+    fn atan(self) -> Self {
+        let x = self.value();
+        let slope = 1.0 / (1.0 + x * x);
+        self.through([libm::atan(x), slope, -2.0 * x * slope * slope])
+    }
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self {
         let per = 1.0 / self.value();

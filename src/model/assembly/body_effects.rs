@@ -61,16 +61,6 @@ impl BodyEffects {
         self.has_friction = self.surfaces.iter().any(|surface| !surface.is_lock());
     }
 
-    /// Speed of an imposed carrier at the positions `q` under its command [rad/s].
-    pub fn carrier_speed(&self, q: &[f64], command: f64) -> f64 {
-        self.forces.iter().fold(command, |speed, effect| effect.carrier_speed(q, speed))
-    }
-
-    /// True if an effect scales the commanded speed or torque of the carrier.
-    pub fn scale_carrier_inputs(&self) -> bool {
-        self.forces.iter().any(|effect| effect.scales_carrier_inputs())
-    }
-
     /// Friction on all bodies with the lock at `lock` and all nodes at `temperatures` [K].
     pub fn friction(
         &self,

@@ -53,9 +53,10 @@ impl Ideal {
     pub fn impulse(&self) -> [f64; 2] {
         let [m11, m12, m22] = self.mass();
         let plan = &self.plan;
+        let carrier = plan.drive_imposed && plan.drives_carrier();
         [
-            if plan.carrier_imposed && !plan.spin_imposed { -m12 / m22 } else { 0.0 },
-            if plan.spin_imposed && !plan.carrier_imposed { -m12 / m11 } else { 0.0 },
+            if carrier && !plan.spin_imposed { -m12 / m22 } else { 0.0 },
+            if plan.spin_imposed && !carrier { -m12 / m11 } else { 0.0 },
         ]
     }
 
@@ -76,7 +77,7 @@ impl Ideal {
         let [first, second] = &derivatives.rates;
         // accelerations are linear in inputs and their rates; most hosts give lines, which have no second derivatives
         let [left, right] = second.load_torque;
-        let all = [second.carrier_speed, second.planet_spin, second.carrier_torque, left, right];
+        let all = [second.drive_speed, second.planet_spin, second.drive_torque, left, right];
         let is_line = all.iter().fold(0, |bits, x| bits | x.to_bits()) << 1 == 0;
         [
             self.motion_along(mass, inputs, first),
@@ -90,10 +91,10 @@ impl Ideal {
     fn motion_along(&self, [m11, m12, m22]: [f64; 3], inputs: &Inputs, rates: &Inputs) -> IdealMotion {
         let r = self.ratio;
         let [left, right] = inputs.load_torque;
-        let (f1, f2) = (inputs.carrier_torque - left - right, r * (right - left));
-        let (carrier, spin) = match (self.plan.carrier_imposed, self.plan.spin_imposed) {
-            (true, true) => (rates.carrier_speed, rates.planet_spin),
-            (true, false) => (rates.carrier_speed, (f2 - m12 * rates.carrier_speed) / m22),
+        let (f1, f2) = (inputs.drive_torque - left - right, r * (right - left));
+        let (carrier, spin) = match (self.plan.drive_imposed, self.plan.spin_imposed) {
+            (true, true) => (rates.drive_speed, rates.planet_spin),
+            (true, false) => (rates.drive_speed, (f2 - m12 * rates.drive_speed) / m22),
             (false, true) => ((f1 - m12 * rates.planet_spin) / m11, rates.planet_spin),
             (false, false) => {
                 let determinant = m11 * m22 - m12 * m12;
@@ -101,7 +102,7 @@ impl Ideal {
             }
         };
         let carrier_torque =
-            if self.plan.carrier_imposed { m11 * carrier + m12 * spin + left + right } else { inputs.carrier_torque };
+            if self.plan.drive_imposed { m11 * carrier + m12 * spin + left + right } else { inputs.drive_torque };
         let spin_torque = if self.plan.spin_imposed { m12 * carrier + m22 * spin - f2 } else { 0.0 };
         let net = [carrier_torque - (left + right), spin_torque + f2];
         IdealMotion { carrier, spin, carrier_torque, spin_torque, net }

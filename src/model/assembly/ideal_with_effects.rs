@@ -15,7 +15,7 @@ use crate::numeric::lanes;
 /// Size of vectors and matrices for side gears, carrier, planets in one group, and attached bodies.
 pub const IDEAL_SIZE: usize = size_for(PLANET + 1 + ATTACHED_COUNT);
 
-/// Number of motions that may be imposed: carrier, spin, left and right end.
+/// Number of motions that may be imposed: drive, spin, left and right end.
 pub const IMPOSED: usize = 4;
 
 /// Constants of a scene whose forces are linear, because only half-shafts act.
@@ -46,7 +46,7 @@ pub struct IdealWithEffects {
     pub ratio: f64,
     /// Columns of W, which gives accelerations from forces.
     pub mobility: [[f64; IDEAL_SIZE]; IDEAL_SIZE],
-    /// Columns of f for the carrier, the spin and both ends; zero if the motion is not imposed.
+    /// Columns of f for the drive, the spin and both ends; zero if the motion is not imposed.
     pub follow: [[f64; IDEAL_SIZE]; IMPOSED],
     /// Constants of a scene in which only half-shafts act, apart from dry friction.
     pub linear: Option<Box<Linear>>,
@@ -72,9 +72,12 @@ impl IdealWithEffects {
         (spin[LEFT], spin[LEFT + 1], spin[PLANET]) = (r, -r, 1.0);
         let mut columns = vec![carrier, spin];
         columns.extend((0..ATTACHED_COUNT).map(|k| std::array::from_fn(|i| f64::from(plan.attached(k) == Some(i)))));
-        let imposed = [plan.carrier_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
+        // the column of an attached body has a single one, at its degree of freedom
+        let of_port = columns.iter().skip(2).position(|column| column[layout.port] != 0.0).map_or(0, |k| 2 + k);
+        let imposed = [plan.drive_imposed, plan.spin_imposed, plan.side_imposed[0], plan.side_imposed[1]];
+        let imposed: [Option<usize>; IMPOSED] = std::array::from_fn(|k| imposed[k].then_some([of_port, 1, 2, 3][k]));
         let is_free =
-            |k: usize, column: &[f64; IDEAL_SIZE]| !(k < IMPOSED && imposed[k]) && *column != [0.0; IDEAL_SIZE];
+            |k: usize, column: &[f64; IDEAL_SIZE]| !imposed.contains(&Some(k)) && *column != [0.0; IDEAL_SIZE];
         let free: Vec<[f64; IDEAL_SIZE]> =
             columns.iter().enumerate().filter(|&(k, column)| is_free(k, column)).map(|(_, column)| *column).collect();
         let p = nalgebra::DMatrix::from_fn(n, free.len(), |i, j| free[j][i]);
@@ -82,7 +85,7 @@ impl IdealWithEffects {
         // inertias are positive, so the reduced matrix has an inverse
         let reduced = (p.transpose() * &m * &p).try_inverse();
         let w = reduced.map_or_else(|| nalgebra::DMatrix::zeros(n, n), |inverse| &p * inverse * p.transpose());
-        let c = nalgebra::DMatrix::from_fn(n, IMPOSED, |i, k| if imposed[k] { columns[k][i] } else { 0.0 });
+        let c = nalgebra::DMatrix::from_fn(n, IMPOSED, |i, k| imposed[k].map_or(0.0, |column| columns[column][i]));
         let follow = &c - &w * &m * &c;
         let mut this = Self {
             plan,
@@ -94,7 +97,7 @@ impl IdealWithEffects {
             mobility: [[0.0; IDEAL_SIZE]; IDEAL_SIZE],
             follow: [[0.0; IDEAL_SIZE]; IMPOSED],
             linear: None,
-            is_imposed: imposed.contains(&true),
+            is_imposed: imposed.iter().any(Option::is_some),
             body_effects,
         };
         for i in 0..n {
@@ -105,8 +108,9 @@ impl IdealWithEffects {
                 this.mobility[j][i] = w[(i, j)];
             }
         }
+        // ideal gears have no pins, so without other attached bodies the springs are half-shafts
         if let [effect] = &this.body_effects.forces[..]
-            // ideal gears have no pins, so the springs are half-shafts
+            && this.others.is_empty()
             && let Some(heat_index) = effect.heat_of_springs()
         {
             this.linear = Some(Box::new(this.with_half_shafts(heat_index)));
@@ -117,8 +121,7 @@ impl IdealWithEffects {
     /// Constants of the scene if only half-shafts act, with the index of their heat.
     fn with_half_shafts(&self, heat_index: usize) -> Linear {
         let (mut by_position, mut by_velocity) = ([[0.0; IDEAL_SIZE]; IDEAL_SIZE], [[0.0; IDEAL_SIZE]; IDEAL_SIZE]);
-        let mut imposed = [[0.0; IDEAL_SIZE]; 2];
-        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
+        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity]);
         let motion = BodyMotion {
             q: &[0.0; IDEAL_SIZE],
             v: &[0.0; IDEAL_SIZE],
@@ -128,30 +131,20 @@ impl IdealWithEffects {
             oil_viscosity: None,
         };
         self.body_effects.forces.iter().for_each(|effect| effect.slopes(&motion, &mut slopes));
-        let [by_position, by_velocity] =
-            [(by_position, imposed[0]), (by_velocity, imposed[1])].map(|(forces, imposed)| {
-                let mut product = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
-                self.accelerations_by(&forces, &imposed, &mut product);
-                product
-            });
+        let [by_position, by_velocity] = [by_position, by_velocity].map(|forces| {
+            let mut product = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
+            self.accelerations_by(&forces, &mut product);
+            product
+        });
         Linear { heat_index, by_position, by_velocity }
     }
 
-    /// Writes the derivatives of the accelerations to `product`, from the derivatives of the forces and of the
-    /// carrier's imposed acceleration.
-    pub fn accelerations_by(
-        &self,
-        forces: &Matrix<IDEAL_SIZE>,
-        imposed: &[f64; IDEAL_SIZE],
-        product: &mut Matrix<IDEAL_SIZE>,
-    ) {
+    /// Writes the derivatives of the accelerations to `product`, from the derivatives of the forces.
+    pub fn accelerations_by(&self, forces: &Matrix<IDEAL_SIZE>, product: &mut Matrix<IDEAL_SIZE>) {
         for (i, row) in product.iter_mut().enumerate() {
             let mut sum = [0.0; IDEAL_SIZE];
             for (k, force) in forces.iter().enumerate() {
                 lanes::add_times(&mut sum, self.mobility[k][i], force);
-            }
-            if self.plan.carrier_imposed {
-                lanes::add_times(&mut sum, self.follow[0][i], imposed);
             }
             *row = sum;
         }

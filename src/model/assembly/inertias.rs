@@ -2,7 +2,7 @@
 
 use crate::geometry::solid::mass::GearMass;
 
-use crate::model::scene::{CARRIER, ENDS, MAX_DOF, Plan};
+use crate::model::scene::{CARRIER, ENDS, MAX_DOF, PINION, PROPELLER, Plan};
 use crate::model::setup::Parameters;
 
 /// Inertias that the equations of motion need [kg·m²].
@@ -11,7 +11,7 @@ use crate::model::setup::Parameters;
 /// of carrier and side gears and the relative spins of the planets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inertias {
-    /// Carrier with the transverse inertia of all planets.
+    /// Carrier with the transverse inertia of all planets and with a pinion that is rigid with it.
     pub carrier: f64,
     /// Side gears with their rigid ends.
     pub side: [f64; 2],
@@ -50,6 +50,11 @@ impl Inertias {
             planet_mass_moment: planet.mass * planet.centre,
             planets,
         }
+    }
+
+    /// Inertia of the body on which the drive acts [kg·m²].
+    pub fn of_port(&self, plan: &Plan) -> f64 {
+        plan.attached[PINION..=PROPELLER].iter().flatten().next_back().map_or(self.carrier, |body| body.inertia)
     }
 
     /// Inertia of each degree of freedom of `plan` [kg·m², for seats kg], for a single planet and pin of each group.

@@ -86,7 +86,8 @@ impl Model {
         let plan = Plan::new(&parameters.scene, &spec, &pair, &Requests { individual, ..requests });
         let plan = plan.map_err(|p| vec![p])?;
         let masses = cache.masses(&pair, &parameters.geometry, parameters.material.density);
-        let inertia = Inertias::new(parameters, &masses);
+        let mut inertia = Inertias::new(parameters, &masses);
+        inertia.carrier += plan.on_carrier;
         let ratio = f64::from(spec.planet_teeth) / f64::from(spec.side_teeth);
         let ideal = Ideal { plan, inertia, ratio };
         let mut warnings = checked.warnings.clone();

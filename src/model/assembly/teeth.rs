@@ -3,7 +3,7 @@
 use super::{BodyEffects, Inertias};
 use crate::contact::planet::Contact;
 use crate::geometry::Pair;
-use crate::model::scene::{CARRIER, GearContact, Layout, MAX_DOF, Plan};
+use crate::model::scene::{GearContact, Layout, MAX_DOF, Plan};
 use crate::numeric::quotient;
 
 /// Sign σ of the left and right side.
@@ -64,8 +64,8 @@ impl Teeth {
             // imposed motion and rigid ends have no inertia; their entries follow
             inverse_inertia[i] = quotient(1.0, inertia[i]).unwrap_or(f64::INFINITY);
         }
-        if plan.carrier_imposed {
-            inverse_inertia[CARRIER] = 0.0;
+        if plan.drive_imposed {
+            inverse_inertia[layout.port] = 0.0;
         }
         for g in (0..layout.groups).filter(|_| plan.spin_imposed) {
             inverse_inertia[layout.planet(g)] = 0.0;

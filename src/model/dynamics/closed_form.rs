@@ -54,8 +54,8 @@ impl Ideal {
 
     /// Sets imposed speeds to their `inputs`, and speeds of side gears by Willis' equation.
     pub fn impose(&self, state: &mut State, inputs: &Inputs) {
-        if self.plan.carrier_imposed {
-            state.v[CARRIER] = inputs.carrier_speed;
+        if self.plan.drive_imposed {
+            state.v[CARRIER] = inputs.drive_speed;
         }
         if self.plan.spin_imposed {
             state.v[PLANET] = inputs.planet_spin;

@@ -2,14 +2,13 @@
 //!
 //! Accelerations are linear in torques and in imposed accelerations, with constant coefficients. Inputs that follow a
 //! parabola, u(t) = u + u̇ t + ü t²/2, therefore add a parabola of time to the accelerations at constant inputs: Δv̇ =
-//! a₀ + a₁ t + a₂ t². They add the power Σ J Δv̇ v to the power of the inputs. There are two exceptions, for which the
-//! equations are evaluated at the inputs of each time: brake torques, and a final drive that scales the inputs of the
-//! carrier.
+//! a₀ + a₁ t + a₂ t². They add the power Σ J Δv̇ v to the power of the inputs. Brake torques are an exception: for them,
+//! the equations are evaluated at the inputs of each time.
 
 use super::shape::Shape;
 use super::{Equations, FrictionEquations};
 use crate::integrate::Point;
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
+use crate::model::scene::{InputDerivatives, Inputs};
 
 /// Terms that changing inputs add to the accelerations.
 #[derive(Clone, Copy)]
@@ -49,12 +48,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(super) fn driven_terms(&self, derivatives: &InputDerivatives) -> Driven<N> {
         let [first, second] = &derivatives.rates;
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        let moves_carrier = |rates: &Inputs| rates.carrier_speed != 0.0 || rates.carrier_torque != 0.0;
-        let scales = S::MAY_ACT
-            && ([first, second].iter().any(|rates| rates.brake_torque != [0.0; 2])
-                || [first, second].iter().any(|rates| moves_carrier(rates))
-                    && self.teeth.effect_terms.body_effects.scale_carrier_inputs());
-        if scales {
+        if S::MAY_ACT && [first, second].iter().any(|rates| rates.brake_torque != [0.0; 2]) {
             return Driven::SCALES;
         }
         let mut by_order = [[0.0; N]; 3];
@@ -64,15 +58,15 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
             torque(if S::MAY_ACT { self.wheel(s) } else { s }, |inputs, s| -inputs.load_torque[s], s);
         }
-        if !plan.carrier_imposed {
-            torque(CARRIER, |inputs, _| inputs.carrier_torque, 0);
+        if !plan.drive_imposed {
+            torque(self.port(), |inputs, _| inputs.drive_torque, 0);
         }
         let mut acceleration = |i: usize, of: fn(&Inputs, usize) -> f64, s: usize| {
             // if effects may act, the equations already contain the first derivative
             (by_order[0][i], by_order[1][i]) = (if S::MAY_ACT { 0.0 } else { of(first, s) }, of(second, s));
         };
-        if plan.carrier_imposed {
-            acceleration(CARRIER, |inputs, _| inputs.carrier_speed, 0);
+        if plan.drive_imposed {
+            acceleration(self.port(), |inputs, _| inputs.drive_speed, 0);
         }
         for s in (0..2).filter(|&s| plan.side_imposed[s]) {
             acceleration(self.end(s), |inputs, s| inputs.side_speed[s], s);

@@ -27,7 +27,8 @@ use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
 use crate::model::scene::layout::{LEFT, over_groups};
-use crate::model::scene::{CARRIER, Inputs, Layout, MAX_GROUPS, PAIRS, Plan};
+use crate::model::scene::{Inputs, Layout, MAX_GROUPS, PAIRS, Plan};
+use crate::model::setup::HEATS;
 
 /// Equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
 #[derive(Clone, Copy)]
@@ -131,6 +132,12 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         S::end(&self.teeth.layout, s)
     }
 
+    /// Index of the body on which the drive acts.
+    #[inline]
+    pub(in crate::model) fn port(&self) -> usize {
+        S::port(&self.teeth.layout)
+    }
+
     /// Number of degrees of freedom.
     #[inline]
     pub(in crate::model) fn count(&self) -> usize {
@@ -161,45 +168,27 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     /// Returns the accelerations and completes the ledger rates.
     #[inline]
     pub(super) fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
-        let (mut sum, mut imposed) = ([0.0; N], [0.0; N]);
-        self.act(at, &mut sum, &mut imposed, ledger_rates);
+        let mut sum = [0.0; N];
+        self.act(at, &mut sum, ledger_rates);
         // a small copy stays in registers
         let mut sum = if S::HAS_OWN_STEPS { std::array::from_fn(|i| sum[i]) } else { sum };
-        self.finish(at, &mut sum, &imposed, ledger_rates);
+        self.finish(at, &mut sum, ledger_rates);
         sum
     }
 
     /// Adds all forces except commanded torques.
     #[inline]
-    pub(in crate::model) fn act(
-        &self,
-        at: &Point<N>,
-        sum: &mut [f64; N],
-        imposed: &mut [f64; N],
-        ledger_rates: &mut LedgerRates,
-    ) {
+    pub(in crate::model) fn act(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
         self.add_mesh_forces(at, sum, ledger_rates);
         if S::MAY_ACT {
-            self.act_on_bodies(at, sum, imposed, ledger_rates);
+            self.act_on_bodies(at, sum, ledger_rates);
         }
     }
 
     /// Adds the forces of the effects on bodies.
-    pub(in crate::model) fn act_on_bodies(
-        &self,
-        at: &Point<N>,
-        sum: &mut [f64; N],
-        imposed: &mut [f64; N],
-        ledger_rates: &mut LedgerRates,
-    ) {
+    pub(in crate::model) fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
         let motion = self.body_motion(at);
-        imposed[CARRIER] += motion.input_rates.carrier_speed;
-        let mut out = Action {
-            force: sum,
-            imposed: &mut imposed[CARRIER],
-            drive: &mut ledger_rates.drive,
-            heat: &mut ledger_rates.heat,
-        };
+        let mut out = Action { force: sum, heat: &mut ledger_rates.heat };
         for effect in self.teeth.effect_terms.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
@@ -218,16 +207,9 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
     }
 
-    /// Adds the torques of inputs, converts sums of forces to accelerations, and completes the ledger rates. `imposed`
-    /// contains the accelerations of imposed motions.
+    /// Adds the torques of inputs, converts sums of forces to accelerations, and completes the ledger rates.
     #[inline(always)]
-    pub(in crate::model) fn finish(
-        &self,
-        at: &Point<N>,
-        sum: &mut [f64; N],
-        imposed: &[f64; N],
-        ledger_rates: &mut LedgerRates,
-    ) {
+    pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
         let rates = &self.applied.input_derivatives.rates[0];
         let mut input = 0.0;
@@ -240,13 +222,14 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
                 input -= self.applied.inputs.load_torque[s] * at.v[wheel];
             }
         }
-        let drive = if plan.carrier_imposed {
-            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        let (port, imposed) = (self.port(), if S::MAY_ACT { rates.drive_speed } else { 0.0 });
+        let drive = if plan.drive_imposed {
+            self.teeth.inertia[port] * imposed - sum[port]
         } else {
-            self.applied.inputs.carrier_torque + if S::MAY_ACT { ledger_rates.drive } else { 0.0 }
+            self.applied.inputs.drive_torque
         };
-        input += drive * at.v[CARRIER];
-        sum[CARRIER] += drive;
+        input += drive * at.v[port];
+        sum[port] += drive;
         if plan.spin_imposed {
             let inertial = if S::MAY_ACT { self.teeth.inertia[self.planet(0)] * rates.planet_spin } else { 0.0 };
             input -= self.sum(|g| self.members(g) * (sum[self.planet(g)] - inertial) * at.v[self.planet(g)]);
@@ -254,10 +237,10 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         for (sum, inverse) in sum.iter_mut().zip(inverse) {
             *sum *= inverse;
         }
-        if S::MAY_ACT && plan.carrier_imposed {
-            sum[CARRIER] = imposed[CARRIER];
-        }
         if S::MAY_ACT && self.applied.driven {
+            if plan.drive_imposed {
+                sum[port] = rates.drive_speed;
+            }
             for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
                 sum[self.planet(g)] = rates.planet_spin;
             }
@@ -290,7 +273,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         self.times_rates(j.by_rate);
         self.divide_by_inertia(j.by_position);
         self.divide_by_inertia(j.by_rate);
-        self.finish(at, acceleration, &[0.0; N], ledger_rates);
+        self.finish(at, acceleration, ledger_rates);
         energy
     }
 
@@ -298,12 +281,11 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
     #[inline]
     fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
         let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
-        let (mut imposed, mut by_rate) = ([0.0; N], [[0.0; N]; N]);
+        let mut by_rate = [[0.0; N]; N];
         let j = &mut Jacobian { by_position: &mut *by_position, by_rate: &mut by_rate, by_velocity: &mut *by_velocity };
         let energy = self.linearise_contact(at, acceleration, ledger_rates, j);
-        self.act_on_bodies(at, acceleration, &mut imposed, ledger_rates);
-        let mut imposed_by = [[0.0; N]; 2];
-        let mut out = Slopes::new([&mut *by_position, &mut *by_velocity], &mut imposed_by);
+        self.act_on_bodies(at, acceleration, ledger_rates);
+        let mut out = Slopes::new([&mut *by_position, &mut *by_velocity]);
         for effect in self.teeth.effect_terms.body_effects.forces.iter() {
             effect.slopes(&self.body_motion(at), &mut out);
         }
@@ -315,10 +297,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         }
         self.divide_by_inertia(by_position);
         self.divide_by_inertia(by_velocity);
-        if self.teeth.plan.carrier_imposed {
-            (by_position[CARRIER], by_velocity[CARRIER]) = (imposed_by[0], imposed_by[1]);
-        }
-        self.finish(at, acceleration, &imposed, ledger_rates);
+        self.finish(at, acceleration, ledger_rates);
         energy
     }
 
@@ -334,16 +313,10 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         let (mut sum, mut by_position, mut by_velocity) = ([0.0; N], [[0.0; N]; N], [[0.0; N]; N]);
         self.static_contact(at, &mut sum, &mut by_position);
         let still = Point { q: at.q, v: [0.0; N] };
-        let (mut carrier, mut ledger_rates) = (0.0, LedgerRates::default());
+        let mut heat = [0.0; HEATS];
         let motion = self.body_motion(&still);
-        let mut action = Action {
-            force: &mut sum,
-            imposed: &mut carrier,
-            drive: &mut ledger_rates.drive,
-            heat: &mut ledger_rates.heat,
-        };
-        let mut unused = [[0.0; N]; 2];
-        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity], &mut unused);
+        let mut action = Action { force: &mut sum, heat: &mut heat };
+        let mut slopes = Slopes::new([&mut by_position, &mut by_velocity]);
         for effect in self.teeth.effect_terms.body_effects.forces.iter().filter(|e| e.is_structure()) {
             effect.act(&motion, &mut action);
             effect.slopes(&motion, &mut slopes);
@@ -414,10 +387,10 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
     }
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
-        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; N], [0.0; N], LedgerRates::default());
+        let (mut sum, mut ledger_rates) = ([0.0; N], LedgerRates::default());
         self.add_brakes(at, &mut sum);
-        self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
-        self.finish(at, &mut sum, &imposed, &mut ledger_rates);
+        self.act_on_bodies(at, &mut sum, &mut ledger_rates);
+        self.finish(at, &mut sum, &mut ledger_rates);
         sum
     }
 }

@@ -16,8 +16,8 @@ use crate::numeric::lanes;
 /// Torques that follow from the constraint.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct IdealTorques {
-    /// Torque of the carrier's drive [N·m].
-    pub carrier: f64,
+    /// Torque of the drive, referred to the carrier [N·m].
+    pub drive: f64,
     /// Torque that imposes the spin [N·m].
     pub spin: f64,
     /// Torque of the meshes on each side gear [N·m].
@@ -79,13 +79,8 @@ impl<'a> IdealEquations<'a> {
         (inputs, rates): InputsNow,
         ledger_rates: &mut LedgerRates,
     ) -> ([f64; IDEAL_SIZE], [f64; IMPOSED]) {
-        let (mut sum, mut imposed) = ([0.0; IDEAL_SIZE], rates.carrier_speed);
-        let mut out = Action {
-            force: &mut sum,
-            imposed: &mut imposed,
-            drive: &mut ledger_rates.drive,
-            heat: &mut ledger_rates.heat,
-        };
+        let mut sum = [0.0; IDEAL_SIZE];
+        let mut out = Action { force: &mut sum, heat: &mut ledger_rates.heat };
         let motion = self.motion(at, (inputs, rates));
         for effect in self.ideal.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
@@ -99,7 +94,7 @@ impl<'a> IdealEquations<'a> {
             ledger_rates.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], rate);
         }
         self.drive(at, (inputs, rates), &mut sum, ledger_rates);
-        (sum, [imposed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+        (sum, [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
     /// Positions, velocities and inputs, as passed to effects.
@@ -170,7 +165,7 @@ impl<'a> IdealEquations<'a> {
             see(ledger_rates, s, torque, rate);
         }
         self.drive(at, (inputs, rates), &mut sum, ledger_rates);
-        (sum, [rates.carrier_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+        (sum, [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
     }
 
     /// Adds the torques and the power of inputs.
@@ -197,10 +192,10 @@ impl<'a> IdealEquations<'a> {
                 ledger_rates.input -= inputs.load_torque[s] * at.v[wheel];
             }
         }
-        if !plan.carrier_imposed {
-            let drive = inputs.carrier_torque + ledger_rates.drive;
-            sum[CARRIER] += drive;
-            ledger_rates.input += drive * at.v[CARRIER];
+        if !plan.drive_imposed {
+            let port = self.ideal.layout.port;
+            sum[port] += inputs.drive_torque;
+            ledger_rates.input += inputs.drive_torque * at.v[port];
         }
     }
 
@@ -230,10 +225,10 @@ impl<'a> IdealEquations<'a> {
         };
         let a = self.accelerations(&sum, &imposed);
         let plan = &self.ideal.plan;
-        if plan.carrier_imposed || plan.spin_imposed {
-            let torques = self.torques_of(&sum, &a, now.0.carrier_torque + ledger_rates.drive);
-            if plan.carrier_imposed {
-                ledger_rates.input += torques.carrier * at.v[CARRIER];
+        if plan.drive_imposed || plan.spin_imposed {
+            let torques = self.torques_of(&sum, &a, now.0.drive_torque);
+            if plan.drive_imposed {
+                ledger_rates.input += torques.drive * at.v[self.ideal.layout.port];
             }
             ledger_rates.input += torques.spin * at.v[PLANET];
         }
@@ -256,8 +251,7 @@ impl<'a> IdealEquations<'a> {
             return;
         }
         let (mut by_position, mut by_velocity) = ([[0.0; IDEAL_SIZE]; IDEAL_SIZE], [[0.0; IDEAL_SIZE]; IDEAL_SIZE]);
-        let mut imposed = [[0.0; IDEAL_SIZE]; 2];
-        let mut out = Slopes::new([&mut by_position, &mut by_velocity], &mut imposed);
+        let mut out = Slopes::new([&mut by_position, &mut by_velocity]);
         let motion = self.motion(at, now);
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&motion, &mut out);
@@ -272,18 +266,22 @@ impl<'a> IdealEquations<'a> {
                 lanes::add_times(row, 1.0, by_rate);
             }
         }
-        self.ideal.accelerations_by(&by_position, &imposed[0], &mut lin.by_position);
-        self.ideal.accelerations_by(&by_velocity, &imposed[1], &mut lin.by_velocity);
+        self.ideal.accelerations_by(&by_position, &mut lin.by_position);
+        self.ideal.accelerations_by(&by_velocity, &mut lin.by_velocity);
     }
 
-    /// Torques that follow from the constraint. `drive` is the torque on a carrier whose motion is not imposed.
+    /// Torques that follow from the constraint. `drive` is the torque of a drive whose speed is not imposed.
     #[inline]
     fn torques_of(&self, sum: &[f64; IDEAL_SIZE], a: &[f64; IDEAL_SIZE], drive: f64) -> IdealTorques {
         let ideal = self.ideal;
         let lack: [f64; IDEAL_SIZE] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
         let plan = &ideal.plan;
         IdealTorques {
-            carrier: if plan.carrier_imposed { lack[0] + lack[1] + lack[CARRIER] } else { drive },
+            drive: match (plan.drive_imposed, ideal.layout.port) {
+                (false, _) => drive,
+                (true, CARRIER) => lack[0] + lack[1] + lack[CARRIER],
+                (true, port) => lack[port],
+            },
             spin: if plan.spin_imposed { ideal.ratio * (lack[0] - lack[1]) + lack[PLANET] } else { 0.0 },
             gears: [lack[0], lack[1]],
         }
@@ -293,8 +291,7 @@ impl<'a> IdealEquations<'a> {
     pub fn torques(&self, at: &Point<IDEAL_SIZE>) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
         let (sum, imposed) = self.forces(at, self.now(), &mut ledger_rates);
-        let drive = self.applied.inputs.carrier_torque + ledger_rates.drive;
-        self.torques_of(&sum, &self.accelerations(&sum, &imposed), drive)
+        self.torques_of(&sum, &self.accelerations(&sum, &imposed), self.applied.inputs.drive_torque)
     }
 
     /// Kinetic energy [J].

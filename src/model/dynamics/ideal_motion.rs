@@ -141,6 +141,10 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         weights
     }
 
+    fn kink(&self, at: &Point<IDEAL_SIZE>, h: f64) -> Option<f64> {
+        self.kink_of_effects(at, h)
+    }
+
     fn crossing(&self, start: TimedPoint<IDEAL_SIZE>, end: TimedPoint<IDEAL_SIZE>) -> Option<f64> {
         self.friction_crossing(start, end)
     }

@@ -6,9 +6,7 @@ use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
-use crate::model::scene::{
-    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
-};
+use crate::model::scene::{InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity};
 use crate::model::thermal::NODES;
 
 /// Derivatives of forces, written in place.
@@ -30,7 +28,7 @@ pub struct InputsAndFriction {
     pub input_derivatives: InputDerivatives,
     /// True if inputs change with time.
     pub driven: bool,
-    /// Changes of the load torques, left and right, and of the carrier torque within the pending step [N·m].
+    /// Changes of the load torques, left and right, and of the drive's torque within the pending step [N·m].
     pub change: [f64; 3],
     /// State of the dry friction.
     pub friction_state: [FrictionState; PAIRS],
@@ -46,7 +44,7 @@ impl InputsAndFriction {
     #[inline(always)]
     pub fn without_friction(inputs: &Inputs, state: &State) -> Self {
         Self {
-            inputs: Inputs { carrier_speed: state.carrier_command, ..*inputs },
+            inputs: *inputs,
             input_derivatives: state.inputs.derivatives.unwrap_or(InputDerivatives::ZERO),
             driven: state.inputs.derivatives.is_some(),
             change: [0.0; 3],
@@ -210,6 +208,12 @@ pub trait FrictionEquations<const N: usize> {
         }
     }
 
+    /// Fraction of a step of `h` [s] from `at` after which the force of an effect has its first kink, if one is expected.
+    fn kink_of_effects(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        let motion = self.body_motion(at);
+        self.body_effects()?.forces.iter().filter_map(|effect| effect.kink(&motion, h)).reduce(f64::min)
+    }
+
     /// Converts ledger rates at `at` to those before the torques changed.
     fn undo_input_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         let (InputsAndFriction { inputs, change, .. }, plan) = (self.applied(), self.plan());
@@ -219,8 +223,8 @@ pub trait FrictionEquations<const N: usize> {
                 ledger_rates.shaft[s] = inputs.load_torque[s] - change[s];
             }
         }
-        if !plan.carrier_imposed {
-            ledger_rates.input -= change[2] * at.v[CARRIER];
+        if !plan.drive_imposed {
+            ledger_rates.input -= change[2] * at.v[self.layout().port];
         }
     }
 
@@ -304,6 +308,13 @@ pub trait FrictionEquations<const N: usize> {
             let (friction, state) = self.friction_on(pair);
             if friction.is_on() { friction.torque(state, &slip(at, pair), &loads[pair.number]) } else { 0.0 }
         })
+    }
+
+    /// Torque with which dry friction holds the pinion back, at the carrier's speed [N·m].
+    fn pinion_friction(&self, at: &Point<N>) -> f64 {
+        let Some(pair) = self.pair(RubbingKind::Pinion.number(0)) else { return 0.0 };
+        let (friction, state) = self.friction_on(pair);
+        if friction.is_on() { friction.torque(state, &slip(at, pair), &SurfaceLoad::default()) } else { 0.0 }
     }
 
     /// Energy in the springs of stuck friction [J].

@@ -16,8 +16,6 @@ pub struct LedgerRates {
     pub heat: [f64; HEATS],
     /// Torques of the half-shafts [N·m].
     pub shaft: [f64; 2],
-    /// Torque of the carrier's drive beyond its command [N·m].
-    pub drive: f64,
     /// Limit torque of the dry friction on each pair that slides [N·m].
     pub limit: [f64; PAIRS],
 }
@@ -25,7 +23,7 @@ pub struct LedgerRates {
 /// Fraction of the kinetic energy by which rounding may disturb the balance of a step.
 const ENERGY_ROUNDING: f64 = 1e-13;
 
-finite!(LedgerRates { input, heat, shaft, drive, limit });
+finite!(LedgerRates { input, heat, shaft, limit });
 
 impl LedgerRates {
     /// Mean of two rates.
@@ -35,7 +33,6 @@ impl LedgerRates {
             input: mean(self.input, other.input),
             heat: std::array::from_fn(|i| mean(self.heat[i], other.heat[i])),
             shaft: [0, 1].map(|s| mean(self.shaft[s], other.shaft[s])),
-            drive: mean(self.drive, other.drive),
             limit: std::array::from_fn(|i| mean(self.limit[i], other.limit[i])),
         }
     }
@@ -47,7 +44,6 @@ impl LedgerRates {
             input: sum(&|p| p.input),
             heat: std::array::from_fn(|i| sum(&|p| p.heat[i])),
             shaft: [0, 1].map(|s| sum(&|p| p.shaft[s])),
-            drive: sum(&|p| p.drive),
             limit: std::array::from_fn(|i| sum(&|p| p.limit[i])),
         }
     }

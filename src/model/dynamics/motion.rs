@@ -188,8 +188,8 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
         let spring_forces = || {
             let free = self.largest().under(&Inputs::ZERO, &InputDerivatives::ZERO);
             let rest = Point::of([&ends[1].q, &[0.0; N]]);
-            let (mut sum, mut imposed) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE]);
-            free.act(&rest, &mut sum, &mut imposed, &mut LedgerRates::default());
+            let mut sum = [0.0; MAX_SIZE];
+            free.act(&rest, &mut sum, &mut LedgerRates::default());
             std::array::from_fn(|i| sum[i])
         };
         let is_apart = ends.iter().all(|at| self.deepest(at).0 <= 0.0);

@@ -308,8 +308,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Fraction of a step of `h` [s] from `at` after which a force has its first kink; `None` if no kink is expected.
     #[inline]
     pub(super) fn first_kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
+        let mut first = if S::MAY_ACT { self.kink_of_effects(at, h) } else { None };
         with_contact!(S::MAY_ACT, self.contact(), contact => {
-            let mut first: Option<f64> = None;
             for g in (0..self.groups()).filter(|&g| self.twin(at, g).is_none()) {
                 first = match (first, contact.kink(&self.planet_state(at, g), h)) {
                     (Some(a), Some(b)) => Some(a.min(b)),

@@ -5,7 +5,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::model::scene::{ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
+use crate::model::scene::{CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
 /// Number of degrees of freedom of plain teeth with identical planets.
 pub const PLAIN_SIZE: usize = 4;
@@ -16,7 +16,7 @@ pub const ENDS_SIZE: usize = 6;
 /// Matrix size for other shapes with at most this number of degrees of freedom. It is a multiple of any vector width.
 pub const MEDIUM_SIZE: usize = 8;
 /// Matrix size that fits every scene. It is a multiple of any vector width.
-pub const MAX_SIZE: usize = 16;
+pub const MAX_SIZE: usize = 20;
 
 // otherwise another attached body could exceed this number unnoticed
 const _: () = assert!(MAX_DOF <= MAX_SIZE);
@@ -61,6 +61,8 @@ pub trait Shape<const N: usize>: Copy {
     fn has_ends(layout: &Layout) -> bool;
     /// Index of the end of the half-shaft of side `s`.
     fn end(layout: &Layout, s: usize) -> usize;
+    /// Index of the body on which the drive acts.
+    fn port(layout: &Layout) -> usize;
     /// True if a body is attached.
     fn is_attached(layout: &Layout) -> bool;
     /// Sets the twist rates of attached bodies from the velocities `v`.
@@ -122,6 +124,10 @@ impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, cons
         PLANET + G + s
     }
     #[inline(always)]
+    fn port(_: &Layout) -> usize {
+        CARRIER
+    }
+    #[inline(always)]
     fn is_attached(_: &Layout) -> bool {
         HAS_ENDS
     }
@@ -166,6 +172,10 @@ impl<const N: usize> Shape<N> for Any {
     #[inline]
     fn end(layout: &Layout, s: usize) -> usize {
         layout.end(s)
+    }
+    #[inline]
+    fn port(layout: &Layout) -> usize {
+        layout.port
     }
     #[inline]
     fn is_attached(layout: &Layout) -> bool {

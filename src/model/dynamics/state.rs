@@ -51,8 +51,6 @@ pub struct State {
     pub is_tooth_broken: bool,
     /// Lock command that acted in the last step, from 0 to 1.
     pub lock: f64,
-    /// Carrier speed command that acted in the last step [rad/s].
-    pub carrier_command: f64,
     /// Inputs that act.
     pub inputs: ActingInputs,
     /// Kinetic and elastic energy at the start [J].
@@ -82,7 +80,6 @@ impl State {
             torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
             lock: 0.0,
-            carrier_command: 0.0,
             inputs: ActingInputs { values: Inputs::ZERO, derivatives: None },
             energy_at_start: 0.0,
             pending_step: None,
@@ -215,14 +212,13 @@ impl State {
             torque_means,
             is_tooth_broken: _,
             lock,
-            carrier_command,
             inputs,
             energy_at_start,
             pending_step: _,
             events: _,
         } = self;
         timeline.is_valid()
-            && [*work, *carrier_command, *energy_at_start].is_finite()
+            && [*work, *energy_at_start].is_finite()
             && [q, v].into_iter().all(Finite::is_finite)
             && heat.is_finite()
             && thermal.is_valid()

@@ -21,14 +21,19 @@ pub struct BodyMotion<'a> {
     pub oil_viscosity: Option<Viscosity>,
 }
 
+/// Torques that springs carry at the start [N·m].
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StaticLoads {
+    /// Torque on the carrier from its drive.
+    pub ring: f64,
+    /// Torque of the propeller shaft, at the carrier's speed.
+    pub propeller: f64,
+}
+
 /// Forces and torques by degree of freedom, for a single planet of each group, and heat by cause.
 pub struct Action<'a> {
     /// Sums of forces.
     pub force: &'a mut [f64],
-    /// Acceleration of an imposed carrier, summed over all contributions [rad/s²].
-    pub imposed: &'a mut f64,
-    /// Torque of the carrier's drive in addition to its command [N·m].
-    pub drive: &'a mut f64,
     /// Heat rates by their index in the ledger [W].
     pub heat: &'a mut [f64],
 }
@@ -41,24 +46,13 @@ pub struct Slopes<'a> {
     pub by_position: &'a mut [f64],
     /// ∂force/∂velocity.
     pub by_velocity: &'a mut [f64],
-    /// ∂(imposed acceleration of the carrier)/∂position and ∂/∂velocity.
-    pub imposed: [&'a mut [f64]; 2],
 }
 
 impl<'a> Slopes<'a> {
-    /// Collects derivatives in these matrices. `imposed` is a separate argument, so the compiler knows which values
-    /// effects cannot change.
+    /// Collects derivatives in these matrices.
     #[inline]
-    pub fn new<const N: usize>(
-        [by_position, by_velocity]: [&'a mut Matrix<N>; 2],
-        imposed: &'a mut [[f64; N]; 2],
-    ) -> Self {
-        Self {
-            n: N,
-            by_position: by_position.as_flattened_mut(),
-            by_velocity: by_velocity.as_flattened_mut(),
-            imposed: imposed.each_mut().map(|row| row.as_mut_slice()),
-        }
+    pub fn new<const N: usize>([by_position, by_velocity]: [&'a mut Matrix<N>; 2]) -> Self {
+        Self { n: N, by_position: by_position.as_flattened_mut(), by_velocity: by_velocity.as_flattened_mut() }
     }
 
     /// Adds to ∂force_i/∂position_j.
@@ -84,20 +78,23 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn is_structure(&self) -> bool {
         false
     }
-    /// True if the effect scales the commanded speed or torque of the carrier.
-    fn scales_carrier_inputs(&self) -> bool {
-        false
-    }
     /// Index of its heat in the ledger if it consists only of springs with dampers, `None` otherwise.
     fn heat_of_springs(&self) -> Option<usize> {
         None
     }
+    /// Fraction of a step of `h` [s] after which its force has the first kink, if one is expected.
+    fn kink(&self, _at: &BodyMotion, _h: f64) -> Option<f64> {
+        None
+    }
+    /// Sets positions and velocities of its bodies so that it carries `loads` at rest relative to the carrier.
+    fn wind_up(&self, _loads: &StaticLoads, _layout: &Layout, _motion: [&mut [f64]; 2]) {}
+    /// Torque on the carrier [N·m], given the torque `driven` that is left of the drive's after acceleration and dry
+    /// friction.
+    fn carrier_torque(&self, _at: &BodyMotion, driven: f64) -> f64 {
+        driven
+    }
     /// Stored energy [J].
     fn energy(&self, _at: &BodyMotion) -> f64 {
         0.0
-    }
-    /// Speed that an imposed carrier has instead of `command` [rad/s].
-    fn carrier_speed(&self, _q: &[f64], command: f64) -> f64 {
-        command
     }
 }

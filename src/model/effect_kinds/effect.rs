@@ -148,6 +148,12 @@ pub struct Instant<'a> {
     pub motion: &'a BodyMotion<'a>,
     /// Torques that the half-shafts deliver to the wheels, left and right [N·m].
     pub shaft_torque: [f64; 2],
+    /// Torque on the carrier from its drive [N·m].
+    pub carrier_torque: f64,
+    /// Torque that the shaft delivers to the pinion [N·m].
+    pub pinion_torque: f64,
+    /// Torque of the drive at the port [N·m].
+    pub port_torque: f64,
 }
 
 /// Declaration of an effect. It is implemented by the struct of the effect's parameters.
@@ -162,6 +168,8 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
     const BODIES: &'static [Attached] = &[];
     /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     const NEEDS: Option<Needs> = None;
+    /// Switch of another effect without which this effect cannot act.
+    const NEEDS_EFFECT: Option<&'static str> = None;
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
     /// True if it is friction that differs with the sense of rolling, and so biases the torque.

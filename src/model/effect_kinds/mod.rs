@@ -23,7 +23,7 @@ pub mod slip_spec;
 pub mod teeth;
 pub mod torque_curve;
 
-pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes};
+pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes, StaticLoads};
 pub(super) use effect::readings;
 pub use effect::{Attached, BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
 pub use element::{Element, Law, Part, Spring};

@@ -11,6 +11,7 @@ mod limited_slip;
 mod lock;
 pub mod mesh_history;
 mod pin_compliance;
+mod propeller_shaft;
 pub mod strength;
 mod thrust_friction;
 mod tooth_errors;
@@ -40,6 +41,8 @@ pub struct EffectEntry {
     pub switch: Option<&'static str>,
     /// Representations of tooth contact that the effect needs. With `None`, it works with all of them.
     pub needs: Option<Needs>,
+    /// Switch of another effect that it needs.
+    pub needs_effect: Option<&'static str>,
     /// True if the effect may act although its switch is off.
     pub may_act_unswitched: bool,
     /// Name of its limit of p·v, if it has one.
@@ -61,6 +64,7 @@ impl EffectEntry {
             description: E::DESCRIPTION,
             switch,
             needs: E::NEEDS,
+            needs_effect: E::NEEDS_EFFECT,
             may_act_unswitched: E::MAY_ACT_UNSWITCHED,
             pv_limit: E::PV_LIMIT,
             heat: E::HEAT,
@@ -267,6 +271,7 @@ effects! {
         pin_compliance: pin_compliance::PinComplianceSpec,
         bearing_drag: bearing_drag::BearingDragSpec,
         final_drive: final_drive::FinalDriveSpec,
+        propeller_shaft: propeller_shaft::PropellerShaftSpec,
         strength: strength::StrengthSpec [strength::Fatigue],
         wheel_brake: wheel_brake::WheelBrakeSpec,
         body_compliance: body_compliance::BodyComplianceSpec,

@@ -37,8 +37,6 @@ pub struct Direction {
     pub inputs: Inputs,
     /// Change of the rates of the inputs.
     pub rates: Inputs,
-    /// Change of the command that the carrier follows [rad/s].
-    pub carrier_command: f64,
     /// Change of the temperatures of the nodes [K]. They change only with time.
     pub temperatures: [f64; NODES],
 }
@@ -50,13 +48,12 @@ impl Direction {
         v: [0.0; MAX_DOF],
         inputs: Inputs::ZERO,
         rates: Inputs::ZERO,
-        carrier_command: 0.0,
         temperatures: [0.0; NODES],
     };
 
     /// True if positions or velocities change.
     fn moves(&self) -> bool {
-        self.carrier_command != 0.0 || self.q.iter().chain(&self.v).any(|change| *change != 0.0)
+        self.q.iter().chain(&self.v).any(|change| *change != 0.0)
     }
 }
 
@@ -102,9 +99,8 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut input_acceleration_slopes = [0.0; MAX_DOF];
         let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
-        let change = Inputs { carrier_speed: direction.carrier_command, ..direction.inputs };
         with_equations!(self.model, state, inputs, |equations| {
-            let by_inputs = equations.input_accelerations(&state.point(), &change, &input_derivatives);
+            let by_inputs = equations.input_accelerations(&state.point(), &direction.inputs, &input_derivatives);
             input_acceleration_slopes.iter_mut().zip(by_inputs).for_each(|(slope, by_inputs)| *slope = by_inputs);
         });
         input_acceleration_slopes
@@ -117,7 +113,6 @@ impl Simulation {
         self.rates(&self.state.q, &self.state.v, [q, v]);
         if let Some(input_derivatives) = self.input_derivatives() {
             [direction.inputs, direction.rates] = input_derivatives.rates;
-            direction.carrier_command = direction.inputs.carrier_speed;
         }
         direction
     }
@@ -195,7 +190,6 @@ impl Simulation {
             state.q[i] = from.q[i] + factor * direction.q[i];
             state.v[i] = from.v[i] + factor * direction.v[i];
         }
-        state.carrier_command = from.carrier_command + factor * direction.carrier_command;
         if let (Some(from), Some(to)) = (&from.inputs.derivatives, &mut state.inputs.derivatives) {
             to.rates[0] = from.rates[0].plus(factor, &direction.rates);
         }
@@ -225,14 +219,11 @@ impl Simulation {
     /// Direction in which states and inputs change by `states` and `inputs`. Imposed motions follow their commands.
     pub fn direction(&self, states: &[f64; STATES], inputs: &Inputs) -> Direction {
         let mut direction = Direction { inputs: *inputs, ..Direction::NONE };
+        self.model.ideal.plan.refer(&mut direction.inputs);
         self.set_from_states(states, &mut direction.q, &mut direction.v);
-        direction.carrier_command = inputs.carrier_speed;
-        let Direction { q, v, .. } = &mut direction;
-        for speed in imposed_speeds(&self.model, inputs, q) {
-            v[speed.freedom] = match speed.freedom {
-                CARRIER => self.carrier_speed_slope(q[CARRIER], inputs.carrier_speed),
-                _ => speed.value,
-            };
+        let Direction { v, inputs, .. } = &mut direction;
+        for speed in imposed_speeds(&self.model, inputs) {
+            v[speed.freedom] = speed.value;
         }
         if let Gears::Ideal(_) = &self.model.gears {
             if !self.is_model_exchange() {
@@ -241,17 +232,5 @@ impl Simulation {
             self.model.ideal.constrain(v);
         }
         direction
-    }
-
-    /// Derivative of the speed of an imposed carrier if its angle changes by `angle` and its command by `command`.
-    fn carrier_speed_slope(&self, angle: f64, command: f64) -> f64 {
-        let at = |offset: f64| {
-            let mut state = self.state;
-            state.q[CARRIER] += offset * APART * angle;
-            let command = self.inputs.carrier_speed + offset * APART * command;
-            self.model.body_effects().carrier_speed(&state.q, command)
-        };
-        let here = at(0.0);
-        STENCIL.iter().map(|(offset, weight)| weight * (at(*offset) - here)).sum::<f64>() / APART
     }
 }

@@ -10,7 +10,7 @@ use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, La
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, GearStrength, MeshLoad};
-use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
+use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, PROPELLER, Plan};
 use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
 use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
@@ -34,7 +34,11 @@ pub struct Forces {
     pub carrier_acceleration: f64,
     /// Side gear accelerations [rad/s²].
     pub side_acceleration: [f64; 2],
-    /// Torque that the drive delivers to the carrier [N·m].
+    /// Acceleration of the body on which the drive acts [rad/s²], at the carrier's speed.
+    pub port_acceleration: f64,
+    /// Torque that the drive delivers, referred to the carrier [N·m].
+    pub drive_torque: f64,
+    /// Torque on the carrier [N·m]: of the drive, or of the ring gear that the drive turns.
     pub carrier_torque: f64,
     /// Torque that the half-shafts deliver to the wheels [N·m].
     pub shaft_torque: [f64; 2],
@@ -158,7 +162,7 @@ fn add_up(out: &mut Forces, planets: usize) {
 /// delivered to the wheels [rad/s].
 fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
     let v = &state.v;
-    let drives = [out.carrier_torque * v[CARRIER], out.spin_torque * v[plan.layout().planet(0)]];
+    let drives = [out.drive_torque * v[plan.layout().port], out.spin_torque * v[plan.layout().planet(0)]];
     let wheels = [out.shaft_torque[0] * ends[0], out.shaft_torque[1] * ends[1]];
     (out.power_in, out.power_out) = (drives[0] + drives[1], wheels[0] + wheels[1]);
     out.power_fed = drives.iter().map(|power| power.max(0.0)).sum::<f64>()
@@ -173,16 +177,38 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
     [0, 1].map(|s| if plan.shafts[s] { state.v[plan.layout().end(s)] } else { state.v[s] })
 }
 
-/// Sets the readings of the effects that follow from the motion.
-fn read_effects(out: &mut Forces, model: &Model, inputs: &Inputs, state: &State) {
+/// Sets the torque on the carrier, and the readings of the effects that follow from the motion. `held` is the torque with
+/// which dry friction holds the pinion back [N·m].
+fn read_effects(out: &mut Forces, model: &Model, (inputs, state): (&Inputs, &State), held: f64) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
-    let at = Instant { on: false, plan, motion: &motion, shaft_torque: out.shaft_torque };
+    out.carrier_torque = carrier_torque(out, model, &motion, held);
+    let ratio = plan.drive_ratio.unwrap_or(1.0);
+    // the propeller shaft delivers what its driven end does not need to accelerate
+    let end = plan.attached[PROPELLER].map_or(0.0, |end| end.inertia * out.port_acceleration);
+    let at = Instant {
+        on: false,
+        plan,
+        motion: &motion,
+        shaft_torque: out.shaft_torque,
+        carrier_torque: out.carrier_torque,
+        pinion_torque: (out.drive_torque - end) / ratio,
+        port_torque: out.drive_torque / ratio,
+    };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
     // without a computed flash temperature, flanks are as warm as their gears
     let strength = &mut out.readings[const { indices_of("strength", Changes::Always) }];
     strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
+}
+
+/// Torque on the carrier from its drive [N·m]: the torque of the drive, without dry friction and without what the bodies
+/// in front of the carrier need to accelerate, unless an effect gives it.
+fn carrier_torque(out: &Forces, model: &Model, motion: &BodyMotion, held: f64) -> f64 {
+    let (plan, effects) = (&model.ideal.plan, model.body_effects());
+    let end = plan.attached[PROPELLER].map_or(0.0, |end| end.inertia * out.port_acceleration);
+    let driven = out.drive_torque - end - held - plan.on_carrier * out.carrier_acceleration;
+    effects.forces.iter().fold(driven, |torque, effect| effect.carrier_torque(motion, torque))
 }
 
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
@@ -206,15 +232,16 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let has_components = extent == Extent::Components;
     let (teeth, point, pair) = (equations.teeth, &state.point(), &model.pair);
     let plan = &teeth.plan;
-    let ForcesAtInstant { acceleration: a, on_sides, carrier_torque, spin_torque, ledger_rates } =
+    let ForcesAtInstant { acceleration: a, on_sides, drive_torque, spin_torque, ledger_rates } =
         equations.instant(point);
     let mut out = Forces {
         carrier_acceleration: a[CARRIER],
         side_acceleration: [a[0], a[1]],
+        port_acceleration: a[equations.port()],
         has_components,
         ..Forces::default()
     };
-    (out.carrier_torque, out.spin_torque) = (carrier_torque, spin_torque);
+    (out.drive_torque, out.spin_torque) = (drive_torque, spin_torque);
     let brakes = equations.brake_torques(point);
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
@@ -224,7 +251,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         };
         out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
-    read_effects(&mut out, model, inputs, state);
+    read_effects(&mut out, model, (inputs, state), equations.pinion_friction(point));
     read_pv(&mut out, equations, point);
     if extent == Extent::Bodies {
         add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
@@ -292,8 +319,8 @@ struct ForcesAtInstant {
     acceleration: [f64; MAX_SIZE],
     /// Torques on the side gears from the meshes only [N·m].
     on_sides: [f64; 2],
-    /// Torque of the carrier's drive [N·m].
-    carrier_torque: f64,
+    /// Torque of the drive, referred to the carrier [N·m].
+    drive_torque: f64,
     /// Torque that imposes the spin, summed over all planets [N·m].
     spin_torque: f64,
     ledger_rates: LedgerRates,
@@ -302,19 +329,20 @@ struct ForcesAtInstant {
 impl Largest<'_> {
     fn instant(&self, at: &Point<MAX_SIZE>) -> ForcesAtInstant {
         let plan = &self.teeth.plan;
-        let (mut sum, mut imposed, mut ledger_rates) = ([0.0; MAX_SIZE], [0.0; MAX_SIZE], LedgerRates::default());
+        let (mut sum, mut ledger_rates) = ([0.0; MAX_SIZE], LedgerRates::default());
         let on_sides = self.add_mesh_forces(at, &mut sum, &mut ledger_rates);
-        self.act_on_bodies(at, &mut sum, &mut imposed, &mut ledger_rates);
-        let carrier_torque = if plan.carrier_imposed {
-            self.teeth.inertia[CARRIER] * imposed[CARRIER] - sum[CARRIER]
+        self.act_on_bodies(at, &mut sum, &mut ledger_rates);
+        let (port, rates) = (self.port(), &self.applied.input_derivatives.rates[0]);
+        let drive_torque = if plan.drive_imposed {
+            self.teeth.inertia[port] * rates.drive_speed - sum[port]
         } else {
-            self.applied.inputs.carrier_torque + ledger_rates.drive
+            self.applied.inputs.drive_torque
         };
-        let inertial = self.teeth.inertia[self.planet(0)] * self.applied.input_derivatives.rates[0].planet_spin;
+        let inertial = self.teeth.inertia[self.planet(0)] * rates.planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };
-        self.finish(at, &mut sum, &imposed, &mut ledger_rates);
-        ForcesAtInstant { acceleration: sum, on_sides, carrier_torque, spin_torque, ledger_rates }
+        self.finish(at, &mut sum, &mut ledger_rates);
+        ForcesAtInstant { acceleration: sum, on_sides, drive_torque, spin_torque, ledger_rates }
     }
 }
 
@@ -339,26 +367,28 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
     add_up(out, planets);
 }
 
-/// Forces of gears without teeth, from torques and the accelerations of carrier and sides.
+/// Forces of gears without teeth, from torques and the accelerations of carrier, port and sides. `held` is the torque
+/// with which dry friction holds the pinion back [N·m].
 fn without_teeth(
     model: &Model,
     (inputs, state): (&Inputs, &State),
-    (carrier_acceleration, side_acceleration): (f64, [f64; 2]),
+    (carrier_acceleration, port_acceleration, side_acceleration): (f64, f64, [f64; 2]),
     (torques, shaft_torque): (&IdealTorques, [f64; 2]),
-    heat: f64,
+    (held, heat): (f64, f64),
 ) -> Forces {
     let plan = &model.ideal.plan;
-    let (carrier_torque, spin_torque) = (torques.carrier, torques.spin);
+    let (drive_torque, spin_torque) = (torques.drive, torques.spin);
     let mut out = Forces {
         carrier_acceleration,
+        port_acceleration,
         side_acceleration,
-        carrier_torque,
+        drive_torque,
         spin_torque,
         shaft_torque,
         has_components: true,
         ..Forces::default()
     };
-    read_effects(&mut out, model, inputs, state);
+    read_effects(&mut out, model, (inputs, state), held);
     pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
     add_powers(&mut out, plan, state, end_speeds(plan, state), heat);
     out
@@ -370,8 +400,14 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
     let motion = ideal.motion(inputs);
     let a = ideal.side_accelerations(&motion);
     let with = |inertia: &[f64; 2]| [0, 1].map(|s| inputs.load_torque[s] + inertia[s] * a[s]);
-    let torques = IdealTorques { carrier: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
-    without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), 0.0)
+    let torques = IdealTorques { drive: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
+    without_teeth(
+        model,
+        (inputs, state),
+        (motion.carrier, motion.carrier, a),
+        (&torques, with(&inertia.end)),
+        (0.0, 0.0),
+    )
 }
 
 /// Forces of the ideal differential with effects on bodies.
@@ -383,7 +419,9 @@ pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inpu
     let shafts = [0, 1].map(|s| if plan.shafts[s] { ledger_rates.shaft[s] } else { by_rigid(s) });
     let heat = lost(&ledger_rates.heat);
     let torques = equations.torques(point);
-    let mut out = without_teeth(model, (inputs, state), (a[CARRIER], [a[0], a[1]]), (&torques, shafts), heat);
+    let accelerations = (a[CARRIER], a[equations.ideal.layout.port], [a[0], a[1]]);
+    let held = equations.pinion_friction(point);
+    let mut out = without_teeth(model, (inputs, state), accelerations, (&torques, shafts), (held, heat));
     read_pv(&mut out, equations, point);
     out
 }

@@ -9,6 +9,11 @@ pub struct Motion {
     pub carrier_angle: f64,
     /// Carrier speed [rad/s].
     pub carrier_speed: f64,
+    /// Angles of the pinion and of the port since the start [rad]: of the propeller shaft's driven end, or of the
+    /// pinion. Without a final drive, both are the angle of the carrier.
+    pub drive_angle: [f64; 2],
+    /// Speeds of the pinion and of the port [rad/s].
+    pub drive_speed: [f64; 2],
     /// Side gear angles, left and right [rad]. They are 0 as assembled, with teeth in mid-gap. They include movement
     /// within the backlash and deflection.
     pub side_angle: [f64; 2],

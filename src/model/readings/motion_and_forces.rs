@@ -26,7 +26,11 @@ impl Simulation {
         let side_angle = [position(CARRIER) + position(0), position(CARRIER) + position(1)];
         // the angle of an end is the angle of the side gear minus the twist
         let by_end = |s: usize| plan.shafts[s].then(|| layout.end(s));
+        let (ratio, drives) = (plan.drive_ratio.unwrap_or(1.0), [layout.pinion(), layout.port]);
         let mut motion = Motion {
+            drive_angle: drives
+                .map(|i| ratio * layout.angle(i).iter().map(|&(k, sign)| sign * position(k)).sum::<f64>()),
+            drive_speed: drives.map(|i| ratio * v[i]),
             carrier_angle: position(CARRIER),
             carrier_speed: v[CARRIER],
             side_angle,

@@ -16,9 +16,7 @@ pub fn torque_change_within(model: &Model, inputs: &Inputs, state: &State) -> Op
     if state.pending_step.is_none() || state.inputs.values == *inputs {
         return None;
     }
-    let effects = model.body_effects();
-    let must_restart =
-        state.inputs.derivatives.is_some() || effects.may_have_dry_friction(state) || effects.scale_carrier_inputs();
+    let must_restart = state.inputs.derivatives.is_some() || model.body_effects().may_have_dry_friction(state);
     if must_restart { None } else { change_of_accelerations(model, &state.inputs.values, inputs) }
 }
 
@@ -27,13 +25,13 @@ pub fn torque_change_within(model: &Model, inputs: &Inputs, state: &State) -> Op
 fn change_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> Option<f64> {
     let (plan, inertia) = (&model.ideal.plan, &model.ideal.inertia);
     let [before, inputs] = [before, inputs].map(|inputs| effective_inputs(model, inputs));
-    let with_torques = Inputs { carrier_torque: inputs.carrier_torque, load_torque: inputs.load_torque, ..before };
+    let with_torques = Inputs { drive_torque: inputs.drive_torque, load_torque: inputs.load_torque, ..before };
     if with_torques != inputs {
         return None;
     }
     let wheel = |s: usize| if plan.shafts[s] { inertia.end[s] } else { inertia.side[s] };
-    let [left, right, carrier] = inputs.torques_since(&before).map(f64::abs);
-    Some((left / wheel(0)).max(right / wheel(1)).max(carrier / inertia.carrier))
+    let [left, right, drive] = inputs.torques_since(&before).map(f64::abs);
+    Some((left / wheel(0)).max(right / wheel(1)).max(drive / inertia.of_port(plan)))
 }
 
 /// Inputs that have an effect in the scene. All others are set to zero, so that a value without effect changes no step.
@@ -42,8 +40,8 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
     let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
     let around = model.thermal.as_ref().map(|network| network.around);
     Inputs {
-        carrier_speed: given(plan.carrier_imposed, inputs.carrier_speed),
-        carrier_torque: given(!plan.carrier_imposed, inputs.carrier_torque),
+        drive_speed: given(plan.drive_imposed, inputs.drive_speed),
+        drive_torque: given(!plan.drive_imposed, inputs.drive_torque),
         load_torque: [0, 1].map(|s| given(!plan.side_imposed[s], inputs.load_torque[s])),
         side_speed: [0, 1].map(|s| given(plan.side_imposed[s], inputs.side_speed[s])),
         planet_spin: given(plan.spin_imposed, inputs.planet_spin),
@@ -52,6 +50,8 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
         fault: given(may_break_tooth(model), inputs.fault),
         ambient_change: given(around.is_some(), inputs.ambient_change),
         sump_change: given(around.is_some_and(|around| around.sump.is_some()), inputs.sump_change),
+        // commands act through the inputs of the drive
+        ..Inputs::ZERO
     }
 }
 

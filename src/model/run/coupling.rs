@@ -18,7 +18,7 @@ type PortMotion = [[f64; 2]; PORTS];
 /// Value of `inputs` at each port: torques, or the speeds of sides driven by speed.
 fn given(inputs: &Inputs, side_imposed: [bool; 2]) -> [f64; PORTS] {
     let [left, right] = [0, 1].map(|s| if side_imposed[s] { inputs.side_speed[s] } else { inputs.load_torque[s] });
-    [inputs.carrier_torque, left, right]
+    [inputs.drive_torque, left, right]
 }
 
 impl Simulation {
@@ -113,7 +113,7 @@ impl Simulation {
             [motion.carrier, left, right]
         };
         let unit = |s: usize| Inputs { load_torque: [0, 1].map(|side| f64::from(u8::from(side == s))), ..Inputs::ZERO };
-        let by_torque = [under(&Inputs { carrier_torque: 1.0, ..Inputs::ZERO }), under(&unit(0)), under(&unit(1))];
+        let by_torque = [under(&Inputs { drive_torque: 1.0, ..Inputs::ZERO }), under(&unit(0)), under(&unit(1))];
         let mut mobility: [[f64; PORTS]; PORTS] = std::array::from_fn(|port| by_torque.map(|of| of[port]));
         for s in (0..2).filter(|&s| ideal.plan.shafts[s]) {
             mobility.iter_mut().for_each(|row| row[1 + s] = 0.0);
@@ -130,7 +130,7 @@ impl Simulation {
         let moved = end[0] - start[0];
         (step.moved, step.changed) = (moved, end[1] - start[1]);
         match port.checked_sub(1) {
-            None if plan.carrier_imposed => *step = PortStep::default(),
+            None if plan.drive_imposed => *step = PortStep::default(),
             // the position is the twist of the half-shaft, and the rate its torque
             Some(s) if plan.side_imposed[s] => {
                 let shaft = &self.model.parameters.specs.half_shaft;

@@ -14,12 +14,8 @@ pub struct ImposedSpeed {
     inertia: f64,
 }
 
-/// Imposed speeds under `inputs` at the positions `q`.
-pub fn imposed_speeds<'a>(
-    model: &'a Model,
-    inputs: &'a Inputs,
-    q: &'a [f64; MAX_DOF],
-) -> impl Iterator<Item = ImposedSpeed> + 'a {
+/// Imposed speeds under `inputs`.
+pub fn imposed_speeds<'a>(model: &'a Model, inputs: &'a Inputs) -> impl Iterator<Item = ImposedSpeed> + 'a {
     let (plan, layout, inertias) = (&model.ideal.plan, &model.layout, &model.ideal.inertia);
     let inertia = move |i: usize| match &model.gears {
         Gears::Ideal(ideal) => ideal.inertia[i],
@@ -30,32 +26,30 @@ pub fn imposed_speeds<'a>(
         value: inputs.side_speed[s],
         inertia: inertias.end[s],
     });
-    let carrier = plan.carrier_imposed.then(|| ImposedSpeed {
-        freedom: CARRIER,
-        value: model.body_effects().carrier_speed(q, inputs.carrier_speed),
-        inertia: inertia(CARRIER),
+    let drive = plan.drive_imposed.then(|| ImposedSpeed {
+        freedom: layout.port,
+        value: inputs.drive_speed,
+        inertia: inertia(layout.port),
     });
     let planets = (0..layout.groups).filter(|_| plan.spin_imposed).map(move |g| ImposedSpeed {
         freedom: layout.planet(g),
         value: inputs.planet_spin,
         inertia: layout.members[g] * inertia(layout.planet(g)),
     });
-    ends.chain(carrier).chain(planets)
+    ends.chain(drive).chain(planets)
 }
 
 /// True if all imposed speeds equal their commands.
 pub fn are_met(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let (plan, layout) = (&model.ideal.plan, &model.layout);
-    (!plan.carrier_imposed || state.carrier_command == inputs.carrier_speed)
+    (!plan.drive_imposed || state.v[layout.port] == inputs.drive_speed)
         && (!plan.spin_imposed || state.v[layout.planet(0)] == inputs.planet_spin)
         && (0..2).all(|s| !plan.side_imposed[s] || state.v[layout.end(s)] == inputs.side_speed[s])
 }
 
 /// Sets imposed speeds to their commands. Side gears without teeth follow Willis' equation. Free speeds do not change.
 pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
-    state.carrier_command = inputs.carrier_speed;
-    let q = state.q;
-    for speed in imposed_speeds(model, inputs, &q) {
+    for speed in imposed_speeds(model, inputs) {
         state.v[speed.freedom] = speed.value;
     }
     if let Gears::Ideal(_) = &model.gears {
@@ -67,16 +61,14 @@ pub fn set(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn is_impulse(model: &Model, before: &Inputs, inputs: &Inputs) -> bool {
     let [by_carrier, by_spin] = model.ideal.impulse();
     matches!(&model.gears, Gears::Ideal(_))
-        && (by_carrier != 0.0 && before.carrier_speed != inputs.carrier_speed
+        && (by_carrier != 0.0 && before.drive_speed != inputs.drive_speed
             || by_spin != 0.0 && before.planet_spin != inputs.planet_spin)
 }
 
 /// Changes the free speeds of ideal gears in response to a jump of imposed speeds from `before` to `inputs`.
 pub fn follow_impulse(model: &Model, before: &Inputs, inputs: &Inputs, state: &mut State) {
     if is_impulse(model, before, inputs) {
-        let carrier = |command: f64| model.body_effects().carrier_speed(&state.q, command);
-        let jump =
-            [carrier(inputs.carrier_speed) - carrier(before.carrier_speed), inputs.planet_spin - before.planet_spin];
+        let jump = [inputs.drive_speed - before.drive_speed, inputs.planet_spin - before.planet_spin];
         add_impulse(model, jump, &mut state.v);
         model.ideal.constrain(&mut state.v);
     }
@@ -92,14 +84,13 @@ pub fn add_impulse(model: &Model, [carrier, spin]: [f64; 2], v: &mut [f64; MAX_D
 /// Sets imposed speeds to their commands and changes free speeds in response. The energy of the jump is impulsive work
 /// of the input.
 pub fn follow_commands(model: &Model, inputs: &Inputs, state: &mut State) {
-    state.carrier_command = inputs.carrier_speed;
-    if imposed_speeds(model, inputs, &state.q).all(|speed| speed.value == state.v[speed.freedom]) {
+    if imposed_speeds(model, inputs).all(|speed| speed.value == state.v[speed.freedom]) {
         return;
     }
-    let (q, before) = (state.q, state.v);
+    let before = state.v;
     let ideal = matches!(&model.gears, Gears::Ideal(_));
     let mut work = 0.0;
-    for ImposedSpeed { freedom, value, inertia } in imposed_speeds(model, inputs, &q) {
+    for ImposedSpeed { freedom, value, inertia } in imposed_speeds(model, inputs) {
         // ideal gears move as one mechanism: the energy of their jump is counted below
         if value != before[freedom] && (!ideal || freedom > PLANET) {
             work += 0.5 * inertia * (value * value - before[freedom] * before[freedom]);

@@ -13,7 +13,7 @@ use crate::model::dynamics::event::AdvanceOptions;
 use crate::model::dynamics::timeline::LONGEST_INTERVAL;
 use crate::model::dynamics::{Clock, CommunicationPoint, State, Stop};
 use crate::model::effects::Memories;
-use crate::model::scene::{Inputs, Method};
+use crate::model::scene::{Inputs, Method, Plan};
 
 /// Time of a communication step during which the limit of attempts grows [s]: an hour.
 const LONGEST_GROWTH: f64 = 3600.0;
@@ -91,7 +91,7 @@ pub fn integrate(
         } else {
             step_past_stop(model, inputs, (state, memories), (stop, options, acceleration_change.take()), &mut budget)
         };
-        advance_inputs(inputs, state, state.time() - begin);
+        advance_inputs(&model.ideal.plan, inputs, state, state.time() - begin);
         outcome?;
         // an event has paused the motion
         if state.time() < stop.time {
@@ -239,10 +239,13 @@ pub fn wrap_and_constrain(model: &Model, state: &mut State) {
 }
 
 /// Advances inputs by `time` [s] along their derivatives.
-pub fn advance_inputs(inputs: &mut Inputs, state: &mut State, time: f64) {
+pub fn advance_inputs(plan: &Plan, inputs: &mut Inputs, state: &mut State, time: f64) {
     if let Some(derivatives) = &mut state.inputs.derivatives {
         derivatives.follow(time, inputs);
-        (state.inputs.values, state.carrier_command) = (*inputs, inputs.carrier_speed);
+        // rounding must not depend on whether the host or the program refers a command to the carrier
+        plan.refer(inputs);
+        *derivatives = plan.with_drive(*derivatives);
+        state.inputs.values = *inputs;
     }
 }
 

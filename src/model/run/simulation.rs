@@ -70,13 +70,17 @@ impl Simulation {
         if let Some(effect) = memories.misfit(&start) {
             return Err(vec![Problem::new(effect, "its saved memory belongs to another scene")]);
         }
-        Ok(Self { model, state, memories, inputs: *inputs, forces: None, accepted: None })
+        let mut inputs = *inputs;
+        model.ideal.plan.refer(&mut inputs);
+        Ok(Self { model, state, memories, inputs, forces: None, accepted: None })
     }
 
     /// Sets the inputs of the next step.
     pub fn set_inputs(&mut self, inputs: &Inputs) {
-        if *inputs != self.inputs {
-            self.inputs = *inputs;
+        let mut inputs = *inputs;
+        self.model.ideal.plan.refer(&mut inputs);
+        if inputs != self.inputs {
+            self.inputs = inputs;
             self.forces = None;
         }
     }
@@ -94,8 +98,9 @@ impl Simulation {
     /// Copies `input_derivatives` to the derivatives of the inputs.
     #[inline]
     pub fn share_input_derivatives(&mut self, input_derivatives: Option<&InputDerivatives>) {
-        if input_derivatives != self.state.inputs.derivatives.as_ref() {
-            InputDerivatives::copy(input_derivatives, &mut self.state.inputs.derivatives);
+        let derivatives = input_derivatives.map(|given| self.model.ideal.plan.with_drive(*given));
+        if derivatives != self.state.inputs.derivatives {
+            InputDerivatives::copy(derivatives.as_ref(), &mut self.state.inputs.derivatives);
             self.state.timeline.pause = None;
             self.forces = None;
         }
@@ -214,7 +219,7 @@ impl Simulation {
                 return Err(StepFailure::not_finite(state.time()));
             }
             if state.inputs.derivatives.is_some() {
-                progress::advance_inputs(inputs, state, h);
+                progress::advance_inputs(&model.ideal.plan, inputs, state, h);
                 // exact to the last bit, because the next step would treat any difference as a discontinuity
                 model.ideal.impose(state, inputs);
             }

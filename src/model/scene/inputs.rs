@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+#[cfg(doc)]
+use super::Plan;
 use crate::numeric::finite;
 
 /// Limits of an input that may have either sign.
@@ -116,10 +118,18 @@ macro_rules! inputs {
 }
 
 inputs! {
-    /// Imposed carrier speed, or its initial speed when torque-driven [rad/s].
+    /// Commanded speed of the carrier, or its initial speed when torque-driven [rad/s].
     carrier_speed: f64 = 2861f64.to_radians(), FREE;
-    /// Carrier torque when torque-driven [N·m].
+    /// Commanded torque of the carrier [N·m].
     carrier_torque: f64 = 1670.0, FREE;
+    /// Commanded speed of the pinion or its propeller shaft, or its initial speed when torque-driven [rad/s].
+    pinion_speed: f64 = 200.0, FREE;
+    /// Commanded torque of the pinion or its propeller shaft [N·m].
+    pinion_torque: f64 = 400.0, FREE;
+    /// Speed of the drive, referred to the carrier [rad/s]. It follows from a command by [`Plan::refer`].
+    drive_speed: f64 = 0.0, FREE;
+    /// Torque of the drive, referred to the carrier [N·m]. It follows from a command by [`Plan::refer`].
+    drive_torque: f64 = 0.0, FREE;
     /// Loads on the left and right half-shafts; positive values resist positive rotation [N·m].
     load_torque: [f64; 2] = [835.0; 2], FREE;
     /// Imposed speeds of the wheel-side ends of the half-shafts [rad/s].
@@ -139,10 +149,10 @@ inputs! {
 }
 
 impl Inputs {
-    /// Changes since `before` of the left and right load torques and of the carrier torque [N·m].
+    /// Changes since `before` of the left and right load torques and of the torque of the drive [N·m].
     pub fn torques_since(&self, before: &Self) -> [f64; 3] {
         let [left, right] = [0, 1].map(|s| self.load_torque[s] - before.load_torque[s]);
-        [left, right, self.carrier_torque - before.carrier_torque]
+        [left, right, self.drive_torque - before.drive_torque]
     }
 
     /// Changes of the outside temperatures: ambient and a given sump [K].

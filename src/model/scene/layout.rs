@@ -20,9 +20,13 @@ pub const CARRIER: usize = 2;
 pub const PLANET: usize = 3;
 
 /// Number of bodies that effects may attach. The list of effects checks it.
-pub const ATTACHED_COUNT: usize = 2;
+pub const ATTACHED_COUNT: usize = 4;
 /// Number of half-shaft ends, which are the first attached bodies.
 pub const ENDS: usize = 2;
+/// Number of the pinion of the final drive among the attached bodies. It turns relative to the carrier.
+pub const PINION: usize = 2;
+/// Number of the driven end of the propeller shaft among the attached bodies.
+pub const PROPELLER: usize = 3;
 
 /// Index of each degree of freedom, in the order side gears, carrier, axial seats of the side gears, planets, their
 /// pins, half-shaft ends, other attached bodies. Seats, pins, ends and other attached bodies are optional.
@@ -36,6 +40,8 @@ pub struct Layout {
     pub has_pins: bool,
     /// Degree of freedom relative to which each attached body turns; `None` if the scene does not have this body.
     pub attached: [Option<usize>; ATTACHED_COUNT],
+    /// Degree of freedom on which the drive acts: the carrier, or an attached body in front of it.
+    pub port: usize,
 }
 
 impl Layout {
@@ -64,6 +70,11 @@ impl Layout {
     pub fn end(&self, s: usize) -> usize {
         self.body(s)
     }
+    /// Index of the body with which the pinion turns: its own, or the carrier if both are rigid with each other.
+    #[inline]
+    pub fn pinion(&self) -> usize {
+        if self.attached[PINION].is_some() { self.body(PINION) } else { CARRIER }
+    }
     /// Index of attached body `k`.
     #[inline]
     pub fn body(&self, k: usize) -> usize {
@@ -88,6 +99,16 @@ impl Layout {
     pub fn plain(&self) -> Option<bool> {
         let others = self.has_pins || self.attached[ENDS..].iter().any(Option::is_some);
         (!others).then(|| self.has_ends())
+    }
+    /// Angle of degree of freedom `i`, which is the carrier or a body attached to it, as a sum: terms with their factors.
+    pub fn angle(&self, mut i: usize) -> Vec<(usize, f64)> {
+        let mut terms = Vec::new();
+        while let Some((_, to)) = self.attached().find(|&(body, _)| body == i) {
+            terms.push((i, -1.0));
+            i = to;
+        }
+        terms.push((i, 1.0));
+        terms
     }
     /// Number of bodies that degree of freedom `i` represents. The planets of a group move identically.
     pub fn bodies(&self, i: usize) -> f64 {

@@ -4,8 +4,8 @@
 //! is simulated, and its forces are multiplied by the number of members.
 
 use super::{
-    ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PlanetSpin,
-    Scene, SideDrive,
+    ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, InputDerivatives, Inputs, Layout, MAX_DOF, MAX_GROUPS,
+    MAX_PLANETS, PINION, PROPELLER, PlanetSpin, Scene, SideDrive,
 };
 use crate::geometry::{GearSpec, Pair, assembly};
 use crate::problem::Problem;
@@ -30,8 +30,14 @@ pub struct Plan {
     pub group_of: [usize; MAX_PLANETS],
     /// Number of planets.
     pub planets: usize,
-    /// True if the carrier speed is imposed.
-    pub carrier_imposed: bool,
+    /// True if the speed of the drive is imposed.
+    pub drive_imposed: bool,
+    /// Speed of the drive over the speed of the carrier; `None` if the drive acts on the carrier itself.
+    pub drive_ratio: Option<f64>,
+    /// Inertia of a pinion that is rigid with the carrier, at the carrier's speed [kg·m²].
+    pub on_carrier: f64,
+    /// Turns of the carrier after which all forces repeat.
+    pub turns: u32,
     /// True if the planet spin is imposed.
     pub spin_imposed: bool,
     /// True for each wheel-side end whose speed is imposed, left and right.
@@ -57,15 +63,39 @@ pub struct Requests {
     pub shafts: [bool; 2],
     /// Attached bodies other than half-shaft ends.
     pub attached: [Option<AttachedBody>; ATTACHED_COUNT],
+    /// Speed of the drive over the speed of the carrier, if the drive acts through a gear pair.
+    pub drive_ratio: Option<f64>,
+    /// Inertia that is rigid with the carrier, at the carrier's speed [kg·m²].
+    pub on_carrier: f64,
+    /// Turns of the carrier after which all forces repeat; 0 if it makes no demand.
+    pub turns: u32,
 }
 
 /// Body that turns relative to another body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AttachedBody {
-    /// Degree of freedom relative to which it turns.
-    pub to: usize,
+    /// Body relative to which it turns.
+    pub to: Base,
     /// Moment of inertia [kg·m²].
     pub inertia: f64,
+}
+
+impl AttachedBody {
+    /// Returns the body with its inertia at the carrier's speed, for a `ratio` of the final drive.
+    fn at_carrier(self, ratio: Option<f64>) -> Self {
+        let ratio = ratio.filter(|_| self.to == Base::Pinion).unwrap_or(1.0);
+        Self { inertia: ratio * ratio * self.inertia, ..self }
+    }
+}
+
+/// Body relative to which an attached body turns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Base {
+    /// Degree of freedom.
+    Freedom(usize),
+    /// The pinion of the final drive, or the carrier if the pinion is rigid with it. The inertia is at the pinion's
+    /// speed.
+    Pinion,
 }
 
 impl Plan {
@@ -79,13 +109,16 @@ impl Plan {
             group_count: 0,
             group_of: [0; MAX_PLANETS],
             planets: phases.len(),
-            carrier_imposed: scene.carrier_drive == CarrierDrive::Speed,
+            drive_imposed: scene.carrier_drive == CarrierDrive::Speed,
+            drive_ratio: requests.drive_ratio,
+            on_carrier: requests.on_carrier,
+            turns: requests.turns.max(1),
             spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
             side_imposed,
             shafts,
             attached: std::array::from_fn(|k| match k {
-                0..ENDS => shafts.contains(&true).then_some(AttachedBody { to: k, inertia: 0.0 }),
-                _ => requests.attached[k],
+                0..ENDS => shafts.contains(&true).then_some(AttachedBody { to: Base::Freedom(k), inertia: 0.0 }),
+                _ => requests.attached[k].map(|body| body.at_carrier(requests.drive_ratio)),
             }),
             has_pins: requests.pins,
             contact: scene.gear_contact,
@@ -153,12 +186,52 @@ impl Plan {
 
     /// Index of each degree of freedom.
     pub fn layout(&self) -> Layout {
-        Layout {
+        let mut layout = Layout {
             groups: self.group_count,
             members: self.groups.map(|g| g.members),
             has_pins: self.has_pins,
-            attached: self.attached.map(|body| Some(body?.to)),
+            attached: self.attached.map(|body| body.map(|_| CARRIER)),
+            port: CARRIER,
+        };
+        for (k, body) in self.attached.iter().enumerate() {
+            let Some(body) = body else { continue };
+            layout.attached[k] = Some(match body.to {
+                Base::Freedom(i) => i,
+                Base::Pinion => layout.pinion(),
+            });
         }
+        layout.port = (PINION..=PROPELLER).rfind(|&k| layout.attached[k].is_some()).map_or(CARRIER, |k| layout.body(k));
+        layout
+    }
+
+    /// Sets the inputs of the drive from the command of the carrier, or from that of the pinion in front of it.
+    #[inline]
+    pub fn refer(&self, inputs: &mut Inputs) {
+        (inputs.drive_speed, inputs.drive_torque) = match self.drive_ratio {
+            None => (inputs.carrier_speed, inputs.carrier_torque),
+            Some(ratio) => (inputs.pinion_speed / ratio, inputs.pinion_torque * ratio),
+        };
+    }
+
+    /// Returns the derivatives of the inputs with those of the drive.
+    pub fn with_drive(&self, mut derivatives: InputDerivatives) -> InputDerivatives {
+        derivatives.rates.iter_mut().for_each(|rates| self.refer(rates));
+        derivatives
+    }
+
+    /// Moment of inertia of the bodies between carrier and drive that move separately [kg·m²], referred to the carrier.
+    pub fn drive_inertia(&self) -> f64 {
+        self.attached[PINION..=PROPELLER].iter().flatten().map(|body| body.inertia).sum()
+    }
+
+    /// Moment of inertia of the pinion at the carrier's speed [kg·m²].
+    pub fn pinion_inertia(&self) -> f64 {
+        self.on_carrier + self.attached[PINION].map_or(0.0, |pinion| pinion.inertia)
+    }
+
+    /// True if the drive acts on the carrier itself or is rigid with it.
+    pub fn drives_carrier(&self) -> bool {
+        self.layout().port == CARRIER
     }
 
     /// Periods by which positions are wrapped [rad]; infinite for positions that are not wrapped.
@@ -166,7 +239,7 @@ impl Plan {
         let layout = self.layout();
         let mut periods = [f64::INFINITY; MAX_DOF];
         periods[..CARRIER].fill(pair.gears[1].tooth_pitch());
-        periods[CARRIER] = crate::numeric::TAU;
+        periods[CARRIER] = crate::numeric::TAU * f64::from(self.turns);
         for g in 0..layout.groups {
             periods[layout.planet(g)] = pair.gears[0].tooth_pitch();
         }
@@ -191,7 +264,7 @@ impl Plan {
     /// Number of imposed degrees of freedom.
     pub fn imposed(&self) -> usize {
         let spins = if self.contact == GearContact::Ideal { 1 } else { self.layout().groups };
-        usize::from(self.carrier_imposed)
+        usize::from(self.drive_imposed)
             + if self.spin_imposed { spins } else { 0 }
             + self.side_imposed.iter().filter(|&&imposed| imposed).count()
     }
@@ -218,9 +291,10 @@ impl Plan {
             (false, false) => "torque",
         };
         format!(
-            "{level}; carrier speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated in {}; \
+            "{level}; {} speed {}; planet spin {}; left driven by {}, right by {}; {} planets simulated in {}; \
              {} states",
-            drive(self.carrier_imposed),
+            if self.drive_ratio.is_some() { "pinion" } else { "carrier" },
+            drive(self.drive_imposed),
             drive(self.spin_imposed),
             side(0),
             side(1),

@@ -1,4 +1,5 @@
-//! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes.
+//! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes, the pinion
+//! in its bearings.
 //!
 //! The slip of a pair is a sum of positions. Its rate is the speed of the body minus the speed of its base, so friction
 //! pushes the body back and the base forward. A new kind of pair is a line in each function of [`RubbingKind`], and its
@@ -18,6 +19,8 @@ pub enum RubbingKind {
     Planet,
     /// Wheel in its brake.
     Wheel,
+    /// Pinion of the final drive in its bearings, at the carrier's speed.
+    Pinion,
 }
 
 /// Largest number of pairs.
@@ -25,20 +28,21 @@ pub const PAIRS: usize = RubbingKind::ALL[RubbingKind::ALL.len() - 1].numbers().
 
 impl RubbingKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 3] = [Self::Side, Self::Planet, Self::Wheel];
+    pub const ALL: [Self; 4] = [Self::Side, Self::Planet, Self::Wheel, Self::Pinion];
 
     /// Largest number of pairs of this kind.
     const fn count(self) -> usize {
         match self {
             Self::Side | Self::Wheel => 2,
             Self::Planet => MAX_GROUPS,
+            Self::Pinion => 1,
         }
     }
 
     /// True if all pairs of this kind have the same friction. Otherwise, each pair has its own command and damping.
     pub const fn is_alike(self) -> bool {
         match self {
-            Self::Side | Self::Planet => true,
+            Self::Side | Self::Planet | Self::Pinion => true,
             Self::Wheel => false,
         }
     }
@@ -111,6 +115,8 @@ impl Plan {
             let (body, angle) = if self.shafts[s] { (end, &angle[..]) } else { (s, &angle[..2]) };
             add(RubbingPair::new(RubbingKind::Wheel.number(s), (body, None), angle, 1.0));
         }
+        let pinion = layout.pinion();
+        add(RubbingPair::new(RubbingKind::Pinion.number(0), (pinion, None), &layout.angle(pinion), 1.0));
         for g in (0..layout.groups).filter(|_| has_teeth) {
             let (number, planet) = (RubbingKind::Planet.number(g), layout.planet(g));
             add(RubbingPair::new(number, (planet, None), &[(planet, 1.0)], self.group(g).members));
@@ -123,6 +129,7 @@ impl Plan {
         match RubbingKind::of(number) {
             (RubbingKind::Side, s) => format!("the {} side gear", SIDES[s]),
             (RubbingKind::Planet, g) => format!("planet[{}]", self.group(g).planet + 1),
+            (RubbingKind::Pinion, _) => "the pinion".into(),
             (RubbingKind::Wheel, s) => format!("the {} wheel", SIDES[s]),
         }
     }

@@ -57,6 +57,11 @@ impl<'a> SceneEffects<'a> {
                     contacts.join(" or ")
                 ));
             }
+            if let (Some(needed), Some(switch)) = (entry.needs_effect, entry.switch)
+                && !self.effects.active().any(|name| name == needed)
+            {
+                found.push(problem!(switch, "needs {needed}: set {needed} = true, or switch {switch} off"));
+            }
             effect.check(&setting, &mut found);
         }
         found
@@ -85,6 +90,9 @@ impl<'a> SceneEffects<'a> {
                 pins: all.pins || request.pins,
                 shafts: [0, 1].map(|s| all.shafts[s] || request.shafts[s]),
                 attached: std::array::from_fn(|k| all.attached[k].or(request.attached[k])),
+                drive_ratio: all.drive_ratio.or(request.drive_ratio),
+                on_carrier: all.on_carrier + request.on_carrier,
+                turns: all.turns.max(request.turns),
             }
         })
     }

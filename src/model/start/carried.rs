@@ -3,7 +3,7 @@
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::{Action, BodyMotion};
+use crate::model::effect_kinds::{Action, BodyMotion, StaticLoads};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, RubbingKind};
 use crate::model::setup::HEATS;
 
@@ -14,6 +14,8 @@ pub struct Carried {
     pub teeth: [f64; 2],
     /// Torque that each half-shaft delivers to its wheel [N·m].
     pub shaft: [f64; 2],
+    /// Torques in front of the carrier.
+    pub in_front: StaticLoads,
     /// Acceleration of each side gear [rad/s²].
     pub side_acceleration: [f64; 2],
     /// Acceleration of the carrier [rad/s²].
@@ -29,30 +31,32 @@ impl Carried {
         let effect_torques = effect_torques(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
         let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - effect_torques[s]);
-        let drive = inputs.carrier_torque + effect_torques[CARRIER];
+        let drive = inputs.drive_torque + effect_torques[CARRIER];
         // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
         let mut rigid = *ideal;
         rigid.plan.shafts = [false; 2];
+        rigid.inertia.carrier = ideal.inertia.carrier + ideal.plan.drive_inertia();
         let j = &model.ideal.inertia;
         let mut motion = IdealMotion::default();
         let teeth = match ideal.plan.side_imposed {
             // a differential shares the torque of its carrier equally
             [true, true] => [0.5 * drive; 2],
             [false, false] => {
-                motion = rigid.motion(&Inputs { load_torque: load, carrier_torque: drive, ..*inputs });
+                motion = rigid.motion(&Inputs { load_torque: load, drive_torque: drive, ..*inputs });
                 let a = rigid.side_accelerations(&motion);
                 [0, 1].map(|s| load[s] + j.side[s] * a[s])
             }
             [imposed_left, _] => {
                 let s = usize::from(!imposed_left);
                 let (other, mut teeth) = (load[1 - s], [load[1 - s]; 2]);
-                if !ideal.plan.carrier_imposed {
+                if !ideal.plan.drive_imposed {
                     if ideal.plan.spin_imposed {
                         teeth[s] = drive - other;
                     } else {
                         // side s keeps its speed, and the other side accelerates twice as fast as the carrier
                         let planets = j.planets * j.planet / (ideal.ratio * ideal.ratio);
-                        motion.carrier = (drive - 2.0 * other) / (j.carrier + 4.0 * j.side[1 - s] + planets);
+                        motion.carrier =
+                            (drive - 2.0 * other) / (rigid.inertia.carrier + 4.0 * j.side[1 - s] + planets);
                         motion.spin = -SIGMA[s] * motion.carrier / ideal.ratio;
                         teeth[1 - s] += 2.0 * j.side[1 - s] * motion.carrier;
                         teeth[s] = teeth[1 - s] + planets * motion.carrier;
@@ -63,7 +67,11 @@ impl Carried {
         };
         let side_acceleration = rigid.side_accelerations(&motion);
         let shaft = [0, 1].map(|s| teeth[s] + effect_torques[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
-        Self { teeth, shaft, side_acceleration, carrier_acceleration: motion.carrier, spin_acceleration: motion.spin }
+        // what the drive delivers to the carrier: the torques of the teeth and of effects, and the carrier's own inertia
+        let ring = teeth[0] + teeth[1] - effect_torques[CARRIER] + (j.carrier - ideal.plan.on_carrier) * motion.carrier;
+        let in_front = StaticLoads { ring, propeller: ring + ideal.plan.pinion_inertia() * motion.carrier };
+        let (carrier_acceleration, spin_acceleration) = (motion.carrier, motion.spin);
+        Self { teeth, shaft, in_front, side_acceleration, carrier_acceleration, spin_acceleration }
     }
 }
 
@@ -90,10 +98,10 @@ fn effect_torques(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIE
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
     let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, oil_viscosity };
-    let (mut force, mut imposed, mut drive, mut heat) = ([0.0; MAX_DOF], 0.0, 0.0, [0.0; HEATS]);
-    let mut out = Action { force: &mut force, imposed: &mut imposed, drive: &mut drive, heat: &mut heat };
+    let (mut force, mut heat) = ([0.0; MAX_DOF], [0.0; HEATS]);
+    let mut out = Action { force: &mut force, heat: &mut heat };
     for effect in model.body_effects().forces.iter() {
         effect.act(&motion, &mut out);
     }
-    [force[0], force[1], force[CARRIER] + drive]
+    [force[0], force[1], force[CARRIER]]
 }

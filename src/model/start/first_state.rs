@@ -31,7 +31,7 @@ impl Simulation {
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
-        let (model, state) = (&simulation.model, &mut simulation.state);
+        let (model, state, inputs) = (&simulation.model, &mut simulation.state, &simulation.inputs.clone());
         state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start
@@ -75,8 +75,7 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
     let rest = model.parameters.scene.start == Start::Rest;
-    let command = model.body_effects().carrier_speed(&state.q, inputs.carrier_speed);
-    let mut carrier = if rest && !plan.carrier_imposed { 0.0 } else { command };
+    let mut carrier = if rest && !plan.drive_imposed { 0.0 } else { inputs.drive_speed };
     let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
     let [left, right] = inputs.side_speed;
     match plan.side_imposed {
@@ -95,7 +94,7 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let v = &mut state.v;
     // ideal gears cannot stay at rest if a speed is imposed
     let follow = !rest || plan.contact == GearContact::Ideal;
-    if follow || plan.carrier_imposed {
+    if follow || plan.drive_imposed && plan.drives_carrier() {
         v[CARRIER] = carrier;
     }
     for g in (0..layout.groups).filter(|_| follow || plan.spin_imposed) {
@@ -111,6 +110,9 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     }
     for (i, to) in layout.attached() {
         v[i] = v[to];
+    }
+    if plan.drive_imposed {
+        v[layout.port] = inputs.drive_speed;
     }
     for s in (0..2).filter(|&s| plan.shafts[s] && plan.side_imposed[s]) {
         v[layout.end(s)] = inputs.side_speed[s];

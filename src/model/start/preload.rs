@@ -16,6 +16,19 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
     for s in (0..2).filter(|&s| plan.shafts[s]) {
         state.q[plan.layout().end(s)] = shafts.static_twist(s, carried.shaft[s]);
     }
+    wind_up(model, &carried, state);
+}
+
+/// Winds up what is in front of the carrier. An imposed speed of the drive remains.
+fn wind_up(model: &Model, carried: &Carried, state: &mut State) {
+    let (layout, imposed) = (&model.layout, model.ideal.plan.drive_imposed);
+    let driven = state.v[layout.port];
+    for effect in model.body_effects().forces.iter() {
+        effect.wind_up(&carried.in_front, layout, [&mut state.q, &mut state.v]);
+    }
+    if imposed {
+        state.v[layout.port] = driven;
+    }
 }
 
 /// Result of [`preload`].
@@ -86,6 +99,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         }
     }
     state.set_point(&point);
+    wind_up(model, &carried, state);
     state.wrap(&model.periods, &model.body_effects().pairs);
     Ok(Preload { carried, settled })
 }

@@ -1,0 +1,192 @@
+//! Elastic mesh between pinion and ring gear, with lash and an error that excites it.
+//!
+//! With φ = θ_p/i − θ_c and the deviation x = φ − e from the path of perfect teeth, the flanks that drive forward touch
+//! at x > b/2, and those that drive backward at x < −b/2:
+//!
+//! ```text
+//! T = max(0, K (x − b/2) + c ẋ)  or  −max(0, −K (x + b/2) − c ẋ),   b = j_t/r, K = k r², c = d r²
+//! e = Σ E_n/r cos(n z₁ θ_p + ψ_n) + R₁/r cos(θ_p + ψ_1r) + R₂/r cos(θ_c + ψ_2r)
+//! ```
+//!
+//! A flank damps only in contact and never pulls. The torques follow from the potential V(x): T (1 + ∂e/∂θ_c) acts on
+//! the carrier and −T (1 − i ∂e/∂θ_p) on the pinion at the carrier's speed. The power of both is −(V̇ + heat).
+//!
+//! Source: A. Kahraman and R. Singh, J. Sound Vib. 142 (1990) 49–75, for a pair with lash and transmission error.
+
+use super::FinalDriveSpec;
+use crate::model::effect_kinds::{BodyMotion, Slopes};
+use crate::model::scene::{CARRIER, Layout};
+use crate::numeric::{Dual, Scalar};
+
+/// Fractions of a step between which it ends on a touch or a separation.
+const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
+/// Number of iterations with which the static deflection finds the error at its own angle.
+const ROUNDS: usize = 8;
+
+/// Harmonic of the error: amplitude cos(order θ + phase).
+#[derive(Clone, Copy, Debug, Default)]
+struct Harmonic {
+    /// Amplitude at the carrier [rad].
+    amplitude: f64,
+    /// Order of the angle.
+    order: f64,
+    /// Phase [rad].
+    phase: f64,
+}
+
+impl Harmonic {
+    /// Value of the harmonic and its derivative with respect to the angle.
+    fn at<T: Scalar>(&self, angle: T) -> [T; 2] {
+        let argument = angle * self.order + self.phase;
+        [argument.cos() * self.amplitude, argument.sin() * (-self.order * self.amplitude)]
+    }
+}
+
+/// Elastic mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Mesh {
+    /// Ratio i.
+    ratio: f64,
+    /// Stiffness K at the carrier [N·m/rad].
+    stiffness: f64,
+    /// Damping c at the carrier [N·m·s/rad].
+    damping: f64,
+    /// Half of the lash at the carrier, b/2 [rad].
+    half_lash: f64,
+    /// Harmonics of the angle of the pinion.
+    of_pinion: [Harmonic; 4],
+    /// Harmonic of the angle of the carrier.
+    of_carrier: Harmonic,
+    /// Degree of freedom of the pinion.
+    pinion: usize,
+}
+
+/// Angle of the carrier, lag of the pinion, and the speeds of carrier and pinion.
+type Local<T> = [T; 4];
+
+/// Deviation x, its rate ẋ, and the derivatives ∂e/∂θ_c and i ∂e/∂θ_p.
+struct Deviation<T> {
+    x: T,
+    rate: T,
+    by_carrier: T,
+    by_pinion: T,
+}
+
+impl Mesh {
+    /// Mesh of the final drive `of` in a scene with this `layout`.
+    pub fn new(of: &FinalDriveSpec, layout: &Layout) -> Self {
+        let r = of.mean_radius;
+        let z = f64::from(of.pinion_teeth);
+        let harmonic = |error: f64, order: f64, phase: f64| Harmonic { amplitude: error / r, order, phase };
+        Self {
+            ratio: of.ratio(),
+            stiffness: of.stiffness * r * r,
+            damping: of.damping * r * r,
+            half_lash: 0.5 * of.backlash / r,
+            of_pinion: [
+                harmonic(of.error_1, z, of.error_phase_1),
+                harmonic(of.error_2, 2.0 * z, of.error_phase_2),
+                harmonic(of.error_3, 3.0 * z, of.error_phase_3),
+                harmonic(of.pinion_runout, 1.0, of.pinion_runout_phase),
+            ],
+            of_carrier: harmonic(of.ring_runout, 1.0, of.ring_runout_phase),
+            pinion: layout.pinion(),
+        }
+    }
+
+    fn local(&self, at: &BodyMotion) -> Local<f64> {
+        [at.q[CARRIER], at.q[self.pinion], at.v[CARRIER], at.v[self.pinion]]
+    }
+
+    fn deviation<T: Scalar>(&self, [carrier, lag, carrier_speed, pinion_speed]: Local<T>) -> Deviation<T> {
+        let pinion = (carrier - lag) * self.ratio;
+        let [mut error, by_carrier] = self.of_carrier.at(carrier);
+        let mut by_pinion = T::constant(0.0);
+        for harmonic in self.of_pinion.iter().filter(|harmonic| harmonic.amplitude != 0.0) {
+            let [value, slope] = harmonic.at(pinion);
+            error = error + value;
+            by_pinion = by_pinion + slope * self.ratio;
+        }
+        let rate = pinion_speed - carrier_speed - by_carrier * carrier_speed - by_pinion * pinion_speed;
+        Deviation { x: -lag - error, rate, by_carrier, by_pinion }
+    }
+
+    /// Depth of the flanks in contact, positive, and the direction in which they drive; `None` within the lash.
+    fn contact<T: Scalar>(&self, x: T) -> Option<(T, f64)> {
+        let direction = if x.value() < 0.0 { -1.0 } else { 1.0 };
+        let depth = x * direction - self.half_lash;
+        (depth.value() > 0.0).then_some((depth, direction))
+    }
+
+    /// Torque T of the mesh at a deviation and its rate.
+    fn torque<T: Scalar>(&self, x: T, rate: T) -> T {
+        let Some((depth, direction)) = self.contact(x) else { return T::constant(0.0) };
+        let pressing = depth * self.stiffness + rate * (direction * self.damping);
+        if pressing.value() > 0.0 { pressing * direction } else { T::constant(0.0) }
+    }
+
+    /// Torques on the carrier and on the pinion.
+    fn torques<T: Scalar>(&self, at: Local<T>) -> [T; 2] {
+        let Deviation { x, rate, by_carrier, by_pinion } = self.deviation(at);
+        let torque = self.torque(x, rate);
+        [torque + torque * by_carrier, torque * by_pinion - torque]
+    }
+
+    /// Adds the torques to `force`. Returns the power of the damping [W].
+    pub fn act(&self, at: &BodyMotion, force: &mut [f64]) -> f64 {
+        let local = self.local(at);
+        let [on_carrier, on_pinion] = self.torques(local);
+        force[CARRIER] += on_carrier;
+        force[self.pinion] += on_pinion;
+        let Deviation { x, rate, .. } = self.deviation(local);
+        let spring = self.contact(x).map_or(0.0, |(depth, direction)| direction * self.stiffness * depth);
+        (self.torque(x, rate) - spring) * rate
+    }
+
+    /// Adds the derivatives of the torques.
+    pub fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
+        let local = self.local(at);
+        let torques = self.torques(std::array::from_fn(|k| Dual::<4>::variable(local[k], k)));
+        for (row, torque) in [CARRIER, self.pinion].into_iter().zip(torques) {
+            out.position(row, CARRIER, torque.d[0]);
+            out.position(row, self.pinion, torque.d[1]);
+            out.velocity(row, CARRIER, torque.d[2]);
+            out.velocity(row, self.pinion, torque.d[3]);
+        }
+    }
+
+    /// Elastic energy [J].
+    pub fn energy(&self, at: &BodyMotion) -> f64 {
+        let depth = self.contact(self.deviation(self.local(at)).x).map_or(0.0, |(depth, _)| depth);
+        0.5 * self.stiffness * depth * depth
+    }
+
+    /// Torque on the carrier [N·m].
+    pub fn on_carrier(&self, at: &BodyMotion) -> f64 {
+        self.torques(self.local(at))[0]
+    }
+
+    /// Fraction of a step of `h` [s] after which flanks touch or separate, if the deviation keeps its rate.
+    pub fn kink(&self, at: &BodyMotion, h: f64) -> Option<f64> {
+        let Deviation { x, rate, .. } = self.deviation(self.local(at));
+        let fraction = |edge: f64| (edge - x) / (rate * h);
+        [self.half_lash, -self.half_lash]
+            .map(fraction)
+            .into_iter()
+            .filter(|fraction| (WORTHWHILE.0..WORTHWHILE.1).contains(fraction))
+            .reduce(f64::min)
+    }
+
+    /// Sets the lag of the pinion so that the mesh carries the `torque` on the carrier [N·m]; without torque, the flanks
+    /// are in the middle of the lash. The pinion then keeps its distance from the path of perfect teeth.
+    pub fn wind_up(&self, torque: f64, layout: &Layout, [q, v]: [&mut [f64]; 2]) {
+        let depth = torque / self.stiffness + if torque == 0.0 { 0.0 } else { self.half_lash.copysign(torque) };
+        debug_assert_eq!(layout.pinion(), self.pinion);
+        for _ in 0..ROUNDS {
+            let Deviation { x, .. } = self.deviation([q[CARRIER], q[self.pinion], 0.0, 0.0]);
+            q[self.pinion] += x - depth;
+        }
+        let Deviation { by_carrier, by_pinion, .. } = self.deviation([q[CARRIER], q[self.pinion], 0.0, 0.0]);
+        v[self.pinion] = v[CARRIER] * (1.0 + by_carrier) / (1.0 - by_pinion);
+    }
+}

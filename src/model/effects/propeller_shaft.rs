@@ -1,0 +1,192 @@
+//! Propeller shaft between the drive and the pinion of the final drive, with one universal joint at its driven end.
+//!
+//! The shaft is a spring with a damper, T = k (θ₂ − θ_p) + c d/dt (θ₂ − θ_p), between the pinion and the output θ₂ of
+//! the joint. At the joint angle β, the driven end θ₁ turns with
+//!
+//! ```text
+//! θ₂ = θ₁ − atan2(q sin 2θ₁, 1 + q cos 2θ₁),   q = tan²(β/2)
+//! ```
+//!
+//! which is tan θ₂ = cos β tan θ₁ without branches. A quarter turn of the joint reverses the sign of q, so that tan θ₂ =
+//! tan θ₁/cos β. The torque on the driven end is T dθ₂/dθ₁.
+//!
+//! Source: kinematics of Hooke's joint, for example H. C. Seherr-Thoss, F. Schmelz, E. Aucktor, Universal Joints and
+//! Driveshafts, Springer 2006.
+
+use crate::declaration::prelude::*;
+use crate::model::effect_kinds::{
+    Action, Attached, BodyEffect, BodyMotion, Declare, Effect, Heat, Reading, Setting, Slopes, StaticLoads, readings,
+};
+use crate::model::scene::{AttachedBody, Base, CARRIER, Layout, PROPELLER, Plan, Requests};
+use crate::numeric::{Dual, Scalar, cos, sin};
+
+/// Number of iterations with which the static twist finds the joint's output at its own angle.
+const ROUNDS: usize = 50;
+
+parameters! {
+    /// Propeller shaft.
+    pub struct PropellerShaftSpec in "propeller_shaft" {
+        /// Torsional stiffness of the propeller shaft
+        stiffness: f64 = 2e4, NM_PER_RAD, 1e-3..=1e9;
+        /// Torsional damping of the propeller shaft
+        damping: f64 = 2.0, NMS_PER_RAD, 0.0..=1e6;
+        /// Angle of the universal joint at the driven end; 0 = no joint
+        joint_angle: f64 = 0.0, RADIAN | DEG, 0.0..=1.2;
+        /// Joint turned by a quarter turn about the shaft
+        joint_quarter_turn: bool = false, when(above!(Self.joint_angle, 0.0));
+    }
+}
+
+impl Declare for PropellerShaftSpec {
+    const DESCRIPTION: &'static str = "Propeller shaft that twists, in front of the final drive";
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.propeller_shaft",
+        description: "Heat of damping in the propeller shaft since the start",
+        at_wheels: false,
+    });
+    const READINGS: &'static [Reading] = readings! {
+        /// Torque of the drive on the propeller shaft; without effects.propeller_shaft, the torque of the drive
+        "propeller.torque": NEWTON_METRE, Always(|_, at| at.port_torque);
+    };
+    const BODIES: &'static [Attached] = &[Attached {
+        name: "the driven end of the propeller shaft",
+        of: "propeller",
+        states: ["lag", "carrier_speed"],
+        descriptions: [
+            "Angle by which the driven end lags behind the pinion, at the carrier's speed; 0 without \
+             effects.propeller_shaft",
+            "Speed of the driven end divided by the ratio of the final drive; 0 without effects.propeller_shaft, so for \
+             the port read propeller.speed",
+        ],
+    }];
+    const NEEDS_EFFECT: Option<&'static str> = Some("effects.final_drive");
+    const EXAMPLE: &'static [(&'static str, f64)] =
+        &[("effects.final_drive", 1.0), ("propeller_shaft.joint_angle", 0.1)];
+}
+
+impl Effect for PropellerShaftSpec {
+    fn requests(&self, setting: &Setting) -> Requests {
+        let mut requests = Requests::default();
+        requests.attached[PROPELLER] = Some(AttachedBody { to: Base::Pinion, inertia: setting.inertia.propeller_end });
+        requests
+    }
+
+    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+        let (layout, ratio) = (plan.layout(), plan.drive_ratio.unwrap_or(1.0));
+        let half = 0.5 * self.joint_angle;
+        let tangent = sin(half) / cos(half);
+        Some(Box::new(Shaft {
+            ratio,
+            stiffness: self.stiffness,
+            damping: self.damping,
+            q: tangent * tangent * if self.joint_quarter_turn { -1.0 } else { 1.0 },
+            pinion: layout.pinion(),
+            end: layout.port,
+            has_pinion: layout.pinion() != CARRIER,
+            heat_index: setting.heat_index,
+        }))
+    }
+}
+
+/// Propeller shaft in a scene.
+#[derive(Clone, Copy, Debug)]
+struct Shaft {
+    /// Ratio of the final drive.
+    ratio: f64,
+    /// Stiffness k [N·m/rad].
+    stiffness: f64,
+    /// Damping c [N·m·s/rad].
+    damping: f64,
+    /// q of the joint; 0 without a joint.
+    q: f64,
+    /// Degrees of freedom of the pinion and of the driven end.
+    pinion: usize,
+    end: usize,
+    /// True if the pinion turns relative to the carrier.
+    has_pinion: bool,
+    heat_index: usize,
+}
+
+/// Number of local coordinates: angle of the driven end, its lag behind the pinion, and the speeds of both, all at the
+/// carrier's speed.
+const LOCAL: usize = 4;
+
+impl Shaft {
+    /// Angle of the joint's output minus that of its input [rad], and dθ₂/dθ₁, at the angle θ₁ [rad].
+    fn joint<T: Scalar>(&self, angle: T) -> [T; 2] {
+        if self.q == 0.0 {
+            return [T::constant(0.0), T::constant(1.0)];
+        }
+        let (sine, cosine) = ((angle * 2.0).sin(), (angle * 2.0).cos());
+        let (y, x) = (sine * self.q, cosine * self.q + 1.0);
+        // the derivative of atan2(y, x) along the angle is 2q (q + cos 2θ)/(x² + y²)
+        let slope = (cosine + self.q) * (2.0 * self.q) / (x * x + y * y);
+        // |y/x| is below one because |q| is
+        [-(y / x).atan(), -slope + 1.0]
+    }
+
+    /// Twist of the shaft [rad], its rate, and dθ₂/dθ₁.
+    fn twist<T: Scalar>(&self, [end, lag, end_speed, pinion_speed]: [T; LOCAL]) -> [T; 3] {
+        let [ahead, slope] = self.joint(end * self.ratio);
+        // θ₂ − θ_p = θ₁ − θ_p + (θ₂ − θ₁)
+        let twist = lag * -self.ratio + ahead;
+        [twist, (end_speed * slope - pinion_speed) * self.ratio, slope]
+    }
+
+    /// Torques on the driven end and on the pinion, at the carrier's speed.
+    fn torques<T: Scalar>(&self, at: [T; LOCAL]) -> [T; 2] {
+        let [twist, rate, slope] = self.twist(at);
+        let torque = (twist * self.stiffness + rate * self.damping) * self.ratio;
+        [-(torque * slope), torque]
+    }
+
+    /// Local coordinates, and the degrees of freedom whose positions, times a factor, add up to the angle of the end.
+    fn local(&self, at: &BodyMotion) -> [f64; LOCAL] {
+        let pinion = at.q[CARRIER] - if self.has_pinion { at.q[self.pinion] } else { 0.0 };
+        [pinion - at.q[self.end], at.q[self.end], at.v[self.end], at.v[self.pinion]]
+    }
+}
+
+impl BodyEffect for Shaft {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
+        let local = self.local(at);
+        let [on_end, on_pinion] = self.torques(local);
+        out.force[self.end] += on_end;
+        out.force[self.pinion] += on_pinion;
+        let [_, rate, _] = self.twist(local);
+        out.heat[self.heat_index] += self.damping * rate * rate;
+    }
+
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
+        let local = self.local(at);
+        let torques = self.torques(std::array::from_fn(|k| Dual::<LOCAL>::variable(local[k], k)));
+        for (row, torque) in [self.end, self.pinion].into_iter().zip(torques) {
+            let [by_angle, by_lag, by_end_speed, by_pinion_speed] = torque.d;
+            out.position(row, CARRIER, by_angle);
+            if self.has_pinion {
+                out.position(row, self.pinion, -by_angle);
+            }
+            out.position(row, self.end, by_lag - by_angle);
+            out.velocity(row, self.end, by_end_speed);
+            out.velocity(row, self.pinion, by_pinion_speed);
+        }
+    }
+
+    fn energy(&self, at: &BodyMotion) -> f64 {
+        let [twist, ..] = self.twist(self.local(at));
+        0.5 * self.stiffness * twist * twist
+    }
+
+    fn wind_up(&self, loads: &StaticLoads, _: &Layout, [q, v]: [&mut [f64]; 2]) {
+        let wanted = loads.propeller / (self.ratio * self.stiffness);
+        let pinion = q[CARRIER] - if self.has_pinion { q[self.pinion] } else { 0.0 };
+        let mut slope = 1.0;
+        for _ in 0..ROUNDS {
+            let local = [pinion - q[self.end], q[self.end], 0.0, 0.0];
+            let [twist, _, now] = self.twist(local);
+            slope = now;
+            q[self.end] += (twist - wanted) / (self.ratio * slope);
+        }
+        v[self.end] = v[self.pinion] / slope;
+    }
+}
