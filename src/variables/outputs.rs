@@ -81,8 +81,16 @@ fn own() -> Vec<Row<OutputSource>> {
         "carrier.speed": RAD_PER_S | DEG_PER_S, Motion(|m, _| m.carrier_speed);
         /// Carrier acceleration
         "carrier.acceleration": RAD_PER_S2, Forces(|f, _| f.carrier_acceleration);
-        /// Torque that the drive delivers to the carrier
+        /// Torque on the carrier from its drive: of the ring gear with effects.final_drive
         "carrier.torque": NEWTON_METRE, Forces(|f, _| f.carrier_torque);
+        /// Pinion angle since the start; without effects.final_drive, the angle of the carrier
+        "pinion.angle": RADIAN | DEG, Motion(|m, _| m.drive_angle[0]);
+        /// Pinion speed, positive if it drives forward; without effects.final_drive, the speed of the carrier
+        "pinion.speed": RAD_PER_S | DEG_PER_S, Motion(|m, _| m.drive_speed[0]);
+        /// Angle of the body that the drive turns: the driven end of the propeller shaft, otherwise the pinion
+        "propeller.angle": RADIAN | DEG, Motion(|m, _| m.drive_angle[1]);
+        /// Speed of the body that the drive turns: the driven end of the propeller shaft, otherwise the pinion
+        "propeller.speed": RAD_PER_S | DEG_PER_S, Motion(|m, _| m.drive_speed[1]);
         /// Side gear angle, including lash and deflection; 0 if assembled with teeth in mid-gap; for a wheel behind a
         /// half-shaft read {side}.wheel_angle
         "{side}.angle": RADIAN | DEG, Motion(|m, s| m.side_angle[s]);
@@ -136,13 +144,13 @@ fn own() -> Vec<Row<OutputSource>> {
         "spin.torque": NEWTON_METRE, Forces(|f, _| f.spin_torque);
         /// Tooth engagements of one mesh per second
         "mesh.frequency": HERTZ, Motion(|m, _| m.mesh_frequency);
-        /// Power delivered by carrier drive and spin drive
+        /// Power delivered by the drive, at its port, and by the spin drive
         "power.in": WATT, Forces(|f, _| f.power_in);
         /// Power delivered to the wheels
         "power.out": WATT, Forces(|f, _| f.power_out);
         /// Power turned into heat within the differential; power of the wheel brakes is part of power.out
         "power.loss": WATT, Forces(|f, _| f.power_loss);
-        /// 1 - power.loss / power fed in: sum over carrier drive, left wheel, right wheel and spin drive if they feed
+        /// 1 - power.loss / power fed in: sum over the drive, left wheel, right wheel and spin drive if they feed
         /// power; at least 0, and 1 if none feeds power
         "efficiency": ONE, Forces(|f, _| efficiency(f));
         /// Ratio of slow to fast half-shaft torque, averaged over the last whole mesh cycle if shafts twist; fast is
