@@ -33,6 +33,7 @@ pub use assembly::model::Given;
 pub use dynamics::event::{AdvanceOptions, Event, Events, Happening};
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Heat, InputField, Needs, Reading};
+pub use effects::final_drive::{FinalDriveSpec, Hand, RingSide};
 pub use effects::{EFFECTS, EffectParameters, Effects, Memories};
 pub use exchange::{BODIES, Body, Direction, INDICATORS, STATES, StencilReadings, Update};
 pub use outputs::forces::MeshForces;

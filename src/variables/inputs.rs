@@ -2,7 +2,9 @@
 
 use crate::declaration::units::*;
 use crate::declaration::{Condition, Row, all, any, row};
-use crate::model::{CarrierDrive, GearContact, InputField, PlanetSpin, Scene, SideDrive, Start, effects};
+use crate::model::{
+    CarrierDrive, FinalDriveSpec, GearContact, InputField, PlanetSpin, Scene, SideDrive, Start, effects,
+};
 
 /// Limit of speeds [rad/s], far beyond any differential, but small enough that no intermediate result overflows.
 const MAX_SPEED: f64 = 1e5;
@@ -24,10 +26,10 @@ fn starts_turning() -> Condition {
 pub fn rows() -> Vec<Row<InputField>> {
     let mut rows: Vec<Row<InputField>> = vec![
         row("carrier.speed_command", "Imposed carrier speed; initial speed when the carrier is torque-driven")
-            .when(any([is!(Scene.carrier_drive, CarrierDrive::Speed), starts_turning()]))
+            .when(all([off!(FinalDriveSpec), any([is!(Scene.carrier_drive, CarrierDrive::Speed), starts_turning()])]))
             .input(RAD_PER_S | DEG_PER_S, MAX_SPEED, |i| &mut i.carrier_speed),
         row("carrier.torque_command", "Carrier torque when the carrier is torque-driven")
-            .when(is!(Scene.carrier_drive, CarrierDrive::Torque))
+            .when(all([off!(FinalDriveSpec), is!(Scene.carrier_drive, CarrierDrive::Torque)]))
             .input(NEWTON_METRE, MAX_TORQUE, |i| &mut i.carrier_torque),
         row(
             "left.load_torque",

@@ -21,6 +21,7 @@ fn turn(change: impl Fn(&mut Parameters)) -> (Parameters, Inputs) {
     (inputs.carrier_speed, inputs.planet_spin) = (954f64.to_radians(), 200f64.to_radians());
     inputs.load_torque = [800.0, 760.0];
     (inputs.carrier_torque, p.scene.carrier_drive) = (1560.0, CarrierDrive::Torque);
+    (inputs.pinion_torque, inputs.pinion_speed) = (380.0, 4.1 * inputs.carrier_speed);
     (p.inertia.left_end, p.inertia.right_end, p.scene.start) = (0.3, 0.4, Start::Equilibrium);
     (p.geometry.planet_bore, p.geometry.side_bore) = (16e-3, 30e-3);
     let (drag, clutches) = (&mut p.specs.bearing_drag, &mut p.specs.limited_slip);
@@ -40,6 +41,7 @@ fn braked((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
 /// Scene whose loads and carrier torque act in the other direction.
 fn backward((p, mut inputs): (Parameters, Inputs)) -> (Parameters, Inputs) {
     inputs.carrier_torque *= -1.0;
+    inputs.pinion_torque *= -1.0;
     inputs.load_torque = inputs.load_torque.map(|torque| -torque);
     (p, inputs)
 }
@@ -77,6 +79,19 @@ fn slip_torques(p: &mut Parameters, breakaway: f64) {
     }
 }
 
+/// Final drive with all its losses, and with an error of its mesh if this is elastic.
+fn final_drive(p: &mut Parameters, elastic: bool) {
+    let drive = &mut p.specs.final_drive;
+    (p.effects.final_drive, drive.elastic_mesh) = (true, elastic);
+    (drive.error_1, drive.error_2, drive.ring_runout, drive.pinion_runout) = (6e-6, 3e-6, 8e-6, 4e-6);
+    (drive.friction_torque, drive.drive_loss, drive.coast_loss, drive.viscous) = (2.0, 0.05, 0.08, 0.01);
+}
+
+/// Propeller shaft with a joint.
+fn propeller(p: &mut Parameters) {
+    (p.effects.propeller_shaft, p.specs.propeller_shaft.joint_angle) = (true, 0.3);
+}
+
 fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
     let line = |p: &mut Parameters| p.contact.law = ContactLaw::Line;
     let bodies = |p: &mut Parameters| (p.contact.law, p.effects.body_compliance) = (ContactLaw::LineWeber, true);
@@ -110,6 +125,29 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         ("bodies, errors, friction, pins", turn(|p| (bodies(p), errors(p), friction(p), pins(p)).0)),
         ("shafts and drag", turn(|p| (p.effects.half_shaft, p.effects.bearing_drag) = (true, true))),
         ("drag by size and load", turn(dragged)),
+        ("final drive", turn(|p| final_drive(p, false))),
+        ("elastic final drive", turn(|p| final_drive(p, true))),
+        ("elastic final drive in coast", backward(turn(|p| final_drive(p, true)))),
+        ("final drive, shafts", turn(|p| (final_drive(p, false), propeller(p), p.effects.half_shaft = true).0)),
+        (
+            "elastic final drive, shafts, lumped",
+            turn(|p| {
+                (final_drive(p, true), propeller(p), p.effects.half_shaft = true).0;
+                p.scene.gear_contact = GearContact::Lumped;
+            }),
+        ),
+        (
+            "final drive, ideal",
+            turn(|p| (final_drive(p, false), p.effects.half_shaft = true, p.scene.gear_contact = GearContact::Ideal).0),
+        ),
+        (
+            "elastic final drive, ideal",
+            backward(turn(|p| (final_drive(p, true), propeller(p), p.scene.gear_contact = GearContact::Ideal).0)),
+        ),
+        (
+            "final drive, propeller shaft, ideal",
+            turn(|p| (final_drive(p, false), propeller(p), p.scene.gear_contact = GearContact::Ideal).0),
+        ),
         ("ramps", turn(|p| (ramps(p, 1), p.scene.gear_contact = GearContact::Lumped).0)),
         ("ramps of both sides", turn(|p| ramps(p, 2))),
         ("ramps in coast", backward(turn(|p| ramps(p, 2)))),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::model::effect_kinds::{BodyEffect, Friction, RubbingSurface, SurfaceTemperature};
+use crate::model::effect_kinds::{BodyEffect, Friction, Loss, RubbingSurface, SurfaceTemperature};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{
     GearContact, InputDerivatives, Inputs, OilSpec, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
@@ -22,6 +22,8 @@ pub struct BodyEffects {
     pub pairs: [Option<RubbingPair>; PAIRS],
     /// The half-shafts.
     pub half_shafts: HalfShafts,
+    /// Friction of the pinion in proportion to the torque of its mesh, if there is any.
+    pub loss: Option<Loss>,
     /// True if anything other than a commanded lock acts in addition to plain gears.
     pub has_effects: bool,
     /// True if wheels have brakes.
@@ -41,6 +43,7 @@ impl BodyEffects {
         Self {
             has_brakes: surfaces.iter().any(|surface| surface.kind == RubbingKind::Wheel),
             has_effects: !forces.is_empty() || has_friction,
+            loss: forces.iter().find_map(|effect| effect.loss()),
             forces: Arc::new(forces),
             has_friction,
             surfaces,

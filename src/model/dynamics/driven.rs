@@ -2,11 +2,11 @@
 //!
 //! Accelerations are linear in torques and in imposed accelerations, with constant coefficients. Inputs that follow a
 //! parabola, u(t) = u + u̇ t + ü t²/2, therefore add a parabola of time to the accelerations at constant inputs: Δv̇ =
-//! a₀ + a₁ t + a₂ t². They add the power Σ J Δv̇ v to the power of the inputs. Brake torques are an exception: for them,
-//! the equations are evaluated at the inputs of each time.
+//! a₀ + a₁ t + a₂ t². They add the power Σ J Δv̇ v to the power of the inputs. Brake torques are an exception, and
+//! so is a pinion with friction under the torque of its mesh: the equations are evaluated at the inputs of each time.
 
 use super::shape::Shape;
-use super::{Equations, FrictionEquations};
+use super::{Equations, FrictionEquations, PinionLoss};
 use crate::integrate::Point;
 use crate::model::scene::{InputDerivatives, Inputs};
 
@@ -48,7 +48,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(super) fn driven_terms(&self, derivatives: &InputDerivatives) -> Driven<N> {
         let [first, second] = &derivatives.rates;
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        if S::MAY_ACT && [first, second].iter().any(|rates| rates.brake_torque != [0.0; 2]) {
+        let scales = |rates: &&Inputs| rates.brake_torque != [0.0; 2] || self.sliding_pinion().is_some();
+        if S::MAY_ACT && [first, second].iter().any(scales) {
             return Driven::SCALES;
         }
         let mut by_order = [[0.0; N]; 3];

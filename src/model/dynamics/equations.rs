@@ -22,12 +22,12 @@ use std::ops::Range;
 use super::driven::Driven;
 use super::ledger_rates::LedgerRates;
 use super::shape::{Any, ByGroup, MAX_SIZE, Shape};
-use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
+use super::{FrictionEquations, InputsAndFriction, Jacobian, PinionLoss, State};
 use crate::integrate::{Linearisation, Matrix, Point, SecondOrder};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::{Action, Slopes, SurfaceLoad};
 use crate::model::scene::layout::{LEFT, over_groups};
-use crate::model::scene::{Inputs, Layout, MAX_GROUPS, PAIRS, Plan};
+use crate::model::scene::{CARRIER, Inputs, Layout, MAX_GROUPS, PAIRS, Plan};
 use crate::model::setup::HEATS;
 
 /// Equations under given inputs, in the shape `S` with at most `N` degrees of freedom.
@@ -222,6 +222,9 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
                 input -= self.applied.inputs.load_torque[s] * at.v[wheel];
             }
         }
+        if S::MAY_ACT && self.teeth.effect_terms.body_effects.loss.is_some() {
+            self.brake_pinion(at, sum, ledger_rates);
+        }
         let (port, imposed) = (self.port(), if S::MAY_ACT { rates.drive_speed } else { 0.0 });
         let drive = if plan.drive_imposed {
             self.teeth.inertia[port] * imposed - sum[port]
@@ -249,6 +252,43 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
             }
         }
         ledger_rates.input += input;
+    }
+
+    /// Subtracts the friction of a rigid pinion under the torque of its mesh.
+    #[inline(never)]
+    fn brake_pinion(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        if let Some(pinion) = self.sliding_pinion() {
+            let of = self.driven_carrier(at, sum);
+            pinion.brake((of[0], of[1], at.v[CARRIER]), sum, ledger_rates);
+        }
+    }
+
+    /// Torque in front of a rigid pinion, and the acceleration of the carrier without friction under the torque of the
+    /// mesh, given the `sum` of all torques but that of the drive.
+    fn driven_carrier(&self, at: &Point<N>, sum: &[f64; N]) -> [f64; 2] {
+        let (in_front, inertia) = (self.torque_in_front(at), self.teeth.inertia[CARRIER]);
+        let inputs = &self.applied;
+        match (self.port() == CARRIER, self.teeth.plan.drive_imposed) {
+            (true, true) => {
+                let acceleration = inputs.input_derivatives.rates[0].drive_speed;
+                [in_front + inertia * acceleration - sum[CARRIER], acceleration]
+            }
+            (true, false) => {
+                [in_front + inputs.inputs.drive_torque, (sum[CARRIER] + inputs.inputs.drive_torque) / inertia]
+            }
+            (false, _) => [in_front, sum[CARRIER] / inertia],
+        }
+    }
+
+    /// Adds the derivatives of the friction of a rigid pinion under the torque of its mesh, given those of all forces.
+    #[inline(never)]
+    fn brake_pinion_slopes(&self, at: &Point<N>, sum: &[f64; N], [by_position, by_velocity]: [&mut Matrix<N>; 2]) {
+        let Some(pinion) = self.sliding_pinion() else { return };
+        let (of, inverse) = (self.driven_carrier(at, sum), self.teeth.inverse_inertia[CARRIER]);
+        let [driven_by_position, driven_by_velocity] = self.slopes_in_front(at);
+        let [a, b] = [&*by_position, &*by_velocity].map(|matrix| matrix[CARRIER].map(|torque| inverse * torque));
+        let slopes = [(&driven_by_position, &a), (&driven_by_velocity, &b)];
+        pinion.brake_slopes((of[0], of[1]), slopes, [by_position, by_velocity]);
     }
 
     /// Writes the linearised equations to `lin`. Returns the elastic energy of all meshes [J].
@@ -294,6 +334,9 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
             for j in 0..N {
                 by_velocity[i][j] += by_rate[i][j];
             }
+        }
+        if self.teeth.effect_terms.body_effects.loss.is_some() {
+            self.brake_pinion_slopes(at, acceleration, [&mut *by_position, &mut *by_velocity]);
         }
         self.divide_by_inertia(by_position);
         self.divide_by_inertia(by_velocity);
@@ -384,6 +427,22 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
 
     fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         self.accelerate_at(at, time)
+    }
+
+    fn drive_torque(&self, at: &Point<N>, time: f64) -> f64 {
+        let these = if self.applied.driven && time > 0.0 { self.later(time) } else { *self };
+        if !these.teeth.plan.drive_imposed {
+            return these.applied.inputs.drive_torque;
+        }
+        let (mut sum, mut ledger_rates) = ([0.0; N], LedgerRates::default());
+        these.act(at, &mut sum, &mut ledger_rates);
+        these.brake_pinion(at, &mut sum, &mut ledger_rates);
+        let port = these.port();
+        these.teeth.inertia[port] * these.applied.input_derivatives.rates[0].drive_speed - sum[port]
+    }
+
+    fn carrier_mobility(&self) -> f64 {
+        self.teeth.inverse_inertia[CARRIER]
     }
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {

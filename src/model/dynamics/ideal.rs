@@ -4,7 +4,8 @@
 //! Accelerations are v̇ = W Q + f u̇_c (`assembly::ideal_with_effects`). The torque of the meshes on a side gear is the
 //! constraint force λ_s = J_s ω̇_s − Q_s.
 
-use super::{FrictionEquations, InputsAndFriction, Jacobian, State};
+use super::pinion_loss::SlidingPinion;
+use super::{FrictionEquations, InputsAndFriction, Jacobian, PinionLoss, State};
 use crate::integrate::{Linearisation, Point, SecondOrder};
 use crate::model::assembly::BodyEffects;
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
@@ -205,8 +206,39 @@ impl<'a> IdealEquations<'a> {
             let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
             return self.accelerations_by_shafts(&sum, &imposed);
         }
-        let (sum, imposed) = self.forces(at, now, &mut LedgerRates::default());
-        self.accelerations(&sum, &imposed)
+        let ledger_rates = &mut LedgerRates::default();
+        let (mut sum, imposed) = self.forces(at, now, ledger_rates);
+        self.accelerations_with_loss(at, now, (&mut sum, &imposed), ledger_rates)
+    }
+
+    /// Accelerations, with the friction of a rigid pinion under the torque of its mesh, which is subtracted from `sum`.
+    #[inline]
+    fn accelerations_with_loss(
+        &self,
+        at: &Point<IDEAL_SIZE>,
+        now: InputsNow,
+        (sum, imposed): (&mut [f64; IDEAL_SIZE], &[f64; IMPOSED]),
+        ledger_rates: &mut LedgerRates,
+    ) -> [f64; IDEAL_SIZE] {
+        let a = self.accelerations(sum, imposed);
+        let Some(pinion) = self.sliding_pinion() else { return a };
+        let driven = self.driven(at, now, (sum, &a));
+        pinion.brake((driven, a[CARRIER], at.v[CARRIER]), sum, ledger_rates);
+        self.accelerations(sum, imposed)
+    }
+
+    /// Torque in front of a rigid pinion, given all forces and accelerations.
+    fn driven(
+        &self,
+        at: &Point<IDEAL_SIZE>,
+        now: InputsNow,
+        (sum, a): (&[f64; IDEAL_SIZE], &[f64; IDEAL_SIZE]),
+    ) -> f64 {
+        let on_pinion = match self.ideal.layout.port {
+            CARRIER => self.torques_of(sum, a, now.0.drive_torque).drive,
+            _ => 0.0,
+        };
+        self.torque_in_front(at) + on_pinion
     }
 
     /// Returns accelerations under inputs and adds to the ledger rates.
@@ -216,14 +248,14 @@ impl<'a> IdealEquations<'a> {
         now: InputsNow,
         ledger_rates: &mut LedgerRates,
     ) -> [f64; IDEAL_SIZE] {
-        let (sum, imposed) = match self.linear() {
+        let (mut sum, imposed) = match self.linear() {
             Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
                 ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
                 ledger_rates.shaft[s] = torque;
             }),
             None => self.forces(at, now, ledger_rates),
         };
-        let a = self.accelerations(&sum, &imposed);
+        let a = self.accelerations_with_loss(at, now, (&mut sum, &imposed), ledger_rates);
         let plan = &self.ideal.plan;
         if plan.drive_imposed || plan.spin_imposed {
             let torques = self.torques_of(&sum, &a, now.0.drive_torque);
@@ -268,6 +300,17 @@ impl<'a> IdealEquations<'a> {
         }
         self.ideal.accelerations_by(&by_position, &mut lin.by_position);
         self.ideal.accelerations_by(&by_velocity, &mut lin.by_velocity);
+        // an imposed speed of the carrier does not depend on its friction
+        if let Some(pinion) = self.sliding_pinion().filter(SlidingPinion::is_free) {
+            let (sum, imposed) = self.forces(at, now, &mut LedgerRates::default());
+            let a = self.accelerations(&sum, &imposed);
+            let of_drive = self.slopes_in_front(at);
+            let slopes = [(&of_drive[0], &lin.by_position[CARRIER]), (&of_drive[1], &lin.by_velocity[CARRIER])];
+            let driven = self.driven(at, now, (&sum, &a));
+            pinion.brake_slopes((driven, a[CARRIER]), slopes, [&mut by_position, &mut by_velocity]);
+            self.ideal.accelerations_by(&by_position, &mut lin.by_position);
+            self.ideal.accelerations_by(&by_velocity, &mut lin.by_velocity);
+        }
     }
 
     /// Torques that follow from the constraint. `drive` is the torque of a drive whose speed is not imposed.
@@ -289,9 +332,14 @@ impl<'a> IdealEquations<'a> {
 
     /// Torques that follow from the constraint.
     pub fn torques(&self, at: &Point<IDEAL_SIZE>) -> IdealTorques {
+        self.torques_under(at, self.now())
+    }
+
+    fn torques_under(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
-        let (sum, imposed) = self.forces(at, self.now(), &mut ledger_rates);
-        self.torques_of(&sum, &self.accelerations(&sum, &imposed), self.applied.inputs.drive_torque)
+        let (mut sum, imposed) = self.forces(at, now, &mut ledger_rates);
+        let a = self.accelerations_with_loss(at, now, (&mut sum, &imposed), &mut ledger_rates);
+        self.torques_of(&sum, &a, now.0.drive_torque)
     }
 
     /// Kinetic energy [J].
@@ -346,6 +394,14 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
 
     fn acceleration_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
         self.accelerate_at(at, time)
+    }
+
+    fn drive_torque(&self, at: &Point<IDEAL_SIZE>, time: f64) -> f64 {
+        self.at_time(time, |now| self.torques_under(at, now).drive)
+    }
+
+    fn carrier_mobility(&self) -> f64 {
+        self.ideal.mobility[CARRIER][CARRIER]
     }
 
     fn acceleration_by_inputs(&self, at: &Point<IDEAL_SIZE>) -> [f64; IDEAL_SIZE] {

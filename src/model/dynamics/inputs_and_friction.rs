@@ -1,13 +1,18 @@
 //! Inputs and dry friction, which act on gears with and without teeth.
 
-use super::State;
 use super::ledger_rates::LedgerRates;
+use super::{PinionLoss, State};
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
-use crate::model::scene::{InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity};
+use crate::model::scene::{
+    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
+};
 use crate::model::thermal::NODES;
+
+/// Share of a change of inputs along which accelerations are compared.
+const CHANGE: f64 = 1.0 / 1024.0;
 
 /// Derivatives of forces, written in place.
 pub struct Jacobian<'a, const N: usize> {
@@ -153,6 +158,10 @@ pub trait FrictionEquations<const N: usize> {
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; PAIRS];
     /// Accelerations at `at`, `time` [s] after the inputs were set.
     fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N];
+    /// Torque of the drive at the carrier's speed [N·m], `time` [s] after the inputs were set.
+    fn drive_torque(&self, at: &Point<N>, time: f64) -> f64;
+    /// ∂ω̇_c/∂(torque on the carrier) [1/(kg·m²)].
+    fn carrier_mobility(&self) -> f64;
     /// Accelerations from inputs and effects. Forces that do not depend on inputs may be left out.
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N];
 
@@ -181,9 +190,34 @@ pub trait FrictionEquations<const N: usize> {
     where
         Self: Copy,
     {
+        if let Some(changes) = self.changes_with_loss(at, inputs, input_derivatives) {
+            return changes;
+        }
         let with = self.under(inputs, input_derivatives).acceleration_by_inputs(at);
         let without = self.under(&Inputs::ZERO, &InputDerivatives::ZERO).acceleration_by_inputs(at);
         std::array::from_fn(|i| with[i] - without[i])
+    }
+
+    /// Evaluates [`Self::input_accelerations`] if the friction of a rigid pinion depends on its torque: the accelerations
+    /// are then linear only as long as this torque keeps its sign.
+    fn changes_with_loss(
+        &self,
+        at: &Point<N>,
+        inputs: &Inputs,
+        InputDerivatives { rates: [first, second] }: &InputDerivatives,
+    ) -> Option<[f64; N]>
+    where
+        Self: Copy,
+    {
+        self.sliding_pinion()?;
+        let InputsAndFriction { inputs: now, input_derivatives: InputDerivatives { rates: now_rates }, .. } =
+            self.applied();
+        let moved = |by: f64| {
+            let rates = InputDerivatives { rates: [now_rates[0].plus(by, first), now_rates[1].plus(by, second)] };
+            self.under(&now.plus(by, inputs), &rates).acceleration_at(at, 0.0)
+        };
+        let [ahead, behind] = [moved(CHANGE), moved(-CHANGE)];
+        Some(std::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * CHANGE)))
     }
 
     /// Partial derivative of the accelerations with respect to time, `time` [s] after the inputs were set.
@@ -255,7 +289,20 @@ pub trait FrictionEquations<const N: usize> {
         } else {
             applied.friction().add_commands(&applied.inputs, &mut all);
         }
+        if self.body_effects().is_some_and(|all| all.loss.is_some()) {
+            all[RubbingKind::Pinion.number(0)] = self.pinion_load(at, time);
+        }
         all
+    }
+
+    /// Load of a pair in the equations of motion. The load of a pinion with an elastic mesh follows from the state; that
+    /// of a rigid pinion acts when all other torques are known.
+    #[inline]
+    fn load_on(&self, pair: &RubbingPair, at: &Point<N>, surface_loads: &[SurfaceLoad; PAIRS]) -> SurfaceLoad {
+        if pair.number == RubbingKind::Pinion.number(0) && self.layout().pinion() != CARRIER {
+            return self.pinion_load(at, 0.0);
+        }
+        surface_loads[pair.number]
     }
 
     /// Adds the torques and the heat of dry friction under the loads on its surfaces.
@@ -269,7 +316,8 @@ pub trait FrictionEquations<const N: usize> {
         for pair in rubbing_pairs(self) {
             let ((friction, state), i) = (self.friction_on(pair), pair.number);
             let slips = (slip_speed(at, pair), || slip_position(at, pair));
-            let torque = friction.act(state, slips, &surface_loads[i], pair.count, &mut ledger_rates.heat);
+            let load = self.load_on(pair, at, surface_loads);
+            let torque = friction.act(state, slips, &load, pair.count, &mut ledger_rates.heat);
             ledger_rates.limit[i] = torque * state.mode.direction();
             sum[pair.body] -= torque;
             if let Some(base) = pair.base {
@@ -282,7 +330,9 @@ pub trait FrictionEquations<const N: usize> {
     fn friction_slopes(&self, at: &Point<N>, surface_loads: &[SurfaceLoad; PAIRS], j: &mut Jacobian<'_, N>) {
         for pair in rubbing_pairs(self) {
             let (friction, state) = self.friction_on(pair);
-            let [k, c] = friction.torque_slopes(state, slip_speed(at, pair), &surface_loads[pair.number]);
+            let load = self.load_on(pair, at, surface_loads);
+            let [k, c] = friction.torque_slopes(state, slip_speed(at, pair), &load);
+            self.add_slopes_by_mesh(at, pair, &load, j);
             // friction that slides at a constant limit has no derivatives
             if k == 0.0 && c == 0.0 {
                 continue;
@@ -296,6 +346,25 @@ pub trait FrictionEquations<const N: usize> {
                     Some(_) => pair.position().iter().for_each(|&(i, factor)| j.by_rate[row][i] += sign * factor * c),
                     None => j.by_velocity[row][pair.body] += sign * c,
                 }
+            }
+        }
+    }
+
+    /// Adds the derivatives of the friction of a sliding pinion with respect to the torque of its elastic mesh.
+    fn add_slopes_by_mesh(&self, at: &Point<N>, pair: &RubbingPair, load: &SurfaceLoad, j: &mut Jacobian<'_, N>) {
+        let Some(all) = self.body_effects() else { return };
+        let (friction, state) = self.friction_on(pair);
+        let (direction, motion) = (state.mode.direction(), self.body_motion(at));
+        let Some(loss) = all.loss.filter(|_| pair.number == RubbingKind::Pinion.number(0) && direction != 0.0) else {
+            return;
+        };
+        for effect in all.forces.iter() {
+            let Some(torque) = effect.mesh_torque(&motion) else { continue };
+            let by_load = friction.limit_slopes(direction * slip_speed(at, pair), load)[1];
+            let per_torque = -direction * by_load * loss.coefficient(torque) * torque.signum();
+            for (i, [by_position, by_velocity]) in effect.mesh_slopes(&motion) {
+                j.by_position[pair.body][i] += per_torque * by_position;
+                j.by_velocity[pair.body][i] += per_torque * by_velocity;
             }
         }
     }
@@ -314,7 +383,7 @@ pub trait FrictionEquations<const N: usize> {
     fn pinion_friction(&self, at: &Point<N>) -> f64 {
         let Some(pair) = self.pair(RubbingKind::Pinion.number(0)) else { return 0.0 };
         let (friction, state) = self.friction_on(pair);
-        if friction.is_on() { friction.torque(state, &slip(at, pair), &SurfaceLoad::default()) } else { 0.0 }
+        if friction.is_on() { friction.torque(state, &slip(at, pair), &self.pinion_load(at, 0.0)) } else { 0.0 }
     }
 
     /// Energy in the springs of stuck friction [J].
@@ -445,7 +514,7 @@ pub trait FrictionEquations<const N: usize> {
         for pair in rubbing_pairs(self).filter(slides) {
             let speed = self.friction_on(pair).1.mode.direction() * slip_speed(at, pair);
             let kind = RubbingKind::of(pair.number).0;
-            for surface in surfaces.iter().filter(|surface| surface.kind == kind) {
+            for surface in surfaces.iter().filter(|surface| surface.kind == kind && surface.has_pressure()) {
                 see(surface, pair.number, surface.pressed.at(&loads[pair.number]) * speed.max(0.0));
             }
         }

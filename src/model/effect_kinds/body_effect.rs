@@ -2,6 +2,7 @@
 
 use std::fmt::Debug;
 
+use super::Loss;
 use crate::integrate::Matrix;
 use crate::model::scene::{Inputs, Layout, Viscosity};
 
@@ -88,6 +89,22 @@ pub trait BodyEffect: Debug + Send + Sync {
     }
     /// Sets positions and velocities of its bodies so that it carries `loads` at rest relative to the carrier.
     fn wind_up(&self, _loads: &StaticLoads, _layout: &Layout, _motion: [&mut [f64]; 2]) {}
+    /// True if it acts on the pinion from in front of the mesh.
+    fn is_in_front(&self) -> bool {
+        false
+    }
+    /// Friction of the pinion in proportion to the torque of its mesh.
+    fn loss(&self) -> Option<Loss> {
+        None
+    }
+    /// Torque of an elastic mesh of pinion and ring gear at the carrier's speed [N·m].
+    fn mesh_torque(&self, _at: &BodyMotion) -> Option<f64> {
+        None
+    }
+    /// Derivatives of [`Self::mesh_torque`]: degrees of freedom with the derivatives by position and by velocity.
+    fn mesh_slopes(&self, _at: &BodyMotion) -> [(usize, [f64; 2]); 2] {
+        [(0, [0.0; 2]); 2]
+    }
     /// Torque on the carrier [N·m], given the torque `driven` that is left of the drive's after acceleration and dry
     /// friction.
     fn carrier_torque(&self, _at: &BodyMotion, driven: f64) -> f64 {

@@ -64,6 +64,11 @@ impl<'a> DryFriction<'a> {
         self.of.is_on()
     }
 
+    /// Index of the heat of its first surface.
+    pub fn heat_index(&self) -> usize {
+        self.of.surfaces().first().map_or(self.of.released_heat_index, |first| first.heat_index)
+    }
+
     fn surfaces(&self) -> impl Iterator<Item = (&'a ActingSurface, &'a RubbingSurface)> + use<'a> {
         let all = self.all;
         self.of.surfaces().iter().map(move |acting| (acting, &all[usize::from(acting.surface)]))
@@ -341,7 +346,6 @@ impl<'a> DryFriction<'a> {
             *state = FrictionState::default();
         }
         state.stiffness = self.of.stiffness;
-        let cause = self.of.surfaces().first().map_or(self.of.released_heat_index, |first| first.heat_index);
-        heat[cause] += count * (before - self.energy(state, slip.position));
+        heat[self.heat_index()] += count * (before - self.energy(state, slip.position));
     }
 }

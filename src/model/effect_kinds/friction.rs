@@ -118,7 +118,8 @@ impl Friction {
 
     /// True if limit torques depend on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
-        self.frictions.iter().any(BodyFriction::depends_on_load)
+        let of_pinion = FRICTION_OF[RubbingKind::Pinion.number(0)];
+        self.frictions[..of_pinion].iter().any(BodyFriction::depends_on_load)
     }
 
     /// Adds the commanded limit torques under `inputs` to the loads on the surfaces.

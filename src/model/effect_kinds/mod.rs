@@ -14,6 +14,7 @@ pub mod element;
 pub mod element_tests;
 pub mod friction;
 pub mod friction_state;
+pub mod loss;
 pub mod memory;
 pub mod pv_limit;
 pub mod ramps;
@@ -29,6 +30,7 @@ pub use effect::{Attached, BUILT, Changes, Declare, Effect, Heat, InputField, In
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
 pub use friction_state::{FrictionState, Mode};
+pub use loss::Loss;
 pub use memory::{Memory, Remembered};
 pub use pv_limit::PvLimit;
 pub use ramps::Ramps;

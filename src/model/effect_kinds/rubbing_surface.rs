@@ -142,6 +142,11 @@ impl RubbingSurface {
         })
     }
 
+    /// True if its pressure is known.
+    pub fn has_pressure(&self) -> bool {
+        self.pressed != ByLoad::NONE
+    }
+
     /// True if the command of the lock presses it.
     pub fn is_lock(&self) -> bool {
         matches!(self.command, Command::Lock)
@@ -149,7 +154,7 @@ impl RubbingSurface {
 
     /// True if its friction depends on the loads of the meshes.
     pub fn depends_on_meshes(&self) -> bool {
-        !matches!(self.command, Command::Limits(_)) && self.limit.varies()
+        !matches!(self.command, Command::Limits(_)) && self.kind != RubbingKind::Pinion && self.limit.varies()
     }
 
     /// Law of friction over slip speed.

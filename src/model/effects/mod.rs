@@ -5,7 +5,7 @@
 mod bearing_drag;
 mod body_compliance;
 pub mod coupling_advice;
-mod final_drive;
+pub mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
 mod lock;

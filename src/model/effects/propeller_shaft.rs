@@ -172,6 +172,10 @@ impl BodyEffect for Shaft {
         }
     }
 
+    fn is_in_front(&self) -> bool {
+        true
+    }
+
     fn energy(&self, at: &BodyMotion) -> f64 {
         let [twist, ..] = self.twist(self.local(at));
         0.5 * self.stiffness * twist * twist

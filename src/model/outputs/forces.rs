@@ -332,12 +332,8 @@ impl Largest<'_> {
         let (mut sum, mut ledger_rates) = ([0.0; MAX_SIZE], LedgerRates::default());
         let on_sides = self.add_mesh_forces(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut ledger_rates);
-        let (port, rates) = (self.port(), &self.applied.input_derivatives.rates[0]);
-        let drive_torque = if plan.drive_imposed {
-            self.teeth.inertia[port] * rates.drive_speed - sum[port]
-        } else {
-            self.applied.inputs.drive_torque
-        };
+        let rates = &self.applied.input_derivatives.rates[0];
+        let drive_torque = self.drive_torque(at, 0.0);
         let inertial = self.teeth.inertia[self.planet(0)] * rates.planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };

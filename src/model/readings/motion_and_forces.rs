@@ -28,8 +28,7 @@ impl Simulation {
         let by_end = |s: usize| plan.shafts[s].then(|| layout.end(s));
         let (ratio, drives) = (plan.drive_ratio.unwrap_or(1.0), [layout.pinion(), layout.port]);
         let mut motion = Motion {
-            drive_angle: drives
-                .map(|i| ratio * layout.angle(i).iter().map(|&(k, sign)| sign * position(k)).sum::<f64>()),
+            drive_angle: drives.map(|i| ratio * layout.angle(i).map(|(k, sign)| sign * position(k)).sum::<f64>()),
             drive_speed: drives.map(|i| ratio * v[i]),
             carrier_angle: position(CARRIER),
             carrier_speed: v[CARRIER],

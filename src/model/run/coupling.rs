@@ -104,7 +104,7 @@ impl Simulation {
     }
 
     /// The cut with the mobilities of the ports. Teeth are rigid compared with hosts, so they are those of ideal gears,
-    /// and the end of a half-shaft that twists moves separately.
+    /// and the end of a half-shaft that twists moves separately, as does a drive behind an elastic mesh or shaft.
     pub(in crate::model) fn cut_with_mobility(&self) -> Cut {
         let ideal = &self.model.ideal;
         let under = |inputs: &Inputs| {
@@ -115,15 +115,19 @@ impl Simulation {
         let unit = |s: usize| Inputs { load_torque: [0, 1].map(|side| f64::from(u8::from(side == s))), ..Inputs::ZERO };
         let by_torque = [under(&Inputs { drive_torque: 1.0, ..Inputs::ZERO }), under(&unit(0)), under(&unit(1))];
         let mut mobility: [[f64; PORTS]; PORTS] = std::array::from_fn(|port| by_torque.map(|of| of[port]));
-        for s in (0..2).filter(|&s| ideal.plan.shafts[s]) {
-            mobility.iter_mut().for_each(|row| row[1 + s] = 0.0);
-            mobility[1 + s] = [0.0; PORTS];
-            mobility[1 + s][1 + s] = quotient(1.0, ideal.inertia.end[s]).unwrap_or(0.0);
+        let plan = &ideal.plan;
+        let separate = [(!plan.drives_carrier(), ideal.inertia.of_port(plan))]
+            .into_iter()
+            .chain([0, 1].map(|s| (plan.shafts[s], ideal.inertia.end[s])));
+        for (port, (_, inertia)) in separate.enumerate().filter(|(_, (is_separate, _))| *is_separate) {
+            mobility.iter_mut().for_each(|row| row[port] = 0.0);
+            mobility[port] = [0.0; PORTS];
+            mobility[port][port] = quotient(1.0, inertia).unwrap_or(0.0);
         }
         Cut { mobility, ..self.cut() }
     }
 
-    /// Sets the movement of `port` from `start` to `end`. A carrier driven by speed has no port.
+    /// Sets the movement of `port` from `start` to `end`. A drive by speed has no port.
     #[inline]
     fn exchange(&self, port: usize, [start, end]: [[f64; 2]; 2], step: &mut PortStep) {
         let plan = &self.model.ideal.plan;
@@ -140,7 +144,7 @@ impl Simulation {
         }
     }
 
-    /// Angle and speed of each port driven by torque; twist and torque of a half-shaft whose wheel is driven by speed.
+    /// Angle and speed of each port driven by torque, of the drive at the carrier's speed; twist and torque of a half-shaft whose wheel is driven by speed.
     fn port_motion(&self) -> PortMotion {
         let (model, state) = (&self.model, &self.state);
         let (plan, layout) = (&model.ideal.plan, &model.layout);
@@ -159,7 +163,8 @@ impl Simulation {
                 [carrier + position(s) - position(end), state.v[end]]
             }
         };
-        [[carrier, state.v[CARRIER]], side(0), side(1)]
+        let drive = layout.angle(layout.port).map(|(i, factor)| factor * position(i)).sum();
+        [[drive, state.v[layout.port]], side(0), side(1)]
     }
 
     /// Sets the readings of the effect in the ledger.

@@ -49,7 +49,9 @@ impl Simulation {
     pub fn ramp_inputs(&mut self, host: &HostInputs, until: f64) {
         self.apply_unramped(host);
         self.note_ramps(&host.follow);
-        let first = self.inputs.rates_to(&host.values, until - self.time());
+        let mut values = host.values;
+        self.model.ideal.plan.refer(&mut values);
+        let first = self.inputs.rates_to(&values, until - self.time());
         let lines = InputDerivatives { rates: [first, Inputs::ZERO] };
         // over the shortest steps a rate may overflow; then the inputs jump
         if lines.is_finite() {
@@ -66,6 +68,7 @@ impl Simulation {
     }
 
     fn set_rates(&mut self, derivatives: InputDerivatives) {
+        let derivatives = self.model.ideal.plan.with_drive(derivatives);
         self.set_input_derivatives((derivatives != InputDerivatives::ZERO).then_some(derivatives));
     }
 }

@@ -100,15 +100,10 @@ impl Layout {
         let others = self.has_pins || self.attached[ENDS..].iter().any(Option::is_some);
         (!others).then(|| self.has_ends())
     }
-    /// Angle of degree of freedom `i`, which is the carrier or a body attached to it, as a sum: terms with their factors.
-    pub fn angle(&self, mut i: usize) -> Vec<(usize, f64)> {
-        let mut terms = Vec::new();
-        while let Some((_, to)) = self.attached().find(|&(body, _)| body == i) {
-            terms.push((i, -1.0));
-            i = to;
-        }
-        terms.push((i, 1.0));
-        terms
+    /// Angle of the carrier or of a body `i` in front of it, as a sum: degrees of freedom and their factors.
+    pub fn angle(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
+        let base = |&i: &usize| self.attached().find(|&(body, _)| body == i).map(|(_, to)| to);
+        std::iter::successors(Some(i), base).map(move |i| (i, if base(&i).is_some() { -1.0 } else { 1.0 }))
     }
     /// Number of bodies that degree of freedom `i` represents. The planets of a group move identically.
     pub fn bodies(&self, i: usize) -> f64 {

@@ -115,8 +115,9 @@ impl Plan {
             let (body, angle) = if self.shafts[s] { (end, &angle[..]) } else { (s, &angle[..2]) };
             add(RubbingPair::new(RubbingKind::Wheel.number(s), (body, None), angle, 1.0));
         }
-        let pinion = layout.pinion();
-        add(RubbingPair::new(RubbingKind::Pinion.number(0), (pinion, None), &layout.angle(pinion), 1.0));
+        let (pinion, number) = (layout.pinion(), RubbingKind::Pinion.number(0));
+        let angle: Vec<(usize, f64)> = layout.angle(pinion).collect();
+        add(RubbingPair::new(number, (pinion, None), &angle, 1.0));
         for g in (0..layout.groups).filter(|_| has_teeth) {
             let (number, planet) = (RubbingKind::Planet.number(g), layout.planet(g));
             add(RubbingPair::new(number, (planet, None), &[(planet, 1.0)], self.group(g).members));

@@ -3,9 +3,12 @@
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::{Action, BodyMotion, StaticLoads};
+use crate::model::effect_kinds::{Action, BodyMotion, StaticLoads, SurfaceLoad};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, RubbingKind};
 use crate::model::setup::HEATS;
+
+/// Number of rounds in which the friction of the pinion and the torque of its mesh find each other.
+const ROUNDS: usize = 100;
 
 /// Torques at the start, and the corresponding accelerations.
 #[derive(Clone, Copy, Debug)]
@@ -28,10 +31,26 @@ impl Carried {
     /// Torques under `inputs` at the speeds of `state`, for gears that move as the differential `ideal`: the ideal
     /// differential of the scene, or its variant with imposed planet spin.
     pub fn new(model: &Model, ideal: &Ideal, inputs: &Inputs, state: &State) -> Self {
+        let mut held = 0.0;
+        let mut carried = Self::with_pinion_held(model, ideal, (inputs, state), held);
+        // the friction of the pinion depends on the torque that it leaves to the mesh
+        for _ in 0..ROUNDS {
+            let friction = sliding_pinion(model, inputs, state, carried.in_front.ring);
+            if friction == held {
+                break;
+            }
+            held = friction;
+            carried = Self::with_pinion_held(model, ideal, (inputs, state), held);
+        }
+        carried
+    }
+
+    /// Torques if friction holds the pinion back by `held` [N·m].
+    fn with_pinion_held(model: &Model, ideal: &Ideal, (inputs, state): (&Inputs, &State), held: f64) -> Self {
         let effect_torques = effect_torques(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
         let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - effect_torques[s]);
-        let drive = inputs.drive_torque + effect_torques[CARRIER];
+        let drive = inputs.drive_torque + effect_torques[CARRIER] - held;
         // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
         let mut rigid = *ideal;
         rigid.plan.shafts = [false; 2];
@@ -69,10 +88,22 @@ impl Carried {
         let shaft = [0, 1].map(|s| teeth[s] + effect_torques[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
         // what the drive delivers to the carrier: the torques of the teeth and of effects, and the carrier's own inertia
         let ring = teeth[0] + teeth[1] - effect_torques[CARRIER] + (j.carrier - ideal.plan.on_carrier) * motion.carrier;
-        let in_front = StaticLoads { ring, propeller: ring + ideal.plan.pinion_inertia() * motion.carrier };
+        let in_front = StaticLoads { ring, propeller: ring + held + ideal.plan.pinion_inertia() * motion.carrier };
         let (carrier_acceleration, spin_acceleration) = (motion.carrier, motion.spin);
         Self { teeth, shaft, in_front, side_acceleration, carrier_acceleration, spin_acceleration }
     }
+}
+
+/// Torque with which friction holds a turning pinion back, under the `torque` of its mesh [N·m].
+fn sliding_pinion(model: &Model, inputs: &Inputs, state: &State, torque: f64) -> f64 {
+    let effects = model.body_effects();
+    let Some(pair) = &effects.pairs[RubbingKind::Pinion.number(0)] else { return 0.0 };
+    let friction = effects.friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
+    let speed = state.v[pair.body];
+    let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
+    let load = effects.loss.map_or(0.0, |loss| loss.of(torque));
+    let friction = DryFriction::new(friction.on(pair.number), &effects.surfaces);
+    direction * friction.sliding_limit(direction * speed, &SurfaceLoad { load, ..SurfaceLoad::default() })[0]
 }
 
 /// Brake torques on turning wheels [N·m].

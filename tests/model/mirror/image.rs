@@ -1,9 +1,9 @@
 //! Images of a scene by the table of symmetries: parameters, inputs, start, and the mapping of its outputs.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use bevel_differential::contact::errors::FaultyGear;
-use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Layout, State};
+use bevel_differential::model::{FinalDriveSpec, GearContact, Hand, Inputs, Layout, RingSide, State};
 use bevel_differential::variables::{Access, Variable, named, table};
 
 use super::scene::{Scene, output, outputs};
@@ -53,6 +53,9 @@ impl Scene {
             let clutch = &mut to.specs.limited_slip;
             clutch.torque_coefficient *= clutch.coast_ratio;
             clutch.coast_ratio = clutch.coast_ratio.recip();
+        }
+        if matches!(view, View::Reversed | View::Swapped) {
+            reflect_final_drive(&mut to.specs.final_drive, view == View::Reversed);
         }
         let spec = &self.parameters.geometry;
         let fault = &mut image.parameters.specs.tooth_fault;
@@ -144,14 +147,12 @@ impl Scene {
 
     /// Factor of a variable in the image.
     fn sign(&self, view: View, name: &str) -> f64 {
-        let by_torque = self.parameters.scene.carrier_drive == CarrierDrive::Torque;
         // to renumber two planets is to turn the carrier by half a turn, which reverses the offset of the axes
         if view == View::Renumbered && self.planets() == 2 && name == "tooth_errors.axis_offset" {
             return -1.0;
         }
         match self.parity(view, name) {
             Parity::Odd | Parity::Lash => -1.0,
-            Parity::Wave if by_torque => -1.0,
             _ => 1.0,
         }
     }
@@ -197,6 +198,27 @@ impl Scene {
                 mapped
             })
             .collect()
+    }
+}
+
+/// Reflects the final drive in the plane of axle and mesh if `reversed`, otherwise in the plane of the planets.
+fn reflect_final_drive(drive: &mut FinalDriveSpec, reversed: bool) {
+    drive.hand = if drive.hand == Hand::Right { Hand::Left } else { Hand::Right };
+    if !reversed {
+        drive.ring_side = if drive.ring_side == RingSide::Left { RingSide::Right } else { RingSide::Left };
+        return;
+    }
+    std::mem::swap(&mut drive.drive_pressure_angle, &mut drive.coast_pressure_angle);
+    std::mem::swap(&mut drive.drive_loss, &mut drive.coast_loss);
+    // e(θ) becomes −e(−θ), and −cos(−nθ + ψ) = cos(nθ + π − ψ)
+    for phase in [
+        &mut drive.error_phase_1,
+        &mut drive.error_phase_2,
+        &mut drive.error_phase_3,
+        &mut drive.pinion_runout_phase,
+        &mut drive.ring_runout_phase,
+    ] {
+        *phase = PI - *phase;
     }
 }
 

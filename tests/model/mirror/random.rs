@@ -181,6 +181,26 @@ fn bodies(d: &mut Rng, p: &mut Parameters) {
 fn later(d: &mut Rng, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
     clutches(d, p);
+    final_drive(d, p);
+}
+
+/// Sets mesh, error, losses and shaft of the final drive.
+fn final_drive(d: &mut Rng, p: &mut Parameters) {
+    let drive = &mut p.specs.final_drive;
+    drive.pinion_teeth = d.whole(7, 14);
+    drive.elastic_mesh = d.share(0.6);
+    (drive.error_1, drive.error_2) = (d.between(0.0, 1e-5), d.between(0.0, 5e-6));
+    (drive.error_phase_1, drive.error_phase_2) = (d.between(-3.0, 3.0), d.between(-3.0, 3.0));
+    (drive.pinion_runout, drive.ring_runout) = (d.between(0.0, 1e-5), d.between(0.0, 1e-5));
+    (drive.pinion_runout_phase, drive.ring_runout_phase) = (d.between(-3.0, 3.0), d.between(-3.0, 3.0));
+    drive.friction_torque = if d.share(0.5) { d.between(0.0, 3.0) } else { 0.0 };
+    drive.drive_loss = if d.share(0.5) { d.between(0.0, 0.1) } else { 0.0 };
+    drive.coast_loss = d.between(0.0, 0.1);
+    drive.viscous = d.between(0.0, 0.02);
+    (drive.drive_pressure_angle, drive.coast_pressure_angle) = (d.between(0.2, 0.4), d.between(0.2, 0.4));
+    (drive.spiral_angle, drive.azimuth) = (d.between(0.0, 0.7), d.between(-3.0, 3.0));
+    p.effects.propeller_shaft = p.effects.final_drive && d.share(0.5);
+    p.specs.propeller_shaft.joint_angle = if d.share(0.5) { d.between(0.0, 0.4) } else { 0.0 };
 }
 
 /// Sets ramps, sheared oil and measured torques of clutches. Powers of two as coast ratios make the product with the
@@ -296,6 +316,7 @@ fn inputs(d: &mut Rng, p: &Parameters) -> Inputs {
     let difference = if d.share(0.5) { 0.0 } else { 0.2 * load * d.between(-1.0, 1.0) };
     i.load_torque = if d.share(0.15) { [0.0; 2] } else { [common + difference, common - difference] };
     i.side_speed = [i.carrier_speed + d.between(-10.0, 10.0), i.carrier_speed + d.between(-10.0, 10.0)];
+    (i.pinion_speed, i.pinion_torque) = (4.0 * i.carrier_speed, 0.25 * i.carrier_torque);
     i.brake_torque = if d.share(0.5) { [0.0; 2] } else { [load * d.f64(), 0.5 * load * d.f64()] };
     i.lock = if d.share(0.15) { d.f64() } else { 0.0 };
     // without separate draws, so that all other values are unchanged
@@ -314,7 +335,9 @@ fn steps(d: &mut Rng, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<
             inputs.load_torque[d.whole(0, 1) as usize] *= d.between(-0.5, 1.5);
         }
         if d.share(0.1) {
-            inputs.carrier_torque *= d.between(-1.0, 1.0);
+            let factor = d.between(-1.0, 1.0);
+            inputs.carrier_torque *= factor;
+            inputs.pinion_torque *= factor;
         }
         if d.share(0.05) {
             inputs.brake_torque = [inputs.brake_torque[1], 0.0];
@@ -330,6 +353,7 @@ fn steps(d: &mut Rng, p: &Parameters, mut inputs: Inputs, duration: f64) -> Vec<
             rate.load_torque = [inputs.load_torque[0] * d.between(-50.0, 50.0), 0.0];
             rate.carrier_torque = inputs.carrier_torque * d.between(-50.0, 50.0);
             rate.carrier_speed = inputs.carrier_speed * d.between(-5.0, 5.0);
+            (rate.pinion_torque, rate.pinion_speed) = (0.25 * rate.carrier_torque, 4.0 * rate.carrier_speed);
             rate.planet_spin = inputs.planet_spin * d.between(-5.0, 5.0);
             rate.brake_torque = [0.0, inputs.brake_torque[1] * d.between(-50.0, 50.0)];
             InputDerivatives { rates: [rate, Inputs::ZERO.plus(-40.0, &rate)] }

@@ -13,12 +13,12 @@ pub enum Parity {
     Odd,
     /// The variable is odd about minus half the backlash.
     Lash,
-    /// The variable is even, but odd if the carrier is driven by torque.
-    Wave,
     /// Gears and teeth are renumbered.
     Teeth,
     /// Ramps of clutch packs for drive and coast change places.
     Ramp,
+    /// Flanks, hand, phases and side of the final drive change.
+    Drive,
 }
 
 /// Line of the table.
@@ -35,9 +35,9 @@ fn parity(text: &str) -> Parity {
         "+" => Parity::Even,
         "-" => Parity::Odd,
         "lash" => Parity::Lash,
-        "wave" => Parity::Wave,
         "teeth" => Parity::Teeth,
         "ramp" => Parity::Ramp,
+        "drive" => Parity::Drive,
         other => panic!("{other} is not a parity"),
     }
 }

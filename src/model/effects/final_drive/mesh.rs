@@ -166,6 +166,20 @@ impl Mesh {
         self.torques(self.local(at))[0]
     }
 
+    /// Torque T of the mesh [N·m].
+    pub fn torque_at(&self, at: &BodyMotion) -> f64 {
+        let Deviation { x, rate, .. } = self.deviation(self.local(at));
+        self.torque(x, rate)
+    }
+
+    /// Derivatives of [`Self::torque_at`] with respect to positions and velocities of carrier and pinion.
+    pub fn torque_slopes(&self, at: &BodyMotion) -> [(usize, [f64; 2]); 2] {
+        let local = self.local(at);
+        let Deviation { x, rate, .. } = self.deviation(std::array::from_fn(|k| Dual::<4>::variable(local[k], k)));
+        let [carrier, pinion, carrier_speed, pinion_speed] = self.torque(x, rate).d;
+        [(CARRIER, [carrier, carrier_speed]), (self.pinion, [pinion, pinion_speed])]
+    }
+
     /// Fraction of a step of `h` [s] after which flanks touch or separate, if the deviation keeps its rate.
     pub fn kink(&self, at: &BodyMotion, h: f64) -> Option<f64> {
         let Deviation { x, rate, .. } = self.deviation(self.local(at));

@@ -4,7 +4,9 @@
 //! carrier are referred to the carrier: speeds are divided by i, torques multiplied by i, inertias by i². A rigid mesh
 //! has no degree of freedom: θ_p = i θ_c. An elastic mesh (`mesh`) has lash, stiffness and an error that excites it.
 //!
-//! Friction on the pinion is dry, with sticking: T_f = c₀ + b ω_p. Forces on the ring gear and on the bearings of the
+//! Friction on the pinion is dry, with sticking: T_f = c₀ + c₁ |T|/i + b |ω_p|, with c₁ for drive and coast. An efficiency η
+//! in drive is c₁ = 1/η − 1; the same c₁ gives 1 − c₁ in overrun. Source: Simscape Driveline, Simple Gear, for losses that
+//! depend on the flank under load. Forces on the ring gear and on the bearings of the
 //! carrier follow from the torque of the mesh (`bearings`).
 
 mod bearings;
@@ -15,7 +17,7 @@ use self::mesh::Mesh;
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{
-    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Declare, Effect, Heat, InputField, Instant, Reading,
+    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Declare, Effect, Heat, InputField, Instant, Loss, Reading,
     RubbingSurface, Setting, Slopes, StaticLoads, readings,
 };
 use crate::model::scene::{
@@ -78,8 +80,13 @@ parameters! {
         ring_runout_phase: f64 = 0.0, RADIAN | DEG, -10.0..=10.0, when(above!(Self.ring_runout, 0.0));
         /// Friction torque on the pinion at no load, with the drag of its bearings
         friction_torque: f64 = 0.0, NEWTON_METRE, 0.0..=1e6;
+        /// Friction torque on the pinion over its share of the mesh torque, if the mesh drives forward
+        drive_loss: f64 = 0.0, ONE, 0.0..=0.9;
+        /// Friction torque on the pinion over its share of the mesh torque, if the mesh drives backward
+        coast_loss: f64 = 0.0, ONE, 0.0..=0.9;
         /// Stiffness with which friction holds the pinion at standstill
-        holding_stiffness: f64 = 1e4, NM_PER_RAD, 1.0..=1e9, when(above!(Self.friction_torque, 0.0));
+        holding_stiffness: f64 = 1e4, NM_PER_RAD, 1.0..=1e9,
+            when(any([above!(Self.friction_torque, 0.0), above!(Self.drive_loss, 0.0), above!(Self.coast_loss, 0.0)]));
         /// Viscous friction on the pinion
         viscous: f64 = 0.0, NMS_PER_RAD, 0.0..=1e3;
         /// Normal pressure angle of the flanks that drive forward
@@ -215,16 +222,18 @@ impl Effect for FinalDriveSpec {
         let layout = plan.layout();
         let mesh = self.elastic_mesh.then(|| Mesh::new(self, &layout));
         let viscous = self.ratio() * self.ratio() * self.viscous;
-        let acts = mesh.is_some() || viscous > 0.0;
+        let loss = [self.drive_loss, self.coast_loss];
+        let loss = loss.iter().any(|loss| *loss > 0.0).then_some(Loss(loss));
+        let acts = mesh.is_some() || viscous > 0.0 || loss.is_some();
         let pinion = layout.pinion();
-        acts.then(|| Box::new(FinalDrive { mesh, viscous, pinion, heat_index: setting.heat_index }) as _)
+        acts.then(|| Box::new(FinalDrive { mesh, viscous, loss, pinion, heat_index: setting.heat_index }) as _)
     }
 
     fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
-        if self.friction_torque > 0.0 {
+        if self.friction_torque.max(self.drive_loss).max(self.coast_loss) > 0.0 {
             let ratio = self.ratio();
             surfaces.push(RubbingSurface {
-                limit: ByLoad { constant: ratio * self.friction_torque, ..ByLoad::NONE },
+                limit: ByLoad { constant: ratio * self.friction_torque, per_load: 1.0, ..ByLoad::NONE },
                 stiffness: ratio * ratio * self.holding_stiffness,
                 ..RubbingSurface::new(RubbingKind::Pinion, setting.heat_index)
             });
@@ -238,6 +247,8 @@ struct FinalDrive {
     mesh: Option<Mesh>,
     /// Viscous friction [N·m·s/rad].
     viscous: f64,
+    /// Friction in proportion to the torque of the mesh.
+    loss: Option<Loss>,
     /// Degree of freedom of the pinion.
     pinion: usize,
     heat_index: usize,
@@ -272,6 +283,22 @@ impl BodyEffect for FinalDrive {
         if let Some(mesh) = &self.mesh {
             mesh.wind_up(loads.ring, layout, [q, v]);
         }
+    }
+
+    fn is_in_front(&self) -> bool {
+        self.mesh.is_none()
+    }
+
+    fn loss(&self) -> Option<Loss> {
+        self.loss
+    }
+
+    fn mesh_torque(&self, at: &BodyMotion) -> Option<f64> {
+        self.mesh.map(|mesh| mesh.torque_at(at))
+    }
+
+    fn mesh_slopes(&self, at: &BodyMotion) -> [(usize, [f64; 2]); 2] {
+        self.mesh.map_or([(0, [0.0; 2]); 2], |mesh| mesh.torque_slopes(at))
     }
 
     fn carrier_torque(&self, at: &BodyMotion, driven: f64) -> f64 {
