@@ -15,6 +15,9 @@ use crate::numeric::lanes;
 /// Size of vectors and matrices for side gears, carrier, planets in one group, and attached bodies.
 pub const IDEAL_SIZE: usize = size_for(PLANET + 1 + ATTACHED_COUNT);
 
+/// Size of vectors and matrices of steps if no bodies other than half-shaft ends are attached.
+pub const SHAFTS_SIZE: usize = size_for(PLANET + 1 + ENDS);
+
 /// Number of motions that may be imposed: drive, spin, left and right end.
 pub const IMPOSED: usize = 4;
 
@@ -140,9 +143,9 @@ impl IdealWithEffects {
     }
 
     /// Writes the derivatives of the accelerations to `product`, from the derivatives of the forces.
-    pub fn accelerations_by(&self, forces: &Matrix<IDEAL_SIZE>, product: &mut Matrix<IDEAL_SIZE>) {
+    pub fn accelerations_by<const N: usize>(&self, forces: &Matrix<N>, product: &mut Matrix<N>) {
         for (i, row) in product.iter_mut().enumerate() {
-            let mut sum = [0.0; IDEAL_SIZE];
+            let mut sum = [0.0; N];
             for (k, force) in forces.iter().enumerate() {
                 lanes::add_times(&mut sum, self.mobility[k][i], force);
             }

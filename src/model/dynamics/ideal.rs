@@ -8,7 +8,7 @@ use super::pinion_loss::SlidingPinion;
 use super::{FrictionEquations, InputsAndFriction, Jacobian, PinionLoss, State};
 use crate::integrate::{Linearisation, Point, SecondOrder};
 use crate::model::assembly::BodyEffects;
-use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IMPOSED, IdealWithEffects, Linear};
+use crate::model::assembly::ideal_with_effects::{IMPOSED, IdealWithEffects, Linear};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::effect_kinds::{Action, BodyMotion, Slopes, SurfaceLoad};
 use crate::model::scene::{CARRIER, Inputs, Layout, PAIRS, PLANET, Plan};
@@ -25,9 +25,9 @@ pub struct IdealTorques {
     pub gears: [f64; 2],
 }
 
-/// Equations of the ideal differential under given inputs.
+/// Equations of the ideal differential under given inputs, with room for `N` degrees of freedom.
 #[derive(Clone, Copy)]
-pub struct IdealEquations<'a> {
+pub struct IdealEquations<'a, const N: usize> {
     /// Constants.
     pub ideal: &'a IdealWithEffects,
     pub(in crate::model) applied: InputsAndFriction,
@@ -36,7 +36,7 @@ pub struct IdealEquations<'a> {
 /// Inputs at one instant, and their rates [per s].
 type InputsNow<'a> = (&'a Inputs, &'a Inputs);
 
-impl<'a> IdealEquations<'a> {
+impl<'a, const N: usize> IdealEquations<'a, N> {
     /// Index of the end of the half-shaft of side `s`.
     pub(super) fn end(&self, s: usize) -> usize {
         PLANET + 1 + s
@@ -76,11 +76,11 @@ impl<'a> IdealEquations<'a> {
     /// motions.
     pub(super) fn forces(
         &self,
-        at: &Point<IDEAL_SIZE>,
+        at: &Point<N>,
         (inputs, rates): InputsNow,
         ledger_rates: &mut LedgerRates,
-    ) -> ([f64; IDEAL_SIZE], [f64; IMPOSED]) {
-        let mut sum = [0.0; IDEAL_SIZE];
+    ) -> ([f64; N], [f64; IMPOSED]) {
+        let mut sum = [0.0; N];
         let mut out = Action { force: &mut sum, heat: &mut ledger_rates.heat };
         let motion = self.motion(at, (inputs, rates));
         for effect in self.ideal.body_effects.forces.iter() {
@@ -100,16 +100,16 @@ impl<'a> IdealEquations<'a> {
 
     /// Positions, velocities and inputs, as passed to effects.
     #[inline]
-    fn motion<'b>(&'b self, at: &'b Point<IDEAL_SIZE>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
+    fn motion<'b>(&'b self, at: &'b Point<N>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
         let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
         BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
     }
 
     /// Accelerations W Q + f u̇_c.
     #[inline]
-    fn accelerations(&self, sum: &[f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
+    fn accelerations(&self, sum: &[f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
         let ideal = self.ideal;
-        let mut free = [0.0; IDEAL_SIZE];
+        let mut free = [0.0; N];
         for (column, force) in ideal.mobility.iter().zip(sum) {
             lanes::add_times(&mut free, *force, column);
         }
@@ -118,8 +118,8 @@ impl<'a> IdealEquations<'a> {
 
     /// Accelerations W Q + f u̇_c for forces that do not act on planets, such as those of half-shafts.
     #[inline]
-    fn accelerations_by_shafts(&self, sum: &[f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
-        let mut free = [0.0; IDEAL_SIZE];
+    fn accelerations_by_shafts(&self, sum: &[f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
+        let mut free = [0.0; N];
         for i in [0, 1, CARRIER, PLANET + 1, PLANET + 2] {
             lanes::add_times(&mut free, sum[i], &self.ideal.mobility[i]);
         }
@@ -128,10 +128,10 @@ impl<'a> IdealEquations<'a> {
 
     /// Adds f u̇_c to the accelerations that follow from forces.
     #[inline(always)]
-    fn follow(&self, mut free: [f64; IDEAL_SIZE], imposed: &[f64; IMPOSED]) -> [f64; IDEAL_SIZE] {
+    fn follow(&self, mut free: [f64; N], imposed: &[f64; IMPOSED]) -> [f64; N] {
         let ideal = self.ideal;
         if ideal.is_imposed {
-            let mut following = [0.0; IDEAL_SIZE];
+            let mut following = [0.0; N];
             for (column, acceleration) in ideal.follow.iter().zip(imposed) {
                 lanes::add_times(&mut following, *acceleration, column);
             }
@@ -151,12 +151,12 @@ impl<'a> IdealEquations<'a> {
     #[inline(always)]
     fn forces_of_shafts(
         &self,
-        at: &Point<IDEAL_SIZE>,
+        at: &Point<N>,
         (inputs, rates): InputsNow,
         ledger_rates: &mut LedgerRates,
         mut see: impl FnMut(&mut LedgerRates, usize, f64, f64),
-    ) -> ([f64; IDEAL_SIZE], [f64; IMPOSED]) {
-        let mut sum = [0.0; IDEAL_SIZE];
+    ) -> ([f64; N], [f64; IMPOSED]) {
+        let mut sum = [0.0; N];
         for s in 0..2 {
             let end = self.end(s);
             let rate = at.v[s] - at.v[end];
@@ -171,13 +171,7 @@ impl<'a> IdealEquations<'a> {
 
     /// Adds the torques and the power of inputs.
     #[inline(always)]
-    fn drive(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        (inputs, rates): InputsNow,
-        sum: &mut [f64; IDEAL_SIZE],
-        ledger_rates: &mut LedgerRates,
-    ) {
+    fn drive(&self, at: &Point<N>, (inputs, rates): InputsNow, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
         let (plan, has_ends) = (&self.ideal.plan, self.has_ends());
         for s in 0..2 {
             let is_free = has_ends && plan.shafts[s];
@@ -201,7 +195,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Accelerations under inputs.
-    pub(super) fn accelerate(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> [f64; IDEAL_SIZE] {
+    pub(super) fn accelerate(&self, at: &Point<N>, now: InputsNow) -> [f64; N] {
         if self.linear().is_some() {
             let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
             return self.accelerations_by_shafts(&sum, &imposed);
@@ -215,11 +209,11 @@ impl<'a> IdealEquations<'a> {
     #[inline]
     fn accelerations_with_loss(
         &self,
-        at: &Point<IDEAL_SIZE>,
+        at: &Point<N>,
         now: InputsNow,
-        (sum, imposed): (&mut [f64; IDEAL_SIZE], &[f64; IMPOSED]),
+        (sum, imposed): (&mut [f64; N], &[f64; IMPOSED]),
         ledger_rates: &mut LedgerRates,
-    ) -> [f64; IDEAL_SIZE] {
+    ) -> [f64; N] {
         let a = self.accelerations(sum, imposed);
         let Some(pinion) = self.sliding_pinion() else { return a };
         let driven = self.driven(at, now, (sum, &a));
@@ -228,12 +222,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Torque in front of a rigid pinion, given all forces and accelerations.
-    fn driven(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        now: InputsNow,
-        (sum, a): (&[f64; IDEAL_SIZE], &[f64; IDEAL_SIZE]),
-    ) -> f64 {
+    fn driven(&self, at: &Point<N>, now: InputsNow, (sum, a): (&[f64; N], &[f64; N])) -> f64 {
         let on_pinion = match self.ideal.layout.port {
             CARRIER => self.torques_of(sum, a, now.0.drive_torque).drive,
             _ => 0.0,
@@ -242,12 +231,7 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Returns accelerations under inputs and adds to the ledger rates.
-    pub(super) fn evaluate_under(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        now: InputsNow,
-        ledger_rates: &mut LedgerRates,
-    ) -> [f64; IDEAL_SIZE] {
+    pub(super) fn evaluate_under(&self, at: &Point<N>, now: InputsNow, ledger_rates: &mut LedgerRates) -> [f64; N] {
         let (mut sum, imposed) = match self.linear() {
             Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
                 ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
@@ -268,28 +252,24 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Writes the linearised equations under inputs to `lin`.
-    pub(super) fn linearise_under(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        now: InputsNow,
-        lin: &mut Linearisation<IDEAL_SIZE, LedgerRates>,
-    ) {
+    pub(super) fn linearise_under(&self, at: &Point<N>, now: InputsNow, lin: &mut Linearisation<N, LedgerRates>) {
         lin.ledger_rates = LedgerRates::default();
         lin.acceleration = self.evaluate_under(at, now, &mut lin.ledger_rates);
         if let Some(linear) = self.linear() {
-            // assigned individually, because a pair would be copied twice
-            lin.by_position = linear.by_position;
-            lin.by_velocity = linear.by_velocity;
+            for i in 0..N {
+                lin.by_position[i].copy_from_slice(&linear.by_position[i][..N]);
+                lin.by_velocity[i].copy_from_slice(&linear.by_velocity[i][..N]);
+            }
             return;
         }
-        let (mut by_position, mut by_velocity) = ([[0.0; IDEAL_SIZE]; IDEAL_SIZE], [[0.0; IDEAL_SIZE]; IDEAL_SIZE]);
+        let (mut by_position, mut by_velocity) = ([[0.0; N]; N], [[0.0; N]; N]);
         let mut out = Slopes::new([&mut by_position, &mut by_velocity]);
         let motion = self.motion(at, now);
         for effect in self.ideal.body_effects.forces.iter() {
             effect.slopes(&motion, &mut out);
         }
         if self.has_dry_friction() {
-            let mut by_rate = [[0.0; IDEAL_SIZE]; IDEAL_SIZE];
+            let mut by_rate = [[0.0; N]; N];
             let by_velocity = &mut by_velocity;
             let j = &mut Jacobian { by_position: &mut by_position, by_rate: &mut by_rate, by_velocity };
             self.friction_slopes(at, &self.applied.friction().commanded_loads(now.0), j);
@@ -315,9 +295,9 @@ impl<'a> IdealEquations<'a> {
 
     /// Torques that follow from the constraint. `drive` is the torque of a drive whose speed is not imposed.
     #[inline]
-    fn torques_of(&self, sum: &[f64; IDEAL_SIZE], a: &[f64; IDEAL_SIZE], drive: f64) -> IdealTorques {
+    fn torques_of(&self, sum: &[f64; N], a: &[f64; N], drive: f64) -> IdealTorques {
         let ideal = self.ideal;
-        let lack: [f64; IDEAL_SIZE] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
+        let lack: [f64; N] = std::array::from_fn(|i| ideal.inertia[i] * a[i] - sum[i]);
         let plan = &ideal.plan;
         IdealTorques {
             drive: match (plan.drive_imposed, ideal.layout.port) {
@@ -331,11 +311,11 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Torques that follow from the constraint.
-    pub fn torques(&self, at: &Point<IDEAL_SIZE>) -> IdealTorques {
+    pub fn torques(&self, at: &Point<N>) -> IdealTorques {
         self.torques_under(at, self.now())
     }
 
-    fn torques_under(&self, at: &Point<IDEAL_SIZE>, now: InputsNow) -> IdealTorques {
+    fn torques_under(&self, at: &Point<N>, now: InputsNow) -> IdealTorques {
         let mut ledger_rates = LedgerRates::default();
         let (mut sum, imposed) = self.forces(at, now, &mut ledger_rates);
         let a = self.accelerations_with_loss(at, now, (&mut sum, &imposed), &mut ledger_rates);
@@ -343,13 +323,13 @@ impl<'a> IdealEquations<'a> {
     }
 
     /// Kinetic energy [J].
-    pub(super) fn kinetic_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
+    pub(super) fn kinetic_energy(&self, at: &Point<N>) -> f64 {
         // rows beyond the last degree of freedom have no inertia
-        0.5 * (0..IDEAL_SIZE).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
+        0.5 * (0..N).map(|i| self.ideal.inertia[i] * at.v[i] * at.v[i]).sum::<f64>()
     }
 
     /// Energy stored in half-shafts and stuck friction [J].
-    pub(super) fn stored_energy(&self, at: &Point<IDEAL_SIZE>) -> f64 {
+    pub(super) fn stored_energy(&self, at: &Point<N>) -> f64 {
         let motion = self.motion(at, self.now());
         if self.linear().is_some() && self.applied.is_free() {
             return self.ideal.body_effects.forces[0].energy(&motion);
@@ -359,7 +339,7 @@ impl<'a> IdealEquations<'a> {
     }
 }
 
-impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
+impl<const N: usize> FrictionEquations<N> for IdealEquations<'_, N> {
     fn applied(&self) -> &InputsAndFriction {
         &self.applied
     }
@@ -388,15 +368,15 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
         self.ideal.layout.has_ends()
     }
 
-    fn mesh_loads(&self, _: &Point<IDEAL_SIZE>) -> [SurfaceLoad; PAIRS] {
+    fn mesh_loads(&self, _: &Point<N>) -> [SurfaceLoad; PAIRS] {
         [SurfaceLoad::default(); PAIRS]
     }
 
-    fn acceleration_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
+    fn acceleration_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         self.accelerate_at(at, time)
     }
 
-    fn drive_torque(&self, at: &Point<IDEAL_SIZE>, time: f64) -> f64 {
+    fn drive_torque(&self, at: &Point<N>, time: f64) -> f64 {
         self.at_time(time, |now| self.torques_under(at, now).drive)
     }
 
@@ -404,7 +384,7 @@ impl FrictionEquations<IDEAL_SIZE> for IdealEquations<'_> {
         self.ideal.mobility[CARRIER][CARRIER]
     }
 
-    fn acceleration_by_inputs(&self, at: &Point<IDEAL_SIZE>) -> [f64; IDEAL_SIZE] {
+    fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
         self.accelerate(at, self.now())
     }
 }

@@ -5,10 +5,9 @@ use super::ledger_rates::LedgerRates;
 use super::shape::{set_twist_rates, turn_twist_rates};
 use super::{FrictionEquations, IdealEquations};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
-use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs, PLANET};
 
-impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
+impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     type Rates = LedgerRates;
 
     fn degrees_of_freedom(&self) -> usize {
@@ -17,10 +16,10 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
 
     #[inline]
     fn rows(&self) -> usize {
-        IDEAL_SIZE
+        N
     }
 
-    fn energy(&self, at: &Point<IDEAL_SIZE>) -> [f64; 2] {
+    fn energy(&self, at: &Point<N>) -> [f64; 2] {
         [self.kinetic_energy(at), self.stored_energy(at)]
     }
 
@@ -28,9 +27,9 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         LedgerRates::imbalance::<true>(energies, h, ledger_rates)
     }
 
-    fn energy_floor(&self, ends: [&Point<IDEAL_SIZE>; 2], tolerance: f64, residual: f64) -> f64 {
+    fn energy_floor(&self, ends: [&Point<N>; 2], tolerance: f64, residual: f64) -> f64 {
         let spring_forces = || {
-            let rest = Point { q: ends[1].q, v: [0.0; IDEAL_SIZE] };
+            let rest = Point { q: ends[1].q, v: [0.0; N] };
             let (force, _) = self.forces(&rest, (&Inputs::ZERO, &Inputs::ZERO), &mut LedgerRates::default());
             std::array::from_fn(|i| force.get(i).copied().unwrap_or(0.0))
         };
@@ -38,7 +37,7 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
     }
 
     #[inline]
-    fn rates(&self, v: &[f64; IDEAL_SIZE]) -> [f64; IDEAL_SIZE] {
+    fn rates(&self, v: &[f64; N]) -> [f64; N] {
         let mut rates = *v;
         for s in 0..2 {
             rates[s] -= v[CARRIER];
@@ -52,7 +51,7 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
     }
 
     #[inline]
-    fn times_rates(&self, m: &mut Matrix<IDEAL_SIZE>) {
+    fn times_rates(&self, m: &mut Matrix<N>) {
         let has_ends = self.has_ends();
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
@@ -65,12 +64,12 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         }
     }
 
-    fn evaluate(&self, at: &Point<IDEAL_SIZE>) -> ([f64; IDEAL_SIZE], LedgerRates) {
+    fn evaluate(&self, at: &Point<N>) -> ([f64; N], LedgerRates) {
         let mut ledger_rates = LedgerRates::default();
         (self.evaluate_under(at, self.now(), &mut ledger_rates), ledger_rates)
     }
 
-    fn linearise(&self, at: &Point<IDEAL_SIZE>) -> Linearisation<IDEAL_SIZE, LedgerRates> {
+    fn linearise(&self, at: &Point<N>) -> Linearisation<N, LedgerRates> {
         let mut lin = Linearisation::default();
         self.linearise_under(at, self.now(), &mut lin);
         lin
@@ -82,34 +81,29 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
     }
 
     #[inline]
-    fn evaluate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> ([f64; IDEAL_SIZE], LedgerRates) {
+    fn evaluate_at(&self, at: &Point<N>, time: f64) -> ([f64; N], LedgerRates) {
         let mut ledger_rates = LedgerRates::default();
         (self.at_time(time, |now| self.evaluate_under(at, now, &mut ledger_rates)), ledger_rates)
     }
 
     #[inline]
-    fn accelerate_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
+    fn accelerate_at(&self, at: &Point<N>, time: f64) -> [f64; N] {
         self.at_time(time, |now| self.accelerate(at, now))
     }
 
-    fn linearise_at(&self, at: &Point<IDEAL_SIZE>, time: f64) -> Linearisation<IDEAL_SIZE, LedgerRates> {
+    fn linearise_at(&self, at: &Point<N>, time: f64) -> Linearisation<N, LedgerRates> {
         let mut lin = Linearisation::default();
         self.at_time(time, |now| self.linearise_under(at, now, &mut lin));
         lin
     }
 
     #[inline]
-    fn linearise_with_energy(
-        &self,
-        at: &Point<IDEAL_SIZE>,
-        time: f64,
-        lin: &mut Linearisation<IDEAL_SIZE, LedgerRates>,
-    ) -> [f64; 2] {
+    fn linearise_with_energy(&self, at: &Point<N>, time: f64, lin: &mut Linearisation<N, LedgerRates>) -> [f64; 2] {
         self.at_time(time, |now| self.linearise_under(at, now, lin));
         self.energy(at)
     }
 
-    fn drift(&self, at: &Point<IDEAL_SIZE>, time: f64) -> [f64; IDEAL_SIZE] {
+    fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
         let (_, InputDerivatives { rates: [first, second] }) =
             self.applied.input_derivatives.after(time, &self.applied.inputs);
         let with = self.accelerate(at, (&first, &second));
@@ -121,16 +115,16 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         LedgerRates::combined(of)
     }
 
-    fn undo_torque_change(&self, at: &Point<IDEAL_SIZE>, ledger_rates: &mut LedgerRates) {
+    fn undo_torque_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         self.undo_input_change(at, ledger_rates);
         for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
             ledger_rates.shaft[s] = self.applied.inputs.load_torque[s] - self.applied.change[s];
         }
     }
 
-    fn weights(&self, at: &Point<IDEAL_SIZE>) -> Point<IDEAL_SIZE> {
+    fn weights(&self, at: &Point<N>) -> Point<N> {
         let carrier = 1.0 + 2.0 * at.v[CARRIER].abs();
-        let mut weights = Point { q: [1.0; IDEAL_SIZE], v: [1.0 / (carrier + at.v[PLANET].abs()); IDEAL_SIZE] };
+        let mut weights = Point { q: [1.0; N], v: [1.0 / (carrier + at.v[PLANET].abs()); N] };
         if self.has_dry_friction() {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
@@ -141,11 +135,11 @@ impl SecondOrder<IDEAL_SIZE> for IdealEquations<'_> {
         weights
     }
 
-    fn kink(&self, at: &Point<IDEAL_SIZE>, h: f64) -> Option<f64> {
+    fn kink(&self, at: &Point<N>, h: f64) -> Option<f64> {
         self.kink_of_effects(at, h)
     }
 
-    fn crossing(&self, start: TimedPoint<IDEAL_SIZE>, end: TimedPoint<IDEAL_SIZE>) -> Option<f64> {
+    fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
         self.friction_crossing(start, end)
     }
 }

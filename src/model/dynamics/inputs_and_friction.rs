@@ -11,6 +11,8 @@ use crate::model::scene::{
 };
 use crate::model::thermal::NODES;
 
+/// Number of the pinion among the pairs.
+const PINION_PAIR: usize = RubbingKind::Pinion.number(0);
 /// Share of a change of inputs along which accelerations are compared.
 const CHANGE: f64 = 1.0 / 1024.0;
 
@@ -290,19 +292,22 @@ pub trait FrictionEquations<const N: usize> {
             applied.friction().add_commands(&applied.inputs, &mut all);
         }
         if self.body_effects().is_some_and(|all| all.loss.is_some()) {
-            all[RubbingKind::Pinion.number(0)] = self.pinion_load(at, time);
+            all[PINION_PAIR] = self.pinion_load(at, time);
         }
         all
     }
 
     /// Load of a pair in the equations of motion. The load of a pinion with an elastic mesh follows from the state; that
     /// of a rigid pinion acts when all other torques are known.
-    #[inline]
+    #[inline(always)]
     fn load_on(&self, pair: &RubbingPair, at: &Point<N>, surface_loads: &[SurfaceLoad; PAIRS]) -> SurfaceLoad {
-        if pair.number == RubbingKind::Pinion.number(0) && self.layout().pinion() != CARRIER {
-            return self.pinion_load(at, 0.0);
-        }
-        surface_loads[pair.number]
+        if pair.number == PINION_PAIR { self.load_on_pinion(at) } else { surface_loads[pair.number] }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn load_on_pinion(&self, at: &Point<N>) -> SurfaceLoad {
+        if self.layout().pinion() == CARRIER { SurfaceLoad::default() } else { self.pinion_load(at, 0.0) }
     }
 
     /// Adds the torques and the heat of dry friction under the loads on its surfaces.
@@ -332,7 +337,9 @@ pub trait FrictionEquations<const N: usize> {
             let (friction, state) = self.friction_on(pair);
             let load = self.load_on(pair, at, surface_loads);
             let [k, c] = friction.torque_slopes(state, slip_speed(at, pair), &load);
-            self.add_slopes_by_mesh(at, pair, &load, j);
+            if pair.number == PINION_PAIR {
+                self.add_slopes_by_mesh(at, pair, &load, j);
+            }
             // friction that slides at a constant limit has no derivatives
             if k == 0.0 && c == 0.0 {
                 continue;
@@ -351,11 +358,13 @@ pub trait FrictionEquations<const N: usize> {
     }
 
     /// Adds the derivatives of the friction of a sliding pinion with respect to the torque of its elastic mesh.
+    #[cold]
+    #[inline(never)]
     fn add_slopes_by_mesh(&self, at: &Point<N>, pair: &RubbingPair, load: &SurfaceLoad, j: &mut Jacobian<'_, N>) {
         let Some(all) = self.body_effects() else { return };
         let (friction, state) = self.friction_on(pair);
         let (direction, motion) = (state.mode.direction(), self.body_motion(at));
-        let Some(loss) = all.loss.filter(|_| pair.number == RubbingKind::Pinion.number(0) && direction != 0.0) else {
+        let Some(loss) = all.loss.filter(|_| direction != 0.0) else {
             return;
         };
         for effect in all.forces.iter() {
@@ -381,7 +390,7 @@ pub trait FrictionEquations<const N: usize> {
 
     /// Torque with which dry friction holds the pinion back, at the carrier's speed [N·m].
     fn pinion_friction(&self, at: &Point<N>) -> f64 {
-        let Some(pair) = self.pair(RubbingKind::Pinion.number(0)) else { return 0.0 };
+        let Some(pair) = self.pair(PINION_PAIR) else { return 0.0 };
         let (friction, state) = self.friction_on(pair);
         if friction.is_on() { friction.torque(state, &slip(at, pair), &self.pinion_load(at, 0.0)) } else { 0.0 }
     }

@@ -60,7 +60,7 @@ macro_rules! with_equations {
                 #[allow(unused)]
                 const N: usize = $crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
                 #[allow(unused_mut)]
-                let mut $equations = $crate::model::dynamics::ideal::IdealEquations::new(ideal, $inputs, $state);
+                let mut $equations = $crate::model::dynamics::ideal::IdealEquations::<N>::new(ideal, $inputs, $state);
                 $body
             }
             $crate::model::assembly::model::Gears::Teeth(teeth) => {

@@ -4,6 +4,7 @@
 use crate::contact::ToothLoad;
 use crate::geometry::Pair;
 use crate::integrate::{Point, SecondOrder};
+use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, Largest, MAX_SIZE, State};
@@ -407,7 +408,12 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
 }
 
 /// Forces of the ideal differential with effects on bodies.
-pub fn ideal_forces_with_effects(model: &Model, equations: &IdealEquations, inputs: &Inputs, state: &State) -> Forces {
+pub fn ideal_forces_with_effects(
+    model: &Model,
+    equations: &IdealEquations<IDEAL_SIZE>,
+    inputs: &Inputs,
+    state: &State,
+) -> Forces {
     let (plan, point) = (&model.ideal.plan, &state.point());
     let (a, ledger_rates) = equations.evaluate(point);
     let brakes = equations.brake_torques(point);

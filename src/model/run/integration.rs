@@ -16,7 +16,7 @@ use crate::FULL;
 use super::failure::ExcessiveDeflection;
 use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Failure, Radau, Rodas5P, SolverContext, Statistics, Step, Trajectory};
-use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects};
+use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects, SHAFTS_SIZE};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
@@ -104,10 +104,15 @@ pub fn integrate_teeth(
 /// Constants of gears and scene, state, options and budget of an integration.
 type Arguments<'a, 'b, G> = (&'a G, &'a Model, &'a mut State, Integration<'b>, &'a mut u64);
 
-/// Integrates ideal gears with effects, monomorphised for the shape with ends, which fits all their scenes.
+/// Integrates ideal gears with effects, monomorphised for the shape with ends, which fits all their scenes, and
+/// for a larger size if a drive in front of the carrier moves separately.
 #[inline(never)]
 fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWithEffects>) -> Result<(), StepFailure> {
-    let equations = &mut IdealEquations::new(ideal, integration.inputs, state);
+    if ideal.others.is_empty() {
+        let equations = &mut IdealEquations::<SHAFTS_SIZE>::new(ideal, integration.inputs, state);
+        return integrate_equations::<SHAFTS_SIZE, WithEnds, _>(equations, model, state, integration, budget);
+    }
+    let equations = &mut IdealEquations::<IDEAL_SIZE>::new(ideal, integration.inputs, state);
     integrate_equations::<IDEAL_SIZE, WithEnds, _>(equations, model, state, integration, budget)
 }
 
@@ -116,7 +121,8 @@ fn integrate_ideal((ideal, model, state, integration, budget): Arguments<IdealWi
 fn integrate_ideal_through_object(
     (ideal, model, state, integration, budget): Arguments<IdealWithEffects>,
 ) -> Result<(), StepFailure> {
-    let equations: &mut dyn LedgerEquations<IDEAL_SIZE> = &mut IdealEquations::new(ideal, integration.inputs, state);
+    let equations: &mut dyn LedgerEquations<IDEAL_SIZE> =
+        &mut IdealEquations::<IDEAL_SIZE>::new(ideal, integration.inputs, state);
     integrate_equations::<IDEAL_SIZE, Any, _>(equations, model, state, integration, budget)
 }
 

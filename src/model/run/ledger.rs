@@ -5,7 +5,6 @@ use super::failure::ExcessiveDeflection;
 use super::watching::{self, watch_step};
 use crate::integrate::{Curve, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
-use crate::model::assembly::ideal_with_effects::IDEAL_SIZE;
 use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
 use crate::model::dynamics::shaft_means::{CycleCounter, StepCurves, TorqueMeans};
 use crate::model::dynamics::shape::Shape;
@@ -87,12 +86,12 @@ fn warm_up<const N: usize>(
     }
 }
 
-impl LedgerEquations<IDEAL_SIZE> for IdealEquations<'_> {
-    fn check_deflection(&self, _: &Point<IDEAL_SIZE>) -> Result<u8, ExcessiveDeflection> {
+impl<const N: usize> LedgerEquations<N> for IdealEquations<'_, N> {
+    fn check_deflection(&self, _: &Point<N>) -> Result<u8, ExcessiveDeflection> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, step: &Step<IDEAL_SIZE, LedgerRates>, sums: &mut LedgerSums) {
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
         add_to_ledger(step, sums.work, sums.heat, true);
         warm_up(model, self.applied(), step, sums);
     }

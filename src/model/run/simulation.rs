@@ -77,10 +77,11 @@ impl Simulation {
 
     /// Sets the inputs of the next step.
     pub fn set_inputs(&mut self, inputs: &Inputs) {
-        let mut inputs = *inputs;
-        self.model.ideal.plan.refer(&mut inputs);
-        if inputs != self.inputs {
-            self.inputs = inputs;
+        let Inputs { drive_speed, drive_torque, .. } = self.inputs;
+        // the inputs of the drive follow from the others
+        if self.inputs != (Inputs { drive_speed, drive_torque, ..*inputs }) {
+            self.inputs = *inputs;
+            self.model.ideal.plan.refer(&mut self.inputs);
             self.forces = None;
         }
     }
@@ -98,6 +99,9 @@ impl Simulation {
     /// Copies `input_derivatives` to the derivatives of the inputs.
     #[inline]
     pub fn share_input_derivatives(&mut self, input_derivatives: Option<&InputDerivatives>) {
+        if input_derivatives.is_none() && self.state.inputs.derivatives.is_none() {
+            return;
+        }
         let derivatives = input_derivatives.map(|given| self.model.ideal.plan.with_drive(*given));
         if derivatives != self.state.inputs.derivatives {
             InputDerivatives::copy(derivatives.as_ref(), &mut self.state.inputs.derivatives);

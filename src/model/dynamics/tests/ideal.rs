@@ -50,7 +50,7 @@ fn equations_of_only_half_shafts_have_the_bits_of_the_equations_with_any_effects
     at_random_points(|ideal, state, inputs, at| {
         let any = IdealWithEffects { linear: None, ..ideal.clone() };
         assert!(ideal.linear.is_some());
-        let [only_shafts, any] = [ideal, &any].map(|ideal| IdealEquations::new(ideal, inputs, state));
+        let [only_shafts, any] = [ideal, &any].map(|ideal| IdealEquations::<IDEAL_SIZE>::new(ideal, inputs, state));
         for time in [0.0, 0.02] {
             assert_eq!(only_shafts.evaluate_at(at, time), any.evaluate_at(at, time));
             assert_eq!(only_shafts.accelerate_at(at, time), any.evaluate_at(at, time).0);
@@ -66,7 +66,7 @@ fn equations_of_only_half_shafts_have_the_bits_of_the_equations_with_any_effects
 #[test]
 fn derivatives_of_the_accelerations_equal_differences() {
     at_random_points(|ideal, state, inputs, at| {
-        let equations = IdealEquations::new(ideal, inputs, state);
+        let equations = IdealEquations::<IDEAL_SIZE>::new(ideal, inputs, state);
         let lin = equations.linearise(at);
         // the equations are linear, so that differences are exact except for rounding
         for j in 0..ideal.layout.count() {
