@@ -44,6 +44,10 @@ pub enum Need {
     DynamicViscosity,
     /// Mass of the side gears along their axes.
     AxialMass,
+    /// Inertia of the pinion.
+    Pinion,
+    /// Inertia of the driven end of the propeller shaft.
+    PropellerEnd,
 }
 
 /// Condition on parameters, and on the situation in which a value is set.

@@ -64,6 +64,11 @@ impl BodyEffects {
         self.has_friction = self.surfaces.iter().any(|surface| !surface.is_lock());
     }
 
+    /// Speed of the pinion over the speed of the drive at the start.
+    pub fn speed_ratio(&self) -> f64 {
+        self.forces.iter().map(|effect| effect.speed_ratio()).product()
+    }
+
     /// Friction on all bodies with the lock at `lock` and all nodes at `temperatures` [K].
     pub fn friction(
         &self,

@@ -29,6 +29,8 @@ pub struct StaticLoads {
     pub ring: f64,
     /// Torque of the propeller shaft, at the carrier's speed.
     pub propeller: f64,
+    /// True if the speed of the drive is imposed.
+    pub imposed: bool,
 }
 
 /// Forces and torques by degree of freedom, for a single planet of each group, and heat by cause.
@@ -105,7 +107,15 @@ pub trait BodyEffect: Debug + Send + Sync {
     fn mesh_slopes(&self, _at: &BodyMotion) -> [(usize, [f64; 2]); 2] {
         [(0, [0.0; 2]); 2]
     }
-    /// Torque on the carrier [N·m], given the torque `driven` that is left of the drive's after acceleration and dry
+    /// Speed of the pinion over the speed of the drive at the start.
+    fn speed_ratio(&self) -> f64 {
+        1.0
+    }
+    /// Torque of a shaft on the pinion, at the carrier's speed [N·m].
+    fn shaft_torque(&self, _at: &BodyMotion) -> Option<f64> {
+        None
+    }
+    /// Torque on the carrier [N·m], given the torque `driven` that is left of the pinion's after acceleration and dry
     /// friction.
     fn carrier_torque(&self, _at: &BodyMotion, driven: f64) -> f64 {
         driven

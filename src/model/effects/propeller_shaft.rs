@@ -62,6 +62,10 @@ impl Declare for PropellerShaftSpec {
     const NEEDS_EFFECT: Option<&'static str> = Some("effects.final_drive");
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("effects.final_drive", 1.0), ("propeller_shaft.joint_angle", 0.1)];
+
+    fn needs() -> Vec<(Need, Condition)> {
+        vec![(Need::PropellerEnd, on!(Self))]
+    }
 }
 
 impl Effect for PropellerShaftSpec {
@@ -181,16 +185,26 @@ impl BodyEffect for Shaft {
         0.5 * self.stiffness * twist * twist
     }
 
+    fn speed_ratio(&self) -> f64 {
+        self.joint(0.0)[1]
+    }
+
+    fn shaft_torque(&self, at: &BodyMotion) -> Option<f64> {
+        let [_, on_pinion] = self.torques(self.local(at));
+        Some(on_pinion)
+    }
+
     fn wind_up(&self, loads: &StaticLoads, _: &Layout, [q, v]: [&mut [f64]; 2]) {
-        let wanted = loads.propeller / (self.ratio * self.stiffness);
         let pinion = q[CARRIER] - if self.has_pinion { q[self.pinion] } else { 0.0 };
-        let mut slope = 1.0;
         for _ in 0..ROUNDS {
-            let local = [pinion - q[self.end], q[self.end], 0.0, 0.0];
-            let [twist, _, now] = self.twist(local);
-            slope = now;
+            let [twist, rate, slope] = self.twist([pinion - q[self.end], q[self.end], v[self.end], v[self.pinion]]);
+            if !loads.imposed {
+                v[self.end] = v[self.pinion] / slope;
+            }
+            // an imposed speed may wind the shaft, so that its damper carries a part
+            let damped = if loads.imposed { self.damping * rate } else { 0.0 };
+            let wanted = (loads.propeller / self.ratio - damped) / self.stiffness;
             q[self.end] += (twist - wanted) / (self.ratio * slope);
         }
-        v[self.end] = v[self.pinion] / slope;
     }
 }

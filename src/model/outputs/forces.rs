@@ -11,7 +11,7 @@ use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, La
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, GearStrength, MeshLoad};
-use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, PROPELLER, Plan};
+use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
 use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
 use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
@@ -35,8 +35,6 @@ pub struct Forces {
     pub carrier_acceleration: f64,
     /// Side gear accelerations [rad/s²].
     pub side_acceleration: [f64; 2],
-    /// Acceleration of the body on which the drive acts [rad/s²], at the carrier's speed.
-    pub port_acceleration: f64,
     /// Torque that the drive delivers, referred to the carrier [N·m].
     pub drive_torque: f64,
     /// Torque on the carrier [N·m]: of the drive, or of the ring gear that the drive turns.
@@ -184,32 +182,23 @@ fn read_effects(out: &mut Forces, model: &Model, (inputs, state): (&Inputs, &Sta
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
-    out.carrier_torque = carrier_torque(out, model, &motion, held);
-    let ratio = plan.drive_ratio.unwrap_or(1.0);
-    // the propeller shaft delivers what its driven end does not need to accelerate
-    let end = plan.attached[PROPELLER].map_or(0.0, |end| end.inertia * out.port_acceleration);
+    let (ratio, effects) = (plan.drive_ratio.unwrap_or(1.0), &model.body_effects().forces);
+    let on_pinion = effects.iter().find_map(|effect| effect.shaft_torque(&motion)).unwrap_or(out.drive_torque);
+    let driven = on_pinion - held - plan.on_carrier * out.carrier_acceleration;
+    out.carrier_torque = effects.iter().fold(driven, |torque, effect| effect.carrier_torque(&motion, torque));
     let at = Instant {
         on: false,
         plan,
         motion: &motion,
         shaft_torque: out.shaft_torque,
         carrier_torque: out.carrier_torque,
-        pinion_torque: (out.drive_torque - end) / ratio,
+        pinion_torque: on_pinion / ratio,
         port_torque: out.drive_torque / ratio,
     };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
     // without a computed flash temperature, flanks are as warm as their gears
     let strength = &mut out.readings[const { indices_of("strength", Changes::Always) }];
     strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
-}
-
-/// Torque on the carrier from its drive [N·m]: the torque of the drive, without dry friction and without what the bodies
-/// in front of the carrier need to accelerate, unless an effect gives it.
-fn carrier_torque(out: &Forces, model: &Model, motion: &BodyMotion, held: f64) -> f64 {
-    let (plan, effects) = (&model.ideal.plan, model.body_effects());
-    let end = plan.attached[PROPELLER].map_or(0.0, |end| end.inertia * out.port_acceleration);
-    let driven = out.drive_torque - end - held - plan.on_carrier * out.carrier_acceleration;
-    effects.forces.iter().fold(driven, |torque, effect| effect.carrier_torque(motion, torque))
 }
 
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
@@ -238,7 +227,6 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let mut out = Forces {
         carrier_acceleration: a[CARRIER],
         side_acceleration: [a[0], a[1]],
-        port_acceleration: a[equations.port()],
         has_components,
         ..Forces::default()
     };
@@ -364,12 +352,12 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
     add_up(out, planets);
 }
 
-/// Forces of gears without teeth, from torques and the accelerations of carrier, port and sides. `held` is the torque
+/// Forces of gears without teeth, from torques and the accelerations of carrier and sides. `held` is the torque
 /// with which dry friction holds the pinion back [N·m].
 fn without_teeth(
     model: &Model,
     (inputs, state): (&Inputs, &State),
-    (carrier_acceleration, port_acceleration, side_acceleration): (f64, f64, [f64; 2]),
+    (carrier_acceleration, side_acceleration): (f64, [f64; 2]),
     (torques, shaft_torque): (&IdealTorques, [f64; 2]),
     (held, heat): (f64, f64),
 ) -> Forces {
@@ -377,7 +365,6 @@ fn without_teeth(
     let (drive_torque, spin_torque) = (torques.drive, torques.spin);
     let mut out = Forces {
         carrier_acceleration,
-        port_acceleration,
         side_acceleration,
         drive_torque,
         spin_torque,
@@ -398,13 +385,7 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
     let a = ideal.side_accelerations(&motion);
     let with = |inertia: &[f64; 2]| [0, 1].map(|s| inputs.load_torque[s] + inertia[s] * a[s]);
     let torques = IdealTorques { drive: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
-    without_teeth(
-        model,
-        (inputs, state),
-        (motion.carrier, motion.carrier, a),
-        (&torques, with(&inertia.end)),
-        (0.0, 0.0),
-    )
+    without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), (0.0, 0.0))
 }
 
 /// Forces of the ideal differential with effects on bodies.
@@ -421,7 +402,7 @@ pub fn ideal_forces_with_effects(
     let shafts = [0, 1].map(|s| if plan.shafts[s] { ledger_rates.shaft[s] } else { by_rigid(s) });
     let heat = lost(&ledger_rates.heat);
     let torques = equations.torques(point);
-    let accelerations = (a[CARRIER], a[equations.ideal.layout.port], [a[0], a[1]]);
+    let accelerations = (a[CARRIER], [a[0], a[1]]);
     let held = equations.pinion_friction(point);
     let mut out = without_teeth(model, (inputs, state), accelerations, (&torques, shafts), (held, heat));
     read_pv(&mut out, equations, point);

@@ -23,9 +23,9 @@ parameters! {
         /// Inertia of the carrier with ring gear and cross-shaft, without planets
         carrier: f64 = 0.02, KG_M2, 1e-9..=1e6;
         /// Inertia of the pinion of the final drive, with the shaft that is rigid with it
-        pinion: f64 = 0.003, KG_M2, 0.0..=1e6;
+        pinion: f64 = 0.003, KG_M2, 0.0..=1e6, when(Condition::Need(Need::Pinion));
         /// Inertia at the driven end of the propeller shaft
-        propeller_end: f64 = 0.01, KG_M2, 1e-9..=1e6;
+        propeller_end: f64 = 0.01, KG_M2, 1e-9..=1e6, when(Condition::Need(Need::PropellerEnd));
         /// Inertia of a side gear about its axis, if not from geometry
         side_gear: f64 = 1.47e-4, KG_M2, 1e-12..=1e6, when(is!(Self.from_geometry, false));
         /// Mass of a side gear for its axial motion, if not from geometry; 0 = geometry.side_mass

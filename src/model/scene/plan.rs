@@ -220,8 +220,10 @@ impl Plan {
     }
 
     /// Moment of inertia of the bodies between carrier and drive that move separately [kg·m²], referred to the carrier.
-    pub fn drive_inertia(&self) -> f64 {
-        self.attached[PINION..=PROPELLER].iter().flatten().map(|body| body.inertia).sum()
+    /// The pinion turns `joint` times as fast as the driven end of the propeller shaft.
+    pub fn drive_inertia(&self, joint: f64) -> f64 {
+        let of = |k: usize| self.attached[k].map_or(0.0, |body| body.inertia);
+        of(PINION) + of(PROPELLER) / (joint * joint)
     }
 
     /// Moment of inertia of the pinion at the carrier's speed [kg·m²].

@@ -47,14 +47,15 @@ impl Carried {
 
     /// Torques if friction holds the pinion back by `held` [N·m].
     fn with_pinion_held(model: &Model, ideal: &Ideal, (inputs, state): (&Inputs, &State), held: f64) -> Self {
+        let joint = model.body_effects().speed_ratio();
         let effect_torques = effect_torques(model, inputs, state);
         let brakes = sliding_brakes(model, inputs, state);
         let load = [0, 1].map(|s| inputs.load_torque[s] + brakes[s] - effect_torques[s]);
-        let drive = inputs.drive_torque + effect_torques[CARRIER] - held;
+        let drive = inputs.drive_torque / joint + effect_torques[CARRIER] - held;
         // shaft torques are quasi-static: wheels at their ends accelerate with their side gears
         let mut rigid = *ideal;
         rigid.plan.shafts = [false; 2];
-        rigid.inertia.carrier = ideal.inertia.carrier + ideal.plan.drive_inertia();
+        rigid.inertia.carrier = ideal.inertia.carrier + ideal.plan.drive_inertia(joint);
         let j = &model.ideal.inertia;
         let mut motion = IdealMotion::default();
         let teeth = match ideal.plan.side_imposed {
@@ -88,7 +89,9 @@ impl Carried {
         let shaft = [0, 1].map(|s| teeth[s] + effect_torques[s] - (j.side[s] - j.end[s]) * side_acceleration[s]);
         // what the drive delivers to the carrier: the torques of the teeth and of effects, and the carrier's own inertia
         let ring = teeth[0] + teeth[1] - effect_torques[CARRIER] + (j.carrier - ideal.plan.on_carrier) * motion.carrier;
-        let in_front = StaticLoads { ring, propeller: ring + held + ideal.plan.pinion_inertia() * motion.carrier };
+        let imposed = ideal.plan.drive_imposed;
+        let in_front =
+            StaticLoads { imposed, ring, propeller: ring + held + ideal.plan.pinion_inertia() * motion.carrier };
         let (carrier_acceleration, spin_acceleration) = (motion.carrier, motion.spin);
         Self { teeth, shaft, in_front, side_acceleration, carrier_acceleration, spin_acceleration }
     }

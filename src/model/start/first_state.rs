@@ -75,7 +75,8 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     let (plan, ratio) = (&model.ideal.plan, model.ideal.ratio);
     let layout = plan.layout();
     let rest = model.parameters.scene.start == Start::Rest;
-    let mut carrier = if rest && !plan.drive_imposed { 0.0 } else { inputs.drive_speed };
+    let joint = model.body_effects().speed_ratio();
+    let mut carrier = if rest && !plan.drive_imposed { 0.0 } else { joint * inputs.drive_speed };
     let mut spin = if plan.spin_imposed { inputs.planet_spin } else { 0.0 };
     let [left, right] = inputs.side_speed;
     match plan.side_imposed {
@@ -111,8 +112,8 @@ fn set_speeds(model: &Model, inputs: &Inputs, state: &mut State) {
     for (i, to) in layout.attached() {
         v[i] = v[to];
     }
-    if plan.drive_imposed {
-        v[layout.port] = inputs.drive_speed;
+    if !plan.drives_carrier() {
+        v[layout.port] = if plan.drive_imposed { inputs.drive_speed } else { v[CARRIER] / joint };
     }
     for s in (0..2).filter(|&s| plan.shafts[s] && plan.side_imposed[s]) {
         v[layout.end(s)] = inputs.side_speed[s];

@@ -18,7 +18,8 @@ use crate::model::effect_kinds::{BodyMotion, Slopes};
 use crate::model::scene::{CARRIER, Layout};
 use crate::numeric::{Dual, Scalar};
 
-/// Fractions of a step between which it ends on a touch or a separation.
+/// Fractions of a step between which it ends on a touch or a separation. Closer to its ends, the rest of a step would
+/// be cut again and again.
 const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Number of iterations with which the static deflection finds the error at its own angle.
 const ROUNDS: usize = 8;

@@ -98,7 +98,7 @@ parameters! {
         /// Hand of the teeth of the ring gear
         hand: Hand = Hand::Right, when(above!(Self.spiral_angle, 0.0));
         /// Pitch angle of the ring gear; 0 = helical gears
-        pitch_angle: f64 = 76f64.to_radians(), RADIAN | DEG, 0.0..=1.570_796_326_794_896_6;
+        pitch_angle: f64 = 76f64.to_radians(), RADIAN | DEG, 0.0..=std::f64::consts::FRAC_PI_2;
         /// Side of the planets on which the ring gear is
         ring_side: RingSide = RingSide::Left;
         /// Distance of the mesh from the plane of the planets, positive away from it
@@ -160,6 +160,10 @@ impl Declare for FinalDriveSpec {
     }];
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("final_drive.elastic_mesh", 1.0), ("final_drive.friction_torque", 0.5), ("final_drive.error_1", 5e-6)];
+
+    fn needs() -> Vec<(Need, Condition)> {
+        vec![(Need::Pinion, on!(Self))]
+    }
 
     fn inputs() -> Vec<Row<InputField>> {
         let [speed, torque] = if BUILT { [MAX_SPEED, MAX_TORQUE] } else { [0.0; 2] };
