@@ -11,9 +11,6 @@ use crate::contact::bodies::{LoadedPair, PairCouplings};
 /// Coordinates of both meshes: q, x and w, left and right.
 pub const COORDINATES: usize = 6;
 
-/// Largest number of pairs for which there is an array size of exactly that number.
-const EXACT: usize = 4;
-
 /// Pairs that share the bodies of their gears.
 pub struct Sharing<'a> {
     /// Couplings through the bodies.
@@ -64,14 +61,14 @@ impl Sharing<'_> {
         changes: Option<&dyn Fn(usize, f64) -> Changes>,
         see: &mut dyn FnMut(usize, &Share),
     ) {
-        // a compile-time constant if the arrays have exactly this size
-        let n = if K <= EXACT { K } else { self.arcs.len().min(K) };
+        // loops over all K entries have a constant length, and missing pairs contribute zeros
+        let n = self.arcs.len().min(K);
         let mut arcs = [0.0; K];
         arcs[..n].copy_from_slice(&self.arcs[..n]);
         let positions: [Option<&LoadedPair>; K] =
-            std::array::from_fn(|k| if k < n { (self.loaded_pair)(k) } else { None });
+            std::array::from_fn(self.loaded_pair);
         let Some(changes) = changes else {
-            let couplings = Couplings::new(self.bodies, n, &positions);
+            let couplings = Couplings::new(self.bodies, &positions);
             let own = self.own_arcs(&couplings, &arcs);
             let along = couplings.along(&own.load);
             for k in 0..n {
@@ -79,11 +76,11 @@ impl Sharing<'_> {
             }
             return;
         };
-        let (couplings, curvatures) = Couplings::with_curvatures(self.bodies, n, &positions);
+        let (couplings, curvatures) = Couplings::with_curvatures(self.bodies, &positions);
         let own = self.own_arcs(&couplings, &arcs);
         let along = couplings.along(&own.load);
         let (mut by, mut change) = ([[0.0; COORDINATES]; K], [Change::default(); K]);
-        for k in 0..n {
+        for k in 0..K {
             (by[k], change[k]) = changes(k, own.arc[k]);
         }
         let gradients = Gradients::new((&couplings, &curvatures), &own, &along, by, &change);
