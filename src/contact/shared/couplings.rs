@@ -75,7 +75,7 @@ impl<const K: usize> Couplings<K> {
 
     /// Returns the couplings of the pairs at their `positions`.
     #[inline(always)]
-    pub fn new(bodies: &PairCouplings, positions: &[Option<&LoadedPair>; K]) -> Self {
+    pub fn new(bodies: &PairCouplings, positions: &[Option<LoadedPair>; K]) -> Self {
         let mut all = Self::NONE;
         for_each_two::<false, K>(bodies, positions, |k, l, t: &Coupling| all.set(k, l, t));
         all
@@ -85,7 +85,7 @@ impl<const K: usize> Couplings<K> {
     #[inline(always)]
     pub fn with_curvatures(
         bodies: &PairCouplings,
-        positions: &[Option<&LoadedPair>; K],
+        positions: &[Option<LoadedPair>; K],
     ) -> (Self, CouplingCurvatures<K>) {
         let mut all = Self::NONE;
         let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
@@ -134,12 +134,12 @@ impl<const K: usize> Couplings<K> {
 #[inline(always)]
 fn for_each_two<const CURVATURE: bool, const K: usize>(
     bodies: &PairCouplings,
-    positions: &[Option<&LoadedPair>; K],
+    positions: &[Option<LoadedPair>; K],
     mut visit: impl FnMut(usize, usize, &Coupling),
 ) {
     for k in 0..K {
         for l in 0..k {
-            if let (Some(a), Some(b)) = (positions[k], positions[l]) {
+            if let (Some(a), Some(b)) = (&positions[k], &positions[l]) {
                 visit(k, l, &bodies.coupling::<CURVATURE>(a, b));
             }
         }

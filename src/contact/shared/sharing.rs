@@ -17,8 +17,8 @@ pub struct Sharing<'a> {
     pub bodies: &'a PairCouplings,
     /// Approaches A_k of the flanks [rad], one per pair.
     pub arcs: &'a [f64],
-    /// Loaded pair by its index.
-    pub loaded_pair: &'a dyn Fn(usize) -> Option<&'a LoadedPair>,
+    /// Loaded pair by its index; `None` beyond the last pair.
+    pub loaded_pair: &'a dyn Fn(usize) -> Option<LoadedPair>,
     /// Load ω of a pair at its own arc a [N/m²], and ∂ω/∂a.
     pub law: &'a dyn Fn(usize, f64) -> [f64; 2],
     /// True if ω is proportional to a for positive a.
@@ -37,13 +37,21 @@ pub struct Share<'a> {
     pub slopes: Option<[&'a [f64; COORDINATES]; 2]>,
 }
 
+impl Share<'_> {
+    /// Share of a pair that no other pair moves.
+    #[inline(always)]
+    pub fn alone(own: f64) -> Self {
+        Self { own, load: 0.0, along: 0.0, slopes: None }
+    }
+}
+
 /// Derivatives of the approach A_k of a pair with respect to the coordinates, and its direct changes.
 pub type Changes = ([f64; COORDINATES], Change);
 
 impl Sharing<'_> {
-    /// Calls `see` with the number and the share of each pair. If `changes` is given, as a function of number and own
-    /// arc, the shares include slopes.
-    pub fn solve(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(usize, &Share)) {
+    /// Calls `see` with the shares of all pairs. If `changes` is given, as a function of number and own arc, the shares
+    /// include slopes.
+    pub fn solve(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(&[Share])) {
         match self.arcs.len() {
             0 => {}
             1 => self.solve_in::<1>(changes, see),
@@ -56,24 +64,17 @@ impl Sharing<'_> {
     }
 
     #[inline(never)]
-    fn solve_in<const K: usize>(
-        &self,
-        changes: Option<&dyn Fn(usize, f64) -> Changes>,
-        see: &mut dyn FnMut(usize, &Share),
-    ) {
+    fn solve_in<const K: usize>(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(&[Share])) {
         // loops over all K entries have a constant length, and missing pairs contribute zeros
         let n = self.arcs.len().min(K);
         let mut arcs = [0.0; K];
         arcs[..n].copy_from_slice(&self.arcs[..n]);
-        let positions: [Option<&LoadedPair>; K] =
-            std::array::from_fn(self.loaded_pair);
+        let positions: [Option<LoadedPair>; K] = std::array::from_fn(self.loaded_pair);
         let Some(changes) = changes else {
             let couplings = Couplings::new(self.bodies, &positions);
             let own = self.own_arcs(&couplings, &arcs);
             let along = couplings.along(&own.load);
-            for k in 0..n {
-                see(k, &Share { own: own.arc[k], load: own.load[k], along: along[k], slopes: None });
-            }
+            see(&shares(&own, &along, |_| None)[..n]);
             return;
         };
         let (couplings, curvatures) = Couplings::with_curvatures(self.bodies, &positions);
@@ -84,10 +85,7 @@ impl Sharing<'_> {
             (by[k], change[k]) = changes(k, own.arc[k]);
         }
         let gradients = Gradients::new((&couplings, &curvatures), &own, &along, by, &change);
-        for k in 0..n {
-            let slopes = Some([&gradients.own[k], &gradients.along[k]]);
-            see(k, &Share { own: own.arc[k], load: own.load[k], along: along[k], slopes });
-        }
+        see(&shares(&own, &along, |k| Some([&gradients.own[k], &gradients.along[k]]))[..n]);
     }
 
     #[inline(always)]
@@ -99,4 +97,14 @@ impl Sharing<'_> {
             OwnArcs::new(couplings, arcs, self.law)
         }
     }
+}
+
+/// Shares of all pairs with τ_k = `along` and their `slopes`.
+#[inline(always)]
+fn shares<'a, const K: usize>(
+    own: &OwnArcs<K>,
+    along: &[f64; K],
+    slopes: impl Fn(usize) -> Option<[&'a [f64; COORDINATES]; 2]>,
+) -> [Share<'a>; K] {
+    std::array::from_fn(|k| Share { own: own.arc[k], load: own.load[k], along: along[k], slopes: slopes(k) })
 }
