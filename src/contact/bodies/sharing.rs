@@ -57,16 +57,17 @@ impl Pull {
     /// approach of the flanks [rad].
     #[inline(always)]
     pub fn margins(&self, depth: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
-        let depth = depth.map(|side| side.map(|depth| depth.clamp(0.0, 1.0)));
-        [0, 1].map(|side| {
-            let [own, other] = [depth[side], depth[1 - side]];
-            [0, 1].map(|flank| {
-                self.same_flank * own[flank]
-                    + self.opposite_flank * own[1 - flank]
-                    + self.other_mesh[0] * other[flank]
-                    + self.other_mesh[1] * other[1 - flank]
-            })
-        })
+        let mut margins = [[0.0; 2]; 2];
+        for side in 0..2 {
+            for flank in 0..2 {
+                let [own, other] = [&depth[side], &depth[1 - side]];
+                margins[side][flank] = self.same_flank * own[flank].clamp(0.0, 1.0)
+                    + self.opposite_flank * own[1 - flank].clamp(0.0, 1.0)
+                    + self.other_mesh[0] * other[flank].clamp(0.0, 1.0)
+                    + self.other_mesh[1] * other[1 - flank].clamp(0.0, 1.0);
+            }
+        }
+        margins
     }
 }
 

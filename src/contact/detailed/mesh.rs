@@ -104,22 +104,24 @@ impl Detailed {
         self.damping = damping.in_arcs(self.resultant, self.moment);
     }
 
-    /// Calls `visit` with each pair that touches or is within `margin` [rad] of touching. `margin` has one value for
-    /// drive flanks and one for coast flanks.
+    /// Upper bound by which errors and axial displacement bring flanks nearer than error-free ones [rad].
+    #[inline(always)]
+    pub(super) fn slack(&self, teeth: &MeshTeeth, state: &DetailedState) -> f64 {
+        (teeth.gaps.map_or(0.0, |g| -g.least) + (-state.position[2]).max(0.0)) / self.face.inner()
+    }
+
+    /// Calls `visit` with each pair that would touch if its flanks were nearer by `excess` [rad]. `excess` has one value
+    /// for drive flanks and one for coast flanks.
     #[inline(always)]
     pub(super) fn each(
         &self,
         teeth: &MeshTeeth,
         state: &DetailedState,
-        margin: [f64; 2],
+        excess: [f64; 2],
         mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
-        let [q, x, w] = state.position;
-        // upper bound by which errors and axial displacement bring flanks nearer than error-free ones [m], then [rad]
-        let slack = teeth.gaps.map_or(0.0, |g| -g.least) + (-w).max(0.0);
-        let slack = slack / self.face.inner();
-        for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
-            let excess = slack + margin;
+        let [q, x, _] = state.position;
+        for ((flank, sign), excess) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(excess) {
             let approach = q * sign - teeth.engagement.half_backlash();
             if approach + excess <= 0.0 {
                 continue;

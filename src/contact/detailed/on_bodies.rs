@@ -16,8 +16,16 @@ use crate::contact::{Damping, Flank, Spring, ToothPair};
 struct Near<P> {
     name: PairName,
     pair: ToothPair,
-    opened: Opened,
+    /// `None` if the flanks fit.
+    opened: Option<Opened>,
     local: P,
+}
+
+impl<P> Near<P> {
+    #[inline(always)]
+    fn opened(&self) -> &Opened {
+        self.opened.as_ref().unwrap_or(&Opened::NONE)
+    }
 }
 
 /// Elastic load ω = M/J of a face at an own arc [N/m²], with its derivatives with respect to arc, opening E and
@@ -43,7 +51,7 @@ impl Detailed {
             let (load, by_arc, by_s) = (elastic.torque, elastic.stiffness, elastic.torque_by_s);
             return ElasticLoad { load, by_arc, by_opening: 0.0, by_s };
         }
-        let (opening, mut sums) = (&near.opened.opening, Sums::default());
+        let (opening, mut sums) = (&near.opened().opening, Sums::default());
         let still = Approach { arc, rate: 0.0, opening_rate: 0.0 };
         for part in self.face.loaded(arc, opening, &mut PointStorage::default()) {
             sums.add::<S, true, true>(&part, (spring, &near.local, &Damping::NONE), &still, opening, None, |_| {});
@@ -63,20 +71,24 @@ impl Detailed {
     ) {
         let Some(bodies) = meshes.bodies else { return };
         // approaches of drive and coast flanks; excess material presses before flanks without errors would touch
-        let depth = [0, 1].map(|side| {
-            let ([q, _, w], teeth) = (meshes.states[side].position, &meshes.teeth[side]);
-            let gaps = teeth.gaps.map_or(0.0, |gaps| -gaps.least);
-            let excess = (gaps + (-w).max(0.0)) / self.face.inner();
-            [-q, q].map(|q| q - teeth.engagement.half_backlash() + excess)
-        });
-        let deepest = depth.as_flattened().iter().fold(0.0f64, |deepest, depth| deepest.max(*depth));
-        let margins = bodies.pull.margins(&depth).map(|side| side.map(|margin| margin + lookout * deepest));
+        let (mut slack, mut depth, mut deepest) = ([0.0; 2], [[0.0; 2]; 2], 0.0f64);
         for side in 0..2 {
-            let (teeth, state, margin) = (&meshes.teeth[side], &meshes.states[side], margins[side]);
-            self.each(teeth, state, margin, |name, pair| {
+            let (teeth, state) = (&meshes.teeth[side], &meshes.states[side]);
+            slack[side] = self.slack(teeth, state);
+            for (flank, q) in [-state.position[0], state.position[0]].into_iter().enumerate() {
+                depth[side][flank] = q - teeth.engagement.half_backlash() + slack[side];
+                deepest = deepest.max(depth[side][flank]);
+            }
+        }
+        let margins = bodies.pull.margins(&depth);
+        for side in 0..2 {
+            let (teeth, state) = (&meshes.teeth[side], &meshes.states[side]);
+            let margin = [0, 1].map(|flank| margins[side][flank] + lookout * deepest);
+            self.each(teeth, state, [slack[side] + margin[0], slack[side] + margin[1]], |name, pair| {
                 let arc = pair.depth + margin[usize::from(pair.flank == Flank::Coast)];
-                let opened = if OPEN { self.opened_pair(teeth, name, pair.s, state.position[2]) } else { Opened::NONE };
-                if if OPEN { self.face.is_loaded(arc, &opened.opening) } else { arc > 0.0 } {
+                let opened = OPEN.then(|| self.opened_pair(teeth, name, pair.s, state.position[2]));
+                let may_touch = opened.as_ref().map_or(arc > 0.0, |opened| self.face.is_loaded(arc, &opened.opening));
+                if may_touch {
                     pairs.add(pair.depth, || Near { name: *name, pair: *pair, opened, local: spring.local(pair.s) });
                 }
             });
@@ -109,10 +121,10 @@ impl Detailed {
             if let Some(near) = near_of(k) {
                 let (at, pair) = (3 * near.name.side, &near.pair);
                 (by[at], by[at + 1]) = (pair.slope[0], pair.slope[1]);
-                let elastic_load = self.elastic_load::<S, OPEN>(spring, near, own);
-                let by_s = elastic_load.by_s + elastic_load.by_opening * near.opened.opening.even.d;
-                change.position = (at + 1, pair.s_slope, by_s * pair.s_slope);
-                change.opening = (at + 2, elastic_load.by_opening * near.opened.axial[0]);
+                let ElasticLoad { by_opening, by_s, .. } = self.elastic_load::<S, OPEN>(spring, near, own);
+                let Opened { opening, axial, .. } = near.opened();
+                change.position = (at + 1, pair.s_slope, (by_s + by_opening * opening.even.d) * pair.s_slope);
+                change.opening = (at + 2, by_opening * axial[0]);
             }
             (by, change)
         };
@@ -125,8 +137,9 @@ impl Detailed {
         let sharing = Sharing { bodies, arcs: pairs.arcs(), loaded_pair: &loaded_pair, law: &law, is_linear };
         sharing.solve(if with_slopes { Some(&changes) } else { None }, &mut |shares| {
             for (k, share) in shares.iter().enumerate() {
-                if let Some(Near { name, pair, opened, local }) = near_of(k) {
-                    see(&NearPair { name, pair, opened, local: Some(*local), share });
+                if let Some(near) = near_of(k) {
+                    let opened = if OPEN { near.opened() } else { &Opened::NONE };
+                    see(&NearPair { name: &near.name, pair: &near.pair, opened, local: Some(near.local), share });
                 }
             }
         });

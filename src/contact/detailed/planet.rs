@@ -44,14 +44,20 @@ pub struct NearPair<'a, P> {
 /// Loads with derivatives with respect to `WIDE` variables: those of one mesh on rigid bodies, or those of both meshes
 /// on elastic bodies.
 impl Detailed {
-    /// Loads of both meshes.
-    pub fn load<const WIDE: usize>(&self, meshes: &Meshes) -> [DetailedLoad<f64>; 2] {
-        self.totals::<0, WIDE>(meshes).map(|totals| totals.load())
+    /// Writes the loads of both meshes.
+    pub fn write<const WIDE: usize>(&self, meshes: &Meshes, to: &mut [DetailedLoad<f64>; 2]) {
+        let totals = self.totals::<0, WIDE>(meshes);
+        for s in 0..2 {
+            to[s] = totals[s].load();
+        }
     }
 
-    /// Loads of both meshes with their exact derivatives.
-    pub fn linearise<const WIDE: usize>(&self, meshes: &Meshes) -> [DetailedLoad<Dual<WIDE>>; 2] {
-        self.totals::<SUMS, WIDE>(meshes).map(|totals| totals.linearised())
+    /// Writes the loads of both meshes with their exact derivatives.
+    pub fn linearise<const WIDE: usize>(&self, meshes: &Meshes, to: &mut [DetailedLoad<Dual<WIDE>>; 2]) {
+        let totals = self.totals::<SUMS, WIDE>(meshes);
+        for s in 0..2 {
+            to[s] = totals[s].linearised();
+        }
     }
 
     /// Calls `look` with each loaded slice of the meshes of `sides`. It is compiled once for all laws and callers.
@@ -102,6 +108,7 @@ impl Detailed {
         0.5 * self.moment * share.load * (pair.depth - share.own)
     }
 
+    #[inline(always)]
     fn totals<const ROWS: usize, const WIDE: usize>(&self, meshes: &Meshes) -> [Totals<ROWS, WIDE>; 2] {
         let mut totals = [Totals::default(); 2];
         with_spring!(&self.spring, spring => self.sum(spring, &mut totals, meshes, (0..2, self.needs_thrust), |_| {}));
@@ -144,7 +151,7 @@ impl Detailed {
         }
         for side in sides {
             let (teeth, state) = (&meshes.teeth[side], &meshes.states[side]);
-            self.each(teeth, state, [0.0; 2], |name, pair| {
+            self.each(teeth, state, [self.slack(teeth, state); 2], |name, pair| {
                 let opened = if OPEN { self.opened_pair(teeth, name, pair.s, state.position[2]) } else { Opened::NONE };
                 see(&NearPair { name, pair, opened: &opened, local: None, share: &Share::alone(pair.depth) });
             });

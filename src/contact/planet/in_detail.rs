@@ -68,12 +68,12 @@ where
 
     #[inline(always)]
     fn write(&self, at: &PlanetState, to: &mut [DetailedLoad<f64>; 2]) {
-        *to = self.contact.detailed.load::<WIDE>(&self.meshes(at));
+        self.contact.detailed.write::<WIDE>(&self.meshes(at), to);
     }
 
     #[inline(always)]
     fn linearise(&self, at: &PlanetState, to: &mut [DetailedLoad<Dual<WIDE>>; 2]) {
-        *to = self.contact.detailed.linearise(&self.meshes(at));
+        self.contact.detailed.linearise(&self.meshes(at), to);
     }
 
     fn energies(&self, at: &PlanetState) -> [f64; 2] {

@@ -69,37 +69,38 @@ pub struct CouplingCurvatures<const K: usize> {
     pub both: [[f64; K]; K],
 }
 
+impl<const K: usize> CouplingCurvatures<K> {
+    /// Curvatures of an empty set of pairs.
+    pub const NONE: Self = Self { own: [[0.0; K]; K], both: [[0.0; K]; K] };
+}
+
 impl<const K: usize> Couplings<K> {
     /// Couplings of an empty set of pairs.
-    const NONE: Self = Self { value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+    pub const NONE: Self = Self { value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Returns the couplings of the pairs at their `positions`.
+    /// Sets the couplings of the pairs at their `positions`.
     #[inline(always)]
-    pub fn new(bodies: &PairCouplings, positions: &[Option<LoadedPair>; K]) -> Self {
-        let mut all = Self::NONE;
-        for_each_two::<false, K>(bodies, positions, |k, l, t: &Coupling| all.set(k, l, t));
-        all
+    pub fn set(&mut self, bodies: &PairCouplings, positions: &[Option<LoadedPair>; K]) {
+        for_each_two::<false, K>(bodies, positions, |k, l, t: &Coupling| self.set_one(k, l, t));
     }
 
-    /// Returns the couplings of the pairs at their `positions`, with second derivatives.
+    /// Sets the couplings of the pairs at their `positions`, and their second derivatives.
     #[inline(always)]
-    pub fn with_curvatures(
+    pub fn set_with_curvatures(
+        &mut self,
+        curvatures: &mut CouplingCurvatures<K>,
         bodies: &PairCouplings,
         positions: &[Option<LoadedPair>; K],
-    ) -> (Self, CouplingCurvatures<K>) {
-        let mut all = Self::NONE;
-        let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
-        let set = |k: usize, l: usize, t: &Coupling| {
-            all.set(k, l, t);
+    ) {
+        for_each_two::<true, K>(bodies, positions, |k, l, t: &Coupling| {
+            self.set_one(k, l, t);
             (curvatures.own[k][l], curvatures.own[l][k]) = (t.hessian[0], t.hessian[2]);
             (curvatures.both[k][l], curvatures.both[l][k]) = (t.hessian[1], t.hessian[1]);
-        };
-        for_each_two::<true, K>(bodies, positions, set);
-        (all, curvatures)
+        });
     }
 
     #[inline(always)]
-    fn set(&mut self, k: usize, l: usize, t: &Coupling) {
+    fn set_one(&mut self, k: usize, l: usize, t: &Coupling) {
         (self.value[k][l], self.value[l][k]) = (t.value, t.value);
         (self.by_own[k][l], self.by_own[l][k]) = (t.gradient[0], t.gradient[1]);
     }

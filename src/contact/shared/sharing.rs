@@ -5,7 +5,7 @@
 //! clearing.
 
 use super::couplings::MAX_PAIRS;
-use super::{Change, Couplings, Gradients, OwnArcs};
+use super::{Change, CouplingCurvatures, Couplings, Gradients, OwnArcs};
 use crate::contact::bodies::{LoadedPair, PairCouplings};
 
 /// Coordinates of both meshes: q, x and w, left and right.
@@ -67,17 +67,20 @@ impl Sharing<'_> {
     fn solve_in<const K: usize>(&self, changes: Option<&dyn Fn(usize, f64) -> Changes>, see: &mut dyn FnMut(&[Share])) {
         // loops over all K entries have a constant length, and missing pairs contribute zeros
         let n = self.arcs.len().min(K);
-        let mut arcs = [0.0; K];
-        arcs[..n].copy_from_slice(&self.arcs[..n]);
-        let positions: [Option<LoadedPair>; K] = std::array::from_fn(self.loaded_pair);
+        let (mut arcs, mut positions) = ([0.0; K], [None; K]);
+        for k in 0..n {
+            (arcs[k], positions[k]) = (self.arcs[k], (self.loaded_pair)(k));
+        }
+        let mut couplings = Couplings::NONE;
         let Some(changes) = changes else {
-            let couplings = Couplings::new(self.bodies, &positions);
+            couplings.set(self.bodies, &positions);
             let own = self.own_arcs(&couplings, &arcs);
             let along = couplings.along(&own.load);
             see(&shares(&own, &along, |_| None)[..n]);
             return;
         };
-        let (couplings, curvatures) = Couplings::with_curvatures(self.bodies, &positions);
+        let mut curvatures = CouplingCurvatures::NONE;
+        couplings.set_with_curvatures(&mut curvatures, self.bodies, &positions);
         let own = self.own_arcs(&couplings, &arcs);
         let along = couplings.along(&own.load);
         let (mut by, mut change) = ([[0.0; COORDINATES]; K], [Change::default(); K]);
