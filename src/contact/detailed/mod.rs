@@ -7,7 +7,8 @@
 //! moment arms R cosδ_b sinψ about both axes. It opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs
 //! sinψ_s), where u are the speeds of both flanks along the line of action.
 //!
-//! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
+//! Gear bodies are rigid, or elastic so that pairs move each other (`planet`, `on_bodies`). Quantities of a pair are
+//! computed once per pair (`directions`, `opening`, `pair`). `sums` adds up the face in the pair's own
 //! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 
 mod directions;

@@ -1,8 +1,8 @@
 //! Shares of the load: the load on each pair of a planet's two meshes, and its changes with the coordinates of both
 //! meshes.
 //!
-//! The solution is compiled separately for the usual numbers of pairs, because arrays of exactly that size need less
-//! clearing.
+//! The solution is compiled separately for the usual numbers of pairs, because the compiler unrolls loops over arrays of
+//! exactly that size.
 
 use super::couplings::MAX_PAIRS;
 use super::{Change, CouplingCurvatures, Couplings, Gradients, OwnArcs};
