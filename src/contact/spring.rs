@@ -64,13 +64,16 @@ impl Resultant {
 
 /// Elasticity of a tooth pair.
 pub trait Spring {
-    /// True if the torque is proportional to the penetration at p > 0.
-    const LINEAR: bool = false;
     /// True if the law depends on the position on the path.
     const DEPENDS_ON_POSITION: bool = true;
 
     /// Values of the law that depend only on the position on the path. They are the same at every cone distance.
     type Local: Copy;
+
+    /// True if the torque is proportional to the penetration at p > 0.
+    fn is_linear(&self) -> bool {
+        false
+    }
 
     /// Evaluates the law at position `s` [rad].
     fn local(&self, s: f64) -> Self::Local;
@@ -203,19 +206,6 @@ macro_rules! with_spring {
 }
 pub(crate) use with_spring;
 
-/// Evaluates an expression with `law` bound to the tooth-stiffness law in use, or `none` under other laws. Gear bodies
-/// are elastic only under laws with the compliance of the teeth.
-macro_rules! with_teeth {
-    ($of:expr, $law:ident => $body:expr, $none:expr) => {
-        match $of {
-            $crate::contact::spring::AnySpring::Line($law) => $body,
-            $crate::contact::spring::AnySpring::LineWeber($law) => $body,
-            $crate::contact::spring::AnySpring::Impact(_) => $none,
-        }
-    };
-}
-pub(super) use with_teeth;
-
 /// True if a law depends on the position of a pair.
 pub(super) const fn depends_on_position<S: Spring>(_: &S) -> bool {
     S::DEPENDS_ON_POSITION
@@ -235,6 +225,10 @@ pub enum AnyLocal {
 /// Dispatches to the law at each response, so that sums outside the steps are compiled once for all laws.
 impl Spring for AnySpring {
     type Local = AnyLocal;
+
+    fn is_linear(&self) -> bool {
+        matches!(self, Self::Line(_))
+    }
 
     #[inline(always)]
     fn local(&self, s: f64) -> AnyLocal {

@@ -53,15 +53,21 @@ pub struct Pull {
 }
 
 impl Pull {
-    /// Largest approach that other pairs add to a pair on `flank` (0 drive, 1 coast) of the mesh `side` [rad]. `depth`
-    /// is the approach of the flanks by side and flank [rad].
+    /// Largest approach that other pairs add to a pair, by side and flank (0 drive, 1 coast) [rad]. `depth` is the
+    /// approach of the flanks [rad].
     #[inline(always)]
-    pub fn margin(&self, depth: &[[f64; 2]; 2], side: usize, flank: usize) -> f64 {
-        let [own, other] = [side, 1 - side].map(|side| depth[side].map(|depth| depth.clamp(0.0, 1.0)));
-        self.same_flank * own[flank]
-            + self.opposite_flank * own[1 - flank]
-            + self.other_mesh[0] * other[flank]
-            + self.other_mesh[1] * other[1 - flank]
+    pub fn margins(&self, depth: &[[f64; 2]; 2]) -> [[f64; 2]; 2] {
+        let mut margins = [[0.0; 2]; 2];
+        for side in 0..2 {
+            for flank in 0..2 {
+                let [own, other] = [&depth[side], &depth[1 - side]];
+                margins[side][flank] = self.same_flank * own[flank].clamp(0.0, 1.0)
+                    + self.opposite_flank * own[1 - flank].clamp(0.0, 1.0)
+                    + self.other_mesh[0] * other[flank].clamp(0.0, 1.0)
+                    + self.other_mesh[1] * other[1 - flank].clamp(0.0, 1.0);
+            }
+        }
+        margins
     }
 }
 

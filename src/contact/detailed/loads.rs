@@ -1,7 +1,7 @@
 //! States of a mesh in full detail, its loads, and the loaded slices and openings of its pairs.
 
 use super::sums::Approach;
-use crate::contact::{Flank, Sliding, Spot, ToothPair};
+use crate::contact::{Flank, Sliding, Spot};
 use crate::numeric::{Jet, Scalar};
 
 /// Position and motion of a mesh with the axial displacement w of its side gear.
@@ -59,8 +59,6 @@ impl<T: Scalar> DetailedLoad<T> {
 /// One loaded slice of one tooth pair, for outputs of individual loads.
 #[derive(Clone, Copy, Debug)]
 pub struct SliceLoad<'a> {
-    /// The pair.
-    pub pair: &'a ToothPair,
     /// Kind of contact.
     pub spot: Spot,
     /// Arc Δ past the end of the path, or the position on the path if the pair is on it [rad].
@@ -92,10 +90,6 @@ pub struct SliceLoad<'a> {
     /// Gap or excess material between the pair's flanks.
     pub opening: &'a Opening,
 }
-
-/// Optional callback for each loaded slice. It is a run-time option, so observed and unobserved sums share the same
-/// code.
-pub type Look<'a> = Option<&'a mut dyn FnMut(&SliceLoad)>;
 
 /// A slice of the face.
 #[derive(Clone, Copy, Debug)]

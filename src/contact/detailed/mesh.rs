@@ -1,14 +1,10 @@
-//! The detailed mesh: its constants, and the sum of loads over its tooth pairs.
+//! The detailed mesh: its constants, and the search for its tooth pairs.
 
-use super::super::spring::with_spring;
-use super::directions::{Arcs, Directions};
+use super::directions::Directions;
 use super::face::{Face, Part, PointStorage};
-use super::totals::SUMS;
-use super::touching::Touching;
-use super::{DetailedLoad, DetailedState, LOCAL, Node, Opening, PairMotion, PairName, SliceLoad, Totals};
-use crate::contact::{AnySpring, Damping, Engagement, Flank, FlankGaps, Spot, Spring, ToothFriction, ToothPair};
+use super::{DetailedState, Node, Opening, PairName};
+use crate::contact::{AnySpring, Damping, Engagement, Flank, FlankGaps, Spot, ToothFriction, ToothPair};
 use crate::geometry::Pair;
-use crate::numeric::Dual;
 
 /// Constants of a detailed mesh.
 #[derive(Clone, Debug)]
@@ -39,7 +35,7 @@ pub struct Detailed {
     whole: Node,
 }
 
-/// Teeth of a mesh in their present state: tooth pairs, errors, oil viscosity, planet and side gear.
+/// Teeth of a mesh in their present condition: tooth pairs, errors, oil viscosity, planet and side gear.
 #[derive(Clone, Copy)]
 pub struct MeshTeeth<'a> {
     /// Tooth pairs.
@@ -58,7 +54,7 @@ pub struct MeshTeeth<'a> {
 impl MeshTeeth<'_> {
     /// Name of pair `number` of `flank`, of a planet whose position was wrapped by `wrapped` pairs.
     #[inline(always)]
-    fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
+    pub(super) fn name(&self, flank: Flank, number: i64, wrapped: i64) -> PairName {
         PairName::new((self.planet, self.side), flank, number, wrapped)
     }
 }
@@ -108,118 +104,24 @@ impl Detailed {
         self.damping = damping.in_arcs(self.resultant, self.moment);
     }
 
-    /// Loads at `state`.
-    pub fn load(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<f64> {
-        let mut totals = Totals::<0, LOCAL>::default();
-        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
-        totals.load()
-    }
-
-    /// Loads at `state` with their exact derivatives with respect to q, x, w and their rates.
-    pub fn linearise(&self, teeth: &MeshTeeth, state: &DetailedState) -> DetailedLoad<Dual<LOCAL>> {
-        let mut totals = Totals::<SUMS, LOCAL>::default();
-        with_spring!(&self.spring, spring => self.sum(spring, &mut totals, teeth, state, self.needs_thrust, |_| {}));
-        totals.linearised()
-    }
-
-    /// Loads at `state`; calls `look` with each loaded slice. It is compiled once for all laws and callers.
-    pub fn look(
-        &self,
-        teeth: &MeshTeeth,
-        state: &DetailedState,
-        look: &mut dyn FnMut(&SliceLoad),
-    ) -> DetailedLoad<f64> {
-        let mut totals = Totals::<0, LOCAL>::default();
-        self.sum(&self.spring, &mut totals, teeth, state, true, look);
-        totals.load()
-    }
-
-    /// True if there may be gaps or excess material between the flanks of pairs.
-    pub(super) fn is_open(&self, teeth: &MeshTeeth) -> bool {
-        self.has_seats || teeth.gaps.is_some()
-    }
-
-    /// Opening of the flanks of pair `number` of `flank` at position `s` [rad] and cone distance `cone` [m], as an arc
-    /// [rad].
-    pub fn opened(
-        &self,
-        teeth: &MeshTeeth,
-        state: &DetailedState,
-        (flank, number, s): (Flank, i64, f64),
-        cone: f64,
-    ) -> f64 {
-        let mut opening = self.opening(teeth, &teeth.name(flank, number, state.wrapped), s);
-        if self.has_seats {
-            opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(s))[0];
-        }
-        opening.at(cone) / cone
-    }
-
-    /// Adds the loads of all pairs.
+    /// Upper bound by which errors and axial displacement bring flanks nearer than error-free ones [rad].
     #[inline(always)]
-    fn sum<S: Spring, const ROWS: usize>(
-        &self,
-        spring: &S,
-        totals: &mut Totals<ROWS, LOCAL>,
-        teeth: &MeshTeeth,
-        state: &DetailedState,
-        needs_thrust: bool,
-        mut look: impl FnMut(&SliceLoad),
-    ) {
-        let open = self.is_open(teeth);
-        if open {
-            self.each(teeth, state, [0.0; 2], |name, pair| {
-                self.add::<_, ROWS, true>((spring, teeth, needs_thrust), totals, (name, pair), state, &mut look)
-            });
-        } else {
-            self.each(teeth, state, [0.0; 2], |name, pair| {
-                self.add::<_, ROWS, false>((spring, teeth, needs_thrust), totals, (name, pair), state, &mut look)
-            });
-        }
+    pub(super) fn slack(&self, teeth: &MeshTeeth, state: &DetailedState) -> f64 {
+        (teeth.gaps.map_or(0.0, |g| -g.least) + (-state.position[2]).max(0.0)) / self.face.inner()
     }
 
-    /// Elastic energy V [J].
-    pub fn energy(&self, teeth: &MeshTeeth, state: &DetailedState) -> f64 {
-        let (spring, mut energy) = (&self.spring, 0.0);
-        self.each(teeth, state, [0.0; 2], |name, pair| {
-            let mut opening = self.opening(teeth, name, pair.s);
-            if self.has_seats {
-                opening.even.v += state.position[2] * self.directions.axial(&self.directions.arcs(pair.s))[0];
-            }
-            let mut storage = PointStorage::default();
-            let parts = self.face.loaded(pair.depth, &opening, &mut storage);
-            if parts.iter().all(Part::is_empty) {
-                return;
-            }
-            let local = spring.local(pair.s);
-            for part in parts {
-                for node in part.nodes {
-                    let arc = pair.depth - opening.turn - part.even * node.per_cone - opening.bend * node.cone;
-                    if arc > 0.0 {
-                        energy += node.weight * spring.respond(&local, arc).energy;
-                    }
-                }
-            }
-        });
-        energy
-    }
-
-    /// Calls `visit` with each pair that touches or is within `margin` [rad] of touching. `margin` has one value for
-    /// drive flanks and one for coast flanks.
+    /// Calls `visit` with each pair that would touch if its flanks were nearer by `excess` [rad]. `excess` has one value
+    /// for drive flanks and one for coast flanks.
     #[inline(always)]
     pub(super) fn each(
         &self,
         teeth: &MeshTeeth,
         state: &DetailedState,
-        margin: [f64; 2],
+        excess: [f64; 2],
         mut visit: impl FnMut(&PairName, &ToothPair),
     ) {
-        let [q, x, w] = state.position;
-        // upper bound by which errors and axial displacement bring flanks nearer than error-free ones [m], then [rad]
-        let slack = teeth.gaps.map_or(0.0, |g| -g.least) + (-w).max(0.0);
-        let slack = slack / self.face.inner();
-        for ((flank, sign), margin) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(margin) {
-            let excess = slack + margin;
+        let [q, x, _] = state.position;
+        for ((flank, sign), excess) in [(Flank::Drive, -1.0), (Flank::Coast, 1.0)].into_iter().zip(excess) {
             let approach = q * sign - teeth.engagement.half_backlash();
             if approach + excess <= 0.0 {
                 continue;
@@ -231,25 +133,6 @@ impl Detailed {
                 teeth.engagement.near(flank, x, approach + excess, excess, see);
             }
         }
-    }
-
-    #[inline(always)]
-    pub(super) fn opening(&self, teeth: &MeshTeeth, name: &PairName, s: f64) -> Opening {
-        teeth.gaps.map_or(Opening::NONE, |gaps| gaps.opening(name, s))
-    }
-
-    /// Opening of the flanks of a pair, ν and ∂ν/∂s of its side gear's axial displacement, and its arcs, which are
-    /// computed only with axial seats.
-    #[inline(always)]
-    pub(super) fn opened_pair(&self, teeth: &MeshTeeth, name: &PairName, s: f64, w: f64) -> (Opening, [f64; 2], Arcs) {
-        let mut opening = self.opening(teeth, name, s);
-        if !self.has_seats {
-            return (opening, [0.0; 2], Arcs::NONE);
-        }
-        let arcs = self.directions.arcs(s);
-        let axial = self.directions.axial(&arcs);
-        opening.displace(w, axial);
-        (opening, axial, arcs)
     }
 
     /// The loaded parts of the face if the flanks approach by `depth` [rad]. `storage` is for the points of partly
@@ -268,31 +151,6 @@ impl Detailed {
         } else {
             [Part::NONE; 2]
         }
-    }
-
-    /// Adds the loads of a pair.
-    #[inline(always)]
-    fn add<S: Spring, const ROWS: usize, const OPEN: bool>(
-        &self,
-        (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
-        totals: &mut Totals<ROWS, LOCAL>,
-        (name, pair): (&PairName, &ToothPair),
-        state: &DetailedState,
-        look: impl FnMut(&SliceLoad),
-    ) {
-        let (mut opening, mut axial, mut arcs) = (Opening::NONE, [0.0; 2], Arcs::NONE);
-        let mut storage = PointStorage::default();
-        if OPEN {
-            (opening, axial, arcs) = self.opened_pair(teeth, name, pair.s, state.position[2]);
-        }
-        let parts = self.loaded_parts::<OPEN>(pair.depth, &opening, &mut storage);
-        // most nearby pairs do not touch
-        if parts.iter().all(Part::is_empty) {
-            return;
-        }
-        let motion = PairMotion::<OPEN, false>::new(pair, &opening, axial, state);
-        let touching = Touching { name, pair, local: None, opening: &opening, arcs, parts, motion };
-        self.add_touching((spring, teeth, needs_thrust), totals, touching, look);
     }
 }
 

@@ -7,7 +7,8 @@
 //! moment arms R cosδ_b sinψ about both axes. It opposes the sliding speed v = R (u_p cotδ_bp sinψ_p − u_s cotδ_bs
 //! sinψ_s), where u are the speeds of both flanks along the line of action.
 //!
-//! Quantities of a pair are computed once per pair (`directions`, `pair`). `sums` adds up the face in the pair's own
+//! Gear bodies are rigid, or elastic so that pairs move each other (`planet`, `on_bodies`). Quantities of a pair are
+//! computed once per pair (`directions`, `opening`, `pair`). `sums` adds up the face in the pair's own
 //! coordinates, and `totals` converts the sums to the coordinates of the mesh.
 
 mod directions;
@@ -18,7 +19,9 @@ mod loaded_span;
 mod loads;
 mod mesh;
 mod on_bodies;
+mod opening;
 mod pair;
+mod planet;
 mod points;
 mod sums;
 mod totals;
@@ -30,8 +33,8 @@ pub use face_load::KnownSlice;
 pub use largest_on_face::SlidingPoint;
 pub use loads::{DetailedLoad, DetailedState, Opening, PairName, Slice, SliceLoad};
 pub use mesh::{Detailed, MeshTeeth};
-pub use on_bodies::SharedTeeth;
 pub use pair::PairMotion;
+pub use planet::Meshes;
 pub use points::Node;
 pub use totals::Totals;
 

@@ -1,13 +1,14 @@
 //! Motion of a tooth pair with q, x, w: converts derivatives with respect to approach, opening and position to mesh
 //! coordinates.
 
+use super::opening::Opened;
 use super::sums::{Approach, By};
-use super::{DetailedState, LOCAL, Opening, SlidingGeometry};
+use super::{DetailedState, LOCAL, SlidingGeometry, WITH_OTHER};
 use crate::contact::ToothPair;
 
-/// Motion of a pair. If `OPEN`, its flanks may not fit. If `SHARED`, other pairs move it.
+/// Motion of a pair. If `OPEN`, its flanks may not fit.
 #[derive(Clone, Copy, Debug)]
-pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
+pub struct PairMotion<const OPEN: bool> {
     /// Approach of the flanks and its rates.
     pub approach: Approach,
     /// ∂a/∂q.
@@ -28,23 +29,23 @@ pub struct PairMotion<const OPEN: bool, const SHARED: bool> {
     opening_rate_slope: [f64; 2],
     /// Rates of q and x [rad/s].
     rate: [f64; 2],
-    /// Derivatives of the own arc with respect to q, x, w of the pair's mesh and of the planet's other mesh, if other
-    /// pairs move the pair.
+    /// Derivatives of the own arc with respect to q, x, w of the pair's mesh and of the planet's other mesh, if gear
+    /// bodies are elastic.
     pub own: [[f64; 3]; 2],
 }
 
-impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
-    /// Returns the motion of `pair` with its `opening`. `axial` contains ν and ∂ν/∂s.
+impl<const OPEN: bool> PairMotion<OPEN> {
+    /// Returns the motion of `pair` with the own arc `own` [rad] and the opening `opened`.
     #[inline(always)]
-    pub fn new(pair: &ToothPair, opening: &Opening, axial: [f64; 2], state: &DetailedState) -> Self {
+    pub fn new(pair: &ToothPair, own: f64, opened: &Opened, state: &DetailedState) -> Self {
         let [dq, dx, dw] = state.rate;
-        let ([nu, nu_slope], even) = (axial, &opening.even);
+        let ([nu, nu_slope], even) = (opened.axial, &opened.opening.even);
         let (slope, [qq, xx], s_slope) = (pair.slope, pair.curvature, pair.s_slope);
         let by_x = even.d * s_slope;
         let twice = [even.dd * s_slope * s_slope, nu_slope * s_slope];
         Self {
             approach: Approach {
-                arc: pair.depth,
+                arc: own,
                 rate: slope[0] * dq + slope[1] * dx,
                 opening_rate: if OPEN { by_x * dx + nu * dw } else { 0.0 },
             },
@@ -67,7 +68,8 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
     pub fn slopes<const WIDE: usize>(&self, &[arc, even, s, rate, opening_rate]: &By) -> [f64; WIDE] {
         let ([q, x], [ex, ew]) = (self.slope, self.opening);
         let mut slopes = [0.0; WIDE];
-        let of_arc = if SHARED { self.own[0] } else { [q, x, 0.0] };
+        let is_shared = WIDE == WITH_OTHER;
+        let of_arc = if is_shared { self.own[0] } else { [q, x, 0.0] };
         let local = if OPEN {
             let by_w = even * ew + opening_rate * self.opening_rate_slope[1];
             [
@@ -77,7 +79,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
                     + s * self.s_slope
                     + rate * self.rate_slope[1]
                     + opening_rate * self.opening_rate_slope[0],
-                if SHARED { by_w + arc * of_arc[2] } else { by_w },
+                if is_shared { by_w + arc * of_arc[2] } else { by_w },
                 rate * q,
                 rate * x + opening_rate * ex,
                 opening_rate * ew,
@@ -87,7 +89,7 @@ impl<const OPEN: bool, const SHARED: bool> PairMotion<OPEN, SHARED> {
             [arc * of_arc[0] + rate * self.rate_slope[0], by_x, 0.0, rate * q, rate * x, 0.0]
         };
         slopes[..LOCAL].copy_from_slice(&local);
-        if SHARED {
+        if is_shared {
             for (slope, other) in slopes[LOCAL..].iter_mut().zip(self.own[1]) {
                 *slope = arc * other;
             }

@@ -124,7 +124,7 @@ impl Sums {
                 add::<OPEN>(&mut self.by[2], weight, per_cone, [elastic.torque_by_s, elastic.by_s_twice, 0.0]);
             }
             // derivatives along the face, for points that move
-            let moving = if SLOPES && !S::LINEAR { part.moves.as_ref() } else { None };
+            let moving = if SLOPES && !spring.is_linear() { part.moves.as_ref() } else { None };
             let along = moving.map(|moves| {
                 let closing = (part.even * per_cone) * per_cone - opening.bend;
                 let along = by[0] * closing + by[2] * at.opening_rate * per_cone * per_cone;

@@ -42,7 +42,7 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
 
     /// Adds the elastic and damping forces of a pair.
     #[inline(always)]
-    pub fn add_teeth<const OPEN: bool, const SHARED: bool>(&mut self, motion: &PairMotion<OPEN, SHARED>, sums: &Sums) {
+    pub fn add_teeth<const OPEN: bool>(&mut self, motion: &PairMotion<OPEN>, sums: &Sums) {
         let (torque, normal) = (sums.torque, sums.normal);
         let ([aq, ax], [ex, ew]) = (motion.slope, motion.opening);
         self.value[Q] -= torque * aq;
@@ -78,9 +78,9 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
 
     /// Adds friction along the flanks of a pair: −h N along the planet's flank has the lever arms R cotδ_b sinψ.
     #[inline(always)]
-    pub fn add_friction<const OPEN: bool, const SHARED: bool>(
+    pub fn add_friction<const OPEN: bool>(
         &mut self,
-        motion: &PairMotion<OPEN, SHARED>,
+        motion: &PairMotion<OPEN>,
         sums: &Sums,
         pair_friction: &PairFriction,
     ) {
@@ -108,9 +108,9 @@ impl<const ROWS: usize, const WIDE: usize> Totals<ROWS, WIDE> {
 
     /// Adds the components of a pair's normal force along the axes and the rotation.
     #[inline(always)]
-    pub fn add_thrust<const OPEN: bool, const SHARED: bool>(
+    pub fn add_thrust<const OPEN: bool>(
         &mut self,
-        motion: &PairMotion<OPEN, SHARED>,
+        motion: &PairMotion<OPEN>,
         sums: &Sums,
         normal: &NormalComponents,
         spot: Spot,

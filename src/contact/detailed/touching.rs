@@ -1,27 +1,19 @@
 //! A touching tooth pair: adds the loads of its face to the loads of its mesh.
 
-use super::directions::Arcs;
 use super::face::Part;
+use super::planet::NearPair;
 use super::sums::{Approach, LoadedNode, PairFriction, Sums};
 use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
 use crate::contact::{Spring, ToothPair};
 
 /// A touching pair.
-pub struct Touching<'a, P, const OPEN: bool, const SHARED: bool> {
-    /// Identity of the teeth.
-    pub name: &'a PairName,
-    /// The pair. If elastic gear bodies move it, its depth is its own arc (`contact::shared`).
-    pub pair: &'a ToothPair,
-    /// Values of the elastic law at the position of the pair, if known already.
-    pub local: Option<P>,
-    /// Opening of the flanks.
-    pub opening: &'a Opening,
-    /// Arcs of the pair, if the axial seats need them.
-    pub arcs: Arcs,
+pub struct Touching<'a, P, const OPEN: bool> {
+    /// The pair.
+    pub near: &'a NearPair<'a, P>,
     /// Loaded parts of the face.
     pub parts: [Part<'a>; 2],
     /// Motion of the pair.
-    pub motion: PairMotion<OPEN, SHARED>,
+    pub motion: PairMotion<OPEN>,
 }
 
 /// Data that the loads of all points of a pair share.
@@ -44,7 +36,6 @@ impl<'a> Seen<'a> {
         let (LoadedNode { node, torque, friction, .. }, pair) = (loaded, self.pair);
         let force = torque * node.weight * node.per_cone;
         SliceLoad {
-            pair,
             spot: pair.spot,
             spot_arc: pair.spot_arc,
             cone: node.cone,
@@ -67,20 +58,15 @@ impl<'a> Seen<'a> {
 impl Detailed {
     /// Adds the loads of a touching pair.
     #[inline(always)]
-    pub(super) fn add_touching<
-        S: Spring,
-        const ROWS: usize,
-        const WIDE: usize,
-        const OPEN: bool,
-        const SHARED: bool,
-    >(
+    pub(super) fn add_touching<S: Spring, const ROWS: usize, const WIDE: usize, const OPEN: bool>(
         &self,
         (spring, teeth, needs_thrust): (&S, &MeshTeeth, bool),
         totals: &mut Totals<ROWS, WIDE>,
-        touching: Touching<S::Local, OPEN, SHARED>,
+        touching: Touching<S::Local, OPEN>,
         mut look: impl FnMut(&SliceLoad),
     ) {
-        let Touching { name, pair, local, opening, mut arcs, parts, motion } = touching;
+        let Touching { near: NearPair { name, pair, opened, local, .. }, parts, motion } = touching;
+        let (opening, mut arcs) = (&opened.opening, opened.arcs);
         if !(OPEN && self.has_seats) && (needs_thrust || self.friction.is_some()) {
             arcs = self.directions.arcs(pair.s);
         }

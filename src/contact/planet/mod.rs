@@ -7,21 +7,19 @@
 
 mod in_detail;
 mod load;
-mod on_bodies;
 mod plain;
 mod solid;
 
 use std::ops::Range;
 use std::sync::Arc;
 
-pub use in_detail::{InDetail, InDetailOnBodies};
+pub use in_detail::InDetail;
 pub use load::{LinearisedLoad, MeshLoad, Pressing, PressingSlopes};
-pub use on_bodies::OnBodies;
 pub use plain::Plain;
 pub use solid::Solid;
 
 use super::bodies::PairCouplings;
-use super::detailed::{Detailed, DetailedState, PairName, SliceLoad};
+use super::detailed::{Detailed, DetailedState, LOCAL, PairName, SliceLoad, WITH_OTHER};
 use super::mesh::{Mesh, MeshState};
 use super::solid::mesh::SolidMesh;
 use super::{Damping, Flank, FlankGaps, ToothFriction, ToothLoad};
@@ -96,12 +94,20 @@ pub trait PlanetContact {
     /// Writes the loads of both meshes with their exact derivatives.
     fn linearise(&self, at: &PlanetState, to: &mut [Self::Linearised; 2]);
 
-    /// Elastic energy of both meshes [J].
-    fn energy(&self, at: &PlanetState) -> f64;
+    /// Elastic energies of both meshes [J].
+    fn energies(&self, at: &PlanetState) -> [f64; 2];
 
-    /// Elastic energy gained between two states [J].
+    /// Elastic energy of both meshes [J].
+    fn energy(&self, at: &PlanetState) -> f64 {
+        let [left, right] = self.energies(at);
+        left + right
+    }
+
+    /// Elastic energy gained between two states [J]. Sums the differences mesh by mesh, so that a mesh that does not
+    /// move gains exactly nothing.
     fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
-        self.energy(to) - self.energy(from)
+        let (from, to) = (self.energies(from), self.energies(to));
+        (to[0] - from[0]) + (to[1] - from[1])
     }
 
     /// Fraction of a step of `h` [s] at which a force has its first kink, predicted from the state `at`. `None` if no
@@ -133,12 +139,10 @@ pub enum AnyContact<'a> {
     Plain(Plain<'a>),
     /// Solid teeth.
     Solid(Solid<'a>),
-    /// Flanks that fit, elastic bodies.
-    OnBodies(OnBodies<'a>),
     /// Sums over the face, rigid bodies.
-    InDetail(InDetail<'a>),
+    InDetail(InDetail<'a, LOCAL>),
     /// Sums over the face, elastic bodies.
-    InDetailOnBodies(InDetailOnBodies<'a>),
+    OnBodies(InDetail<'a, WITH_OTHER>),
 }
 
 /// Evaluates an expression with `contact` bound to the contact in use. Without effects (`MAY_ACT` false), only flanks
@@ -148,9 +152,8 @@ macro_rules! with_contact {
         match $of {
             $crate::contact::planet::AnyContact::Plain($contact) => $body,
             $crate::contact::planet::AnyContact::Solid($contact) => $body,
-            $crate::contact::planet::AnyContact::OnBodies($contact) if $may_act => $body,
             $crate::contact::planet::AnyContact::InDetail($contact) if $may_act => $body,
-            $crate::contact::planet::AnyContact::InDetailOnBodies($contact) if $may_act => $body,
+            $crate::contact::planet::AnyContact::OnBodies($contact) if $may_act => $body,
             // [`Contact::without_effects`] returns none of these
             _ => unreachable!(),
         }
@@ -190,17 +193,13 @@ impl Contact {
     /// `is_part_of_steps`, forces of plain teeth are inlined into the caller.
     #[inline]
     pub fn now(&self, is_tooth_broken: bool, viscosity: Option<f64>, is_part_of_steps: bool) -> AnyContact<'_> {
-        let contact = self;
-        if !(self.in_detail || is_tooth_broken) {
-            return match &self.bodies {
-                Some(bodies) => AnyContact::OnBodies(OnBodies { contact, bodies }),
-                None => self.without_effects(is_part_of_steps),
-            };
-        }
-        let teeth = InDetail { contact, gaps: self.gaps(is_tooth_broken), viscosity };
-        match &self.bodies {
-            Some(bodies) => AnyContact::InDetailOnBodies(InDetailOnBodies { teeth, bodies }),
-            None => AnyContact::InDetail(teeth),
+        let (contact, gaps) = (self, self.gaps(is_tooth_broken));
+        match self.bodies.as_deref() {
+            Some(bodies) => AnyContact::OnBodies(InDetail { contact, gaps, viscosity, bodies: Some(bodies) }),
+            None if self.in_detail || is_tooth_broken => {
+                AnyContact::InDetail(InDetail { contact, gaps, viscosity, bodies: None })
+            }
+            None => self.without_effects(is_part_of_steps),
         }
     }
 

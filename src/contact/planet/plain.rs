@@ -51,16 +51,8 @@ impl PlanetContact for Plain<'_> {
         }
     }
 
-    fn energy(&self, at: &PlanetState) -> f64 {
-        let mesh = &self.contact.mesh;
-        mesh.energy(&at.mesh(0)) + mesh.energy(&at.mesh(1))
-    }
-
-    /// Sums the differences mesh by mesh, so that a mesh that does not move gains exactly nothing.
-    fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
-        let mesh = &self.contact.mesh;
-        let gained = |s: usize| mesh.energy(&to.mesh(s)) - mesh.energy(&from.mesh(s));
-        gained(0) + gained(1)
+    fn energies(&self, at: &PlanetState) -> [f64; 2] {
+        [0, 1].map(|s| self.contact.mesh.energy(&at.mesh(s)))
     }
 
     #[inline(always)]
@@ -79,7 +71,7 @@ impl PlanetContact for Plain<'_> {
 }
 
 /// Load of `pair` on side `s` under its `force`.
-pub(super) fn load(
+fn load(
     contact: &Contact,
     (at, s): (&PlanetState, usize),
     (pair, force): (&ToothPair, &Force),

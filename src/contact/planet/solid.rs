@@ -35,15 +35,8 @@ impl PlanetContact for Solid<'_> {
         }
     }
 
-    fn energy(&self, at: &PlanetState) -> f64 {
-        let of = |s: usize| self.solid.energy([at.planet, s], at.mesh(s).position);
-        of(0) + of(1)
-    }
-
-    fn energy_gained(&self, from: &PlanetState, to: &PlanetState) -> f64 {
-        let of = |at: &PlanetState, s: usize| self.solid.energy([at.planet, s], at.mesh(s).position);
-        let gained = |s: usize| of(to, s) - of(from, s);
-        gained(0) + gained(1)
+    fn energies(&self, at: &PlanetState) -> [f64; 2] {
+        [0, 1].map(|s| self.solid.energy([at.planet, s], at.mesh(s).position))
     }
 
     /// Returns `None`: the force of solid teeth is smooth enough between facets.

@@ -34,15 +34,14 @@ impl<const K: usize> OwnArcs<K> {
     /// Otherwise, [`Self::new`] iterates.
     #[inline(always)]
     pub fn linear(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
-        let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
         let (mut right, mut carry) = ([[0.0]; K], true);
-        for k in 0..n {
+        for k in 0..K {
             own.stiffness[k] = law(k, 1.0)[1];
             right[k][0] = arcs[k];
         }
         own.solve(couplings, &mut right);
-        for k in 0..n {
+        for k in 0..K {
             own.arc[k] = right[k][0];
             own.load[k] = own.stiffness[k] * own.arc[k];
             carry &= own.arc[k] > 0.0;
@@ -58,23 +57,22 @@ impl<const K: usize> OwnArcs<K> {
     /// Gauss-Seidel rounds always descend.
     #[inline(always)]
     pub fn new(couplings: &Couplings<K>, arcs: &[f64; K], law: impl Fn(usize, f64) -> [f64; 2]) -> Self {
-        let n = couplings.count;
         let mut own = Self { arc: *arcs, load: [0.0; K], stiffness: [0.0; K] };
         // the residual also contains the rounding of the flanks' openings
-        let scale = arcs[..n].iter().fold(SMALLEST_ARC, |most, arc| most.max(arc.abs()));
-        let solved = SOLVED * scale * n.div_ceil(FEW) as f64;
+        let scale = arcs.iter().fold(SMALLEST_ARC, |most, arc| most.max(arc.abs()));
+        let solved = SOLVED * scale * K.div_ceil(FEW) as f64;
         let (mut last, mut part, mut vain) = (f64::INFINITY, 1.0, 0);
         for step in 0..STEPS {
-            for k in 0..n {
+            for k in 0..K {
                 [own.load[k], own.stiffness[k]] = law(k, own.arc[k]);
             }
             let moved = couplings.moved(&own.load);
             let (mut left, mut most) = ([[0.0]; K], 0.0f64);
-            for k in 0..n {
+            for k in 0..K {
                 left[k][0] = arcs[k] - moved[k] - own.arc[k];
                 most = most.max(left[k][0].abs());
             }
-            if most <= solved || n < 2 || step == STEPS - 1 {
+            if most <= solved || K < 2 || step == STEPS - 1 {
                 break;
             }
             // if pairs alternately gain and lose contact, the step is halved
@@ -89,7 +87,7 @@ impl<const K: usize> OwnArcs<K> {
                 continue;
             }
             own.solve(couplings, &mut left);
-            for k in 0..n {
+            for k in 0..K {
                 own.arc[k] += part * left[k][0];
             }
         }
@@ -100,7 +98,7 @@ impl<const K: usize> OwnArcs<K> {
     #[cold]
     fn go_round(&mut self, couplings: &Couplings<K>, arcs: &[f64; K], law: &dyn Fn(usize, f64) -> [f64; 2]) {
         for _ in 0..ROUNDS {
-            for (k, row) in couplings.value.iter().enumerate().take(couplings.count) {
+            for (k, row) in couplings.value.iter().enumerate() {
                 let moved: f64 = row.iter().zip(&self.load).map(|(t, load)| t * load).sum();
                 self.arc[k] = arcs[k] - moved;
                 self.load[k] = law(k, self.arc[k])[0];
@@ -112,19 +110,18 @@ impl<const K: usize> OwnArcs<K> {
     /// definite, so elimination needs no pivoting.
     #[inline(always)]
     pub fn solve<const R: usize>(&self, couplings: &Couplings<K>, right: &mut [[f64; R]; K]) {
-        let n = couplings.count;
         let mut matrix = [[0.0; K]; K];
-        for (row, t) in matrix.iter_mut().zip(&couplings.value).take(n) {
+        for (row, t) in matrix.iter_mut().zip(&couplings.value) {
             for k in 0..K {
                 row[k] = t[k] * self.stiffness[k];
             }
         }
-        for p in 0..n {
+        for p in 0..K {
             let pivot = 1.0 / (1.0 + matrix[p][p]);
-            for i in p + 1..n {
+            for i in p + 1..K {
                 let factor = matrix[i][p] * pivot;
                 if factor != 0.0 {
-                    for j in p + 1..n {
+                    for j in p + 1..K {
                         matrix[i][j] -= factor * matrix[p][j];
                     }
                     for r in 0..R {
@@ -134,10 +131,10 @@ impl<const K: usize> OwnArcs<K> {
             }
             matrix[p][p] = pivot;
         }
-        for p in (0..n).rev() {
+        for p in (0..K).rev() {
             for r in 0..R {
                 let mut sum = right[p][r];
-                for j in p + 1..n {
+                for j in p + 1..K {
                     sum -= matrix[p][j] * right[j][r];
                 }
                 right[p][r] = sum * matrix[p][p];

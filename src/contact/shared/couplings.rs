@@ -54,9 +54,7 @@ impl<T> Pairs<T> {
 /// Couplings t_kl of up to `K` pairs, with their derivatives with respect to the positions.
 #[derive(Clone, Copy, Debug)]
 pub struct Couplings<const K: usize> {
-    /// Number of pairs.
-    pub count: usize,
-    /// t_kl, 0 for k = l [1/Pa].
+    /// t_kl, 0 for k = l and for missing pairs [1/Pa].
     pub value: [[f64; K]; K],
     /// ∂t_kl/∂s_k.
     pub by_own: [[f64; K]; K],
@@ -71,38 +69,38 @@ pub struct CouplingCurvatures<const K: usize> {
     pub both: [[f64; K]; K],
 }
 
+impl<const K: usize> CouplingCurvatures<K> {
+    /// Curvatures of an empty set of pairs.
+    pub const NONE: Self = Self { own: [[0.0; K]; K], both: [[0.0; K]; K] };
+}
+
 impl<const K: usize> Couplings<K> {
     /// Couplings of an empty set of pairs.
-    const NONE: Self = Self { count: 0, value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
+    pub const NONE: Self = Self { value: [[0.0; K]; K], by_own: [[0.0; K]; K] };
 
-    /// Returns the couplings of the first `count` pairs at their `positions`.
+    /// Sets the couplings of the pairs at their `positions`.
     #[inline(always)]
-    pub fn new(bodies: &PairCouplings, count: usize, positions: &[Option<&LoadedPair>; K]) -> Self {
-        let mut all = Self { count, ..Self::NONE };
-        for_each_two::<false>(bodies, &positions[..count], |k, l, t: &Coupling| all.set(k, l, t));
-        all
+    pub fn set(&mut self, bodies: &PairCouplings, positions: &[Option<LoadedPair>; K]) {
+        for_each_two::<false, K>(bodies, positions, |k, l, t: &Coupling| self.set_one(k, l, t));
     }
 
-    /// Returns the couplings of the first `count` pairs at their `positions`, with second derivatives.
+    /// Sets the couplings of the pairs at their `positions`, and their second derivatives.
     #[inline(always)]
-    pub fn with_curvatures(
+    pub fn set_with_curvatures(
+        &mut self,
+        curvatures: &mut CouplingCurvatures<K>,
         bodies: &PairCouplings,
-        count: usize,
-        positions: &[Option<&LoadedPair>; K],
-    ) -> (Self, CouplingCurvatures<K>) {
-        let mut all = Self { count, ..Self::NONE };
-        let mut curvatures = CouplingCurvatures { own: [[0.0; K]; K], both: [[0.0; K]; K] };
-        let set = |k: usize, l: usize, t: &Coupling| {
-            all.set(k, l, t);
+        positions: &[Option<LoadedPair>; K],
+    ) {
+        for_each_two::<true, K>(bodies, positions, |k, l, t: &Coupling| {
+            self.set_one(k, l, t);
             (curvatures.own[k][l], curvatures.own[l][k]) = (t.hessian[0], t.hessian[2]);
             (curvatures.both[k][l], curvatures.both[l][k]) = (t.hessian[1], t.hessian[1]);
-        };
-        for_each_two::<true>(bodies, &positions[..count], set);
-        (all, curvatures)
+        });
     }
 
     #[inline(always)]
-    fn set(&mut self, k: usize, l: usize, t: &Coupling) {
+    fn set_one(&mut self, k: usize, l: usize, t: &Coupling) {
         (self.value[k][l], self.value[l][k]) = (t.value, t.value);
         (self.by_own[k][l], self.by_own[l][k]) = (t.gradient[0], t.gradient[1]);
     }
@@ -112,9 +110,9 @@ impl<const K: usize> Couplings<K> {
     pub fn moved(&self, load: &[f64; K]) -> [f64; K] {
         let mut product = [0.0; K];
         // t is symmetric, so whole rows can be summed as vectors; entries beyond the pairs are zero
-        for (row, load) in self.value.iter().zip(load).take(self.count) {
-            for (sum, t) in product.iter_mut().zip(row) {
-                *sum += t * load;
+        for l in 0..K {
+            for k in 0..K {
+                product[k] += self.value[l][k] * load[l];
             }
         }
         product
@@ -124,9 +122,9 @@ impl<const K: usize> Couplings<K> {
     #[inline(always)]
     pub fn along(&self, load: &[f64; K]) -> [f64; K] {
         let mut product = [0.0; K];
-        for (sum, row) in product.iter_mut().zip(&self.by_own).take(self.count) {
-            for (t, load) in row.iter().zip(load).take(self.count) {
-                *sum += t * load;
+        for k in 0..K {
+            for l in 0..K {
+                product[k] += self.by_own[k][l] * load[l];
             }
         }
         product
@@ -135,14 +133,14 @@ impl<const K: usize> Couplings<K> {
 
 /// Calls `visit` with every two of the pairs at `positions` and their coupling, with second derivatives if `CURVATURE`.
 #[inline(always)]
-fn for_each_two<const CURVATURE: bool>(
+fn for_each_two<const CURVATURE: bool, const K: usize>(
     bodies: &PairCouplings,
-    positions: &[Option<&LoadedPair>],
+    positions: &[Option<LoadedPair>; K],
     mut visit: impl FnMut(usize, usize, &Coupling),
 ) {
-    for (k, a) in positions.iter().enumerate() {
-        for (l, b) in positions[..k].iter().enumerate() {
-            if let (Some(a), Some(b)) = (a, b) {
+    for k in 0..K {
+        for l in 0..k {
+            if let (Some(a), Some(b)) = (&positions[k], &positions[l]) {
                 visit(k, l, &bodies.coupling::<CURVATURE>(a, b));
             }
         }

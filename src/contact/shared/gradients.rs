@@ -31,12 +31,11 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
         arc: [[f64; Z]; K],
         changes: &[Change; K],
     ) -> Self {
-        let n = couplings.count;
         let mut right = arc;
-        for k in 0..n {
+        for k in 0..K {
             let (coordinate, slope, _) = changes[k].position;
             right[k][coordinate] -= along[k] * slope;
-            for l in (0..n).filter(|&l| l != k) {
+            for l in (0..K).filter(|&l| l != k) {
                 let Change { position: (coordinate, slope, load), opening: (opening, opened) } = changes[l];
                 right[k][coordinate] -= couplings.by_own[l][k] * own.load[l] * slope + couplings.value[k][l] * load;
                 right[k][opening] -= couplings.value[k][l] * opened;
@@ -44,16 +43,16 @@ impl<const K: usize, const Z: usize> Gradients<K, Z> {
         }
         own.solve(couplings, &mut right);
         let mut load = right;
-        for k in 0..n {
+        for k in 0..K {
             load[k] = load[k].map(|by| own.stiffness[k] * by);
             load[k][changes[k].position.0] += changes[k].position.2;
             load[k][changes[k].opening.0] += changes[k].opening.1;
         }
         let mut along_by = [[0.0; Z]; K];
-        for k in 0..n {
+        for k in 0..K {
             let (coordinate, slope, _) = changes[k].position;
             along_by[k] = load[k].map(|by| by * along[k]);
-            for l in (0..n).filter(|&l| l != k) {
+            for l in (0..K).filter(|&l| l != k) {
                 let of_other = own.load[k] * own.load[l];
                 along_by[k][coordinate] += curvatures.own[k][l] * of_other * slope;
                 along_by[k][changes[l].position.0] += curvatures.both[k][l] * of_other * changes[l].position.1;

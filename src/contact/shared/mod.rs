@@ -16,12 +16,10 @@ mod arcs;
 mod couplings;
 mod gradients;
 mod opening_by_others;
-mod plain;
 mod sharing;
 
 pub use arcs::OwnArcs;
 pub use couplings::{CouplingCurvatures, Couplings, MAX_PAIRS, Pairs};
 pub use gradients::{Change, Gradients};
 pub use opening_by_others::OpeningByOthers;
-pub use plain::{SharedForce, SharedMeshes};
 pub use sharing::{COORDINATES, Share, Sharing};

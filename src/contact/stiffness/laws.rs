@@ -32,9 +32,13 @@ impl Line {
 }
 
 impl Spring for Line {
-    const LINEAR: bool = true;
     /// 1/q, and the slopes of q.
     type Local = [f64; 3];
+
+    #[inline(always)]
+    fn is_linear(&self) -> bool {
+        true
+    }
 
     #[inline(always)]
     fn local(&self, s: f64) -> [f64; 3] {

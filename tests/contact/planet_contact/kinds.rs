@@ -221,9 +221,8 @@ macro_rules! evaluate {
         match $of.constants.now(false, None, true) {
             AnyContact::Plain($contact) => $body,
             AnyContact::Solid($contact) => $body,
-            AnyContact::OnBodies($contact) => $body,
             AnyContact::InDetail($contact) => $body,
-            AnyContact::InDetailOnBodies($contact) => $body,
+            AnyContact::OnBodies($contact) => $body,
         }
     };
 }
