@@ -156,7 +156,9 @@ def steps(fmu, drive, played, verdict):
     values, start = played.values, drive["start"]
     cycles = np.trapezoid(values["mesh.frequency"], played.time)
     if "effects.final_drive" in start:
-        cycles += start["final_drive.ring_teeth"] * np.trapezoid(np.abs(values["carrier.speed"]), played.time) / (2.0 * np.pi)
+        # a mesh with errors has harmonics, and each cycle of a rigid mesh is free
+        orders = sum(n for n in (1, 2, 3) if start.get(f"final_drive.error_{n}", 0.0) > 0.0)
+        cycles += orders * start["final_drive.ring_teeth"] * np.trapezoid(np.abs(values["carrier.speed"]), played.time) / (2.0 * np.pi)
     per_change = PER_CHANGE
     if start["scene.carrier_drive"] == "speed" and not drive["slopes"]:
         blow = PER_JUMP_OF_PINS if "effects.pin_compliance" in start else PER_IMPACT
