@@ -97,6 +97,8 @@ def energy(drive, played, verdict):
     values, start = played.values, drive["start"]
     through = float(np.trapezoid(np.abs(values["power.in"]) + np.abs(values["power.out"]), played.time)) + abs(played.heat)
     stored = kinetic(start["inertia.carrier"], values["carrier.speed"])
+    stored = stored + kinetic(start.get("inertia.pinion", 0.0), values["pinion.speed"])
+    stored = stored + kinetic(start.get("inertia.propeller_end", 0.0), values["propeller.speed"])
     for side in SIDES:
         stored = stored + kinetic(start[f"inertia.{side}_end"], values[f"{side}.wheel_speed"]) + wound(drive, values, side)
     verdict.residual = float(np.max(np.abs(values["solver.energy_residual"]))) / (through + float(np.max(stored)))
@@ -156,7 +158,9 @@ def steps(fmu, drive, played, verdict):
     values, start = played.values, drive["start"]
     cycles = np.trapezoid(values["mesh.frequency"], played.time)
     if "effects.final_drive" in start:
-        cycles += start["final_drive.ring_teeth"] * np.trapezoid(np.abs(values["carrier.speed"]), played.time) / (2.0 * np.pi)
+        # only the errors of an elastic mesh excite it; each harmonic adds its cycles
+        orders = sum(n for n in (1, 2, 3) if start.get(f"final_drive.error_{n}", 0.0) > 0.0)
+        cycles += orders * start["final_drive.ring_teeth"] * np.trapezoid(np.abs(values["carrier.speed"]), played.time) / (2.0 * np.pi)
     per_change = PER_CHANGE
     if start["scene.carrier_drive"] == "speed" and not drive["slopes"]:
         blow = PER_JUMP_OF_PINS if "effects.pin_compliance" in start else PER_IMPACT

@@ -1,8 +1,9 @@
 """Balance of the angular momentum about the axle, asserted after every step of a `Drive` in addition to that of the energy.
 
 The carrier turns with its planets, or each planet turns with its compliant pin; side gears end at the half-shafts. Their
-momentum changes by the drive, the torques of the shafts and drag. Inertias are given, or from `outline_solids`. The torque of a
-drive that imposes the carrier's speed follows from the torques of the meshes.
+momentum changes by the torque on the carrier, the torques of the shafts and drag. Inertias are given, or from `outline_solids`.
+The torque of a drive that imposes the carrier's speed follows from the torques of the meshes. Pinion and propeller shaft of a final
+drive have a balance of their own, in which the torque of the drive becomes the torque on the carrier (`FinalDrive`).
 
 INSTANT   relative rounding error of all terms at an instant
 SOLIDS    relative error of the inertias of the program's faceted solids, as stated in docs/inside/theory.md
@@ -14,6 +15,7 @@ WARMER    temperature change of an oil that warms up: drag follows in steps of 0
 import numpy as np
 import outline_solids
 import theory
+from final_drives import FinalDrive
 
 INSTANT, SOLIDS, RUN, SLIDING, WARMER = 1e-9, 2e-5, 10.0, 1e-3, 0.2
 SIDES = ["left", "right"]
@@ -31,6 +33,7 @@ class Momentum:
         self.planets = opened.get("geometry.planet_count")
         self.radius = 0.5 * opened.get("geometry.module") * opened.get("geometry.side_teeth")
         self.orbit, self.side, self.facets = self.inertias()
+        self.final = FinalDrive(opened) if self.on["effects.final_drive"] else None
         self.carrier = opened.get("inertia.carrier")
         self.twists = [self.imposed[f"{s}_drive"] or self.on["effects.half_shaft"] and opened.get(f"inertia.{s}_end") > 0.0
                        for s in SIDES]
@@ -106,18 +109,19 @@ class Momentum:
         facets = SOLIDS * (self.facets[0] * np.sum(np.abs(terms[1:-2])) + self.facets[1] * np.sum(np.abs(terms[-2:])))
         off = np.sum(terms) - (drive - sum(shafts) - np.sum(drag))
         assert abs(off) <= rounding + facets, f"momentum about the axle is off by {off} N.m: {terms} {drive} {shafts}"
+        port = one.get("propeller.torque")
         if not self.imposed["carrier_drive"]:
-            wave = 1.0
-            if self.on["effects.final_drive"]:
-                teeth = one.get("final_drive.ring_teeth")
-                wave += one.get("final_drive.amplitude") * np.sin(teeth * one.get("carrier.angle"))
-            wanted = one.get("carrier.torque_command") * wave
+            command = one.get("pinion.torque_command" if self.final else "carrier.torque_command")
+            assert abs(port - command) <= INSTANT * abs(command), f"the drive gives {port} N.m, not {command}"
+        if self.final:
+            self.final.check(rounding)
+        if not self.final and not self.imposed["carrier_drive"]:
+            wanted = port
         elif not any(self.on[name] for name in RUBBING) and one.get("lock.command") == 0.0:
             wanted = np.sum(terms[:-2]) + np.sum(meshes) + drag[0]
         else:
             wanted = drive
-        # sin zθ of an angle of many turns is only known to its rounding error
-        assert abs(drive - wanted) <= rounding + facets + 1e-9 * abs(wanted), f"drive gives {drive} N.m, not {wanted}"
+        assert abs(drive - wanted) <= rounding + facets + INSTANT * abs(wanted), f"the carrier has {drive} N.m, not {wanted}"
         for s, side in enumerate(SIDES):
             self.check_shaft(side, shafts[s], f"{side}.end_speed" if self.twists[s] else f"{side}.speed", rounding)
 
@@ -136,18 +140,19 @@ class Momentum:
         assert abs(torque - needed) <= rounding + INSTANT * abs(needed), f"the end at the {side} is off"
 
     def now(self):
-        """Momentum including the ends, and the sum of the magnitudes of its parts."""
+        """Momentum including the ends and the final drive, and the sum of the magnitudes of its parts."""
         speeds = np.array(self.opened.read(self.bodies))
         ends = [self.opened.get(f"{s}.end_speed" if twists else f"{s}.speed") for s, twists in zip(SIDES, self.twists)]
-        parts = np.append(self.weights() * speeds, np.array(self.ends) * ends)
+        parts = np.concatenate([self.weights() * speeds, np.array(self.ends) * ends, self.final.momenta() if self.final else []])
         return np.sum(parts), np.sum(np.abs(parts))
 
     def commands(self):
         """External torques, or None if commands do not determine all of them."""
-        if (self.on["effects.bearing_drag"] or self.on["effects.final_drive"] or any(self.imposed.values())
+        if (self.on["effects.bearing_drag"] or self.final and not self.final.keeps_momentum or any(self.imposed.values())
                 or any(self.opened.read(["left.brake_torque", "right.brake_torque"]))):
             return None
-        return np.array(self.opened.read(["carrier.torque_command", "left.load_torque", "right.load_torque"]))
+        drive = self.final.command() if self.final else self.opened.get("carrier.torque_command")
+        return np.array([drive, *self.opened.read(["left.load_torque", "right.load_torque"])])
 
     def before_step(self):
         """Reads the state and the inputs, which may have changed since the last step."""

@@ -16,6 +16,7 @@ The host sets all inputs to their values at 0 before the start, and to the value
 import math
 
 import numpy as np
+from final_drives import ratio_of
 from ordinary_courses import DRIVE, LOCK, MANOEUVRES, SIDES, SPEED, Course, locked, park, park_for_an_hour
 from ordinary_vehicles import differential, vehicle
 
@@ -32,7 +33,8 @@ BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
 # shortest hold that is checked [s]
 SHORTEST_HOLD = 0.2
 # variables that change their sign in a mirrored drive
-SIGNED = (DRIVE, SPEED, *(f"{side}.load_torque" for side in SIDES))
+PORT = {DRIVE: "pinion.torque_command", SPEED: "pinion.speed_command"}
+SIGNED = (*PORT, *PORT.values(), *(f"{side}.load_torque" for side in SIDES))
 # A point of an input is moved to a communication point that is closer than this fraction of a step.
 ROUNDING = 1e-6
 # digits of values, and decimals of times: sufficient for any drive, and still readable
@@ -76,7 +78,8 @@ def drive(seed, index, levels):
         "start": start | beginning(random, course, by_speed, method), "inputs": inputs(course, by_speed),
         # inputs that are held through a step may be one step late
         "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
-    return image(readable(made)) if mirrored else readable(made)
+    made = readable(at_port(made))
+    return image(made) if mirrored else made
 
 
 def chosen(random, shares):
@@ -91,6 +94,21 @@ def beginning(random, course, by_speed, method):
     if not by_speed and mode != "rest":
         values[SPEED] = course.begin
     return values if method == "adaptive" else values | {"solver.method": method}
+
+
+def at_port(drive):
+    """Drive whose commands act on the pinion of its final drive, if it has one: torques are divided by the ratio, speeds multiplied."""
+    start = drive["start"]
+    if "effects.final_drive" not in start:
+        return drive
+    ratio = ratio_of(start)
+
+    def moved(values, change):
+        return {PORT.get(name, name): change(value, ratio if name == SPEED else 1.0 / ratio) if name in PORT else value
+                for name, value in values.items()}
+
+    return drive | {"start": moved(start, lambda value, factor: factor * value),
+                    "inputs": moved(drive["inputs"], lambda points, factor: [[time, factor * value] for time, value in points])}
 
 
 def inputs(course, by_speed):

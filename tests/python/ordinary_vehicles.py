@@ -191,11 +191,46 @@ def tooth_errors(random, vehicle, contact, law):
 
 
 def final_drive(random, vehicle, _contact, _law):
-    """Excitation by the ring gear's teeth, only of a torque: 2 % of an imposed speed would be hundreds of rad/s²."""
-    if vehicle.by_speed:
-        return {}
-    return {"effects.final_drive": True, "final_drive.ring_teeth": int(random.integers(29, 46)),
-            "final_drive.amplitude": random.uniform(0.005, 0.03)}
+    """Final drive of matching size, rigid or with lash and errors; half of them are behind a propeller shaft. Carrier, pinion and driven
+    end have the inertia of the vehicle's carrier in total."""
+    pinion = int(random.integers(8, 14))
+    ring = int(round(pinion * random.uniform(2.5, 5.0)))
+    ratio, size = ring / pinion, max((vehicle.peak / RATED) ** (1.0 / 3.0), SMALLEST)
+    torque = 2.0 * vehicle.peak / ratio
+    values = {"effects.final_drive": True, "final_drive.pinion_teeth": pinion, "final_drive.ring_teeth": ring,
+              "final_drive.friction_torque": random.uniform(0.002, 0.02) * torque,
+              "final_drive.viscous": random.uniform(0.0, 2e-5) * torque, "inertia.carrier": 0.4 * vehicle.carrier}
+    front = 0.6 * vehicle.carrier / ratio**2
+    if random.random() < 0.5:
+        values |= elastic_mesh(random, vehicle, size)
+    if random.random() < 0.5:
+        values |= propeller_shaft(random, torque, 0.8 * front)
+        front *= 0.2
+    return values | {"inertia.pinion": front}
+
+
+def elastic_mesh(random, vehicle, size):
+    """Mesh with lash that is damped by 3 to 10 %, with small errors of the mesh order and its harmonic, and runouts in some."""
+    radius, stiffness = 0.09 * size, 3e8 * size
+    damping = 2.0 * random.uniform(0.03, 0.1) * sqrt(stiffness * 0.1 * vehicle.carrier) / radius
+    values = {"elastic_mesh": True, "mean_radius": radius, "stiffness": stiffness, "damping": damping,
+              "backlash": random.uniform(5e-5, 2e-4) * size, "error_1": random.uniform(1e-6, 4e-6) * size}
+    if random.random() < 0.5:
+        values |= {"error_2": random.uniform(2e-7, 1e-6) * size, "error_phase_2": random.uniform(-3.0, 3.0)}
+    if random.random() < 0.3:
+        values |= {"pinion_runout": random.uniform(5e-6, 2e-5) * size, "ring_runout": random.uniform(5e-6, 3e-5) * size}
+    return {f"final_drive.{name}": value for name, value in values.items()}
+
+
+def propeller_shaft(random, torque, inertia):
+    """Shaft that twists by 2 to 6 degrees under the peak torque and damps its driven end by 2 to 10 %; half of them have a joint."""
+    stiffness = torque / random.uniform(0.035, 0.1)
+    values = {"effects.propeller_shaft": True, "inertia.propeller_end": inertia, "propeller_shaft.stiffness": stiffness,
+              "propeller_shaft.damping": 2.0 * random.uniform(0.02, 0.1) * sqrt(stiffness * inertia)}
+    if random.random() < 0.5:
+        values |= {"propeller_shaft.joint_angle": random.uniform(0.02, 0.15),
+                   "propeller_shaft.joint_quarter_turn": bool(random.random() < 0.5)}
+    return values
 
 
 def warm_up(random, _vehicle, _contact, _law):
@@ -214,4 +249,4 @@ def mesh_history(_random, _vehicle, _contact, _law):
 # share of drives with an effect, if the level of gear contact accepts it, and the function that draws its values
 EFFECTS = {drawn.__name__: (share, drawn) for share, drawn in [
     (0.6, half_shaft), (0.6, bearing_drag), (0.5, thrust_friction), (0.3, tooth_friction), (0.4, limited_slip), (0.2, pin_compliance),
-    (0.3, body_compliance), (0.25, tooth_errors), (0.25, warm_up), (0.2, strength), (0.2, mesh_history), (0.15, final_drive)]}
+    (0.3, body_compliance), (0.25, tooth_errors), (0.25, warm_up), (0.2, strength), (0.2, mesh_history), (0.3, final_drive)]}

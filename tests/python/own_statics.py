@@ -11,8 +11,8 @@ from fmpy.fmi2 import fmi2EventInfo
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-# indices of positions in the states: sides, carrier, seats, planets, pins, ends
-BODIES, SIDES, SEATS, PLANETS, PINS = 15, [0, 1], [3, 4], [5, 6, 7, 8], [9, 10, 11, 12]
+# number of positions in the states, and indices of some: sides, carrier, seats, planets, pins, ends, pinion, propeller shaft
+BODIES, SIDES, SEATS, PLANETS, PINS = 17, [0, 1], [3, 4], [5, 6, 7, 8], [9, 10, 11, 12]
 # arm of the forces on seats [m]
 ARM = 0.04
 # balance relative to the loads

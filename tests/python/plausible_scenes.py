@@ -35,12 +35,14 @@ FACTORS = {
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
     "tooth_friction.oil_viscosity": 30.0, "bearing_drag.breakaway_speed": 10.0, "strength.bending_strength": 5.0,
     "strength.contact_strength": 5.0, "strength.bending_cycles": 10.0, "strength.contact_cycles": 10.0,
-    "limited_slip.viscous_speed": 3.0, "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
+    "limited_slip.viscous_speed": 3.0, "inertia.pinion": 5.0, "inertia.propeller_end": 5.0, "final_drive.stiffness": 5.0,
+    "final_drive.holding_stiffness": 5.0, "propeller_shaft.stiffness": 5.0, "solver.fixed_step": 10.0, "strength.thermal_contact_coefficient": 2.0, "warm_up.oil_capacity": 30.0,
     "warm_up.gear_specific_heat": 2.0, "warm_up.clutch_capacity": 30.0, "warm_up.washer_capacity": 30.0, "warm_up.case_capacity": 30.0}
 # values from zero (a tenth of the draws) up to this multiple of the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
-    "limited_slip.preload": 10.0, "limited_slip.coast_ratio": 3.0, "limited_slip.viscous_torque": 10.0, "lock.damping_time": 10.0,
+    "limited_slip.preload": 10.0, "limited_slip.coast_ratio": 3.0, "limited_slip.viscous_torque": 10.0, "lock.damping_time": 10.0, "final_drive.damping": 3.0,
+    "propeller_shaft.damping": 3.0,
     "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
     "bearing_drag.carrier_viscous": 30.0, "bearing_drag.carrier_churning": 30.0, "bearing_drag.side_torque": 30.0,
     "bearing_drag.side_viscous": 30.0, "tooth_friction.roughness": 10.0,
@@ -53,7 +55,7 @@ BANDS = {
     "limited_slip.static_ratio": (1.0, 2.0), "limited_slip.viscous_exponent": (0.3, 2.0), "tooth_friction.static_ratio": (1.0, 2.0),
     "tooth_friction.coefficient": (0.0, 0.15), "thrust_friction.coefficient": (0.0, 0.2),
     "thrust_friction.pin_coefficient": (0.0, 0.2), "tooth_errors.shaft_angle_error": (-1e-3, 1e-3),
-    "tooth_fault.onset": (0.0, 0.05), "final_drive.amplitude": (0.0, 0.2), "carrier.speed_command": (-150.0, 150.0),
+    "tooth_fault.onset": (0.0, 0.05), "carrier.speed_command": (-150.0, 150.0), "pinion.speed_command": (-600.0, 600.0),
     "left.speed_command": (-150.0, 150.0), "right.speed_command": (-150.0, 150.0), "spin.command": (-60.0, 60.0),
     "strength.tool_radius": (0.0, 0.3),
     "oil.temperature": (250.0, 400.0), "warm_up.ambient_temperature": (243.0, 323.0), "oil.viscosity_40": (5e-05, 0.0003),
@@ -65,6 +67,8 @@ BANDS = {
     "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2), "warm_up.ambient_change": (-20.0, 20.0),
     "warm_up.sump_change": (-20.0, 20.0),
     **{f"warm_up.{node}_above_oil": (-20.0, 20.0) for node in ("gears", "clutch", "washers", "case")},
+    "final_drive.drive_pressure_angle": (0.3, 0.4), "final_drive.coast_pressure_angle": (0.3, 0.4), "final_drive.spiral_angle": (0.0, 0.7),
+    "final_drive.pitch_angle": (0.0, 1.4), "propeller_shaft.joint_angle": (0.0, 0.3),
     # friction over speed and temperature, with ordered temperature points
     **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
         "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
@@ -81,11 +85,17 @@ IN_MODULES = {
     "tooth_errors.crowning": (0.0, 0.01), "tooth_errors.planet_axial_offset": (-0.01, 0.01),
     "tooth_errors.side_axial_offset": (-0.01, 0.01), "tooth_errors.axis_offset": (-0.01, 0.01),
     "bearing_drag.carrier_diameter": (30.0, 50.0), "bearing_drag.carrier_width": (5.0, 20.0), "bearing_drag.seal_diameter": (0.0, 12.0),
-    "bearing_drag.bearing_diameter": (10.0, 20.0), "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
+    "final_drive.backlash": (0.0, 0.06), "final_drive.mean_radius": (15.0, 25.0), "final_drive.error_1": (0.0, 2e-3),
+    "final_drive.error_2": (0.0, 1e-3), "final_drive.error_3": (0.0, 1e-3), "final_drive.pinion_runout": (0.0, 5e-3),
+    "final_drive.ring_runout": (0.0, 0.01), "final_drive.ring_offset": (-10.0, 10.0), "final_drive.left_bearing": (10.0, 25.0),
+    "final_drive.right_bearing": (10.0, 25.0), "bearing_drag.bearing_diameter": (10.0, 20.0), "tooth_fault.depth": (0.0, 0.3), "thrust_friction.pin_radius": (0.5, 2.0),
     "thrust_friction.planet_washer_radius": (1.0, 4.0), "thrust_friction.side_washer_radius": (2.0, 6.0)}
 # torques relative to the load capacity of teeth of this size
 IN_LOADS = {"left.load_torque": 1.0, "right.load_torque": 1.0, "carrier.torque_command": 2.0,
-            "left.brake_torque": 1.0, "right.brake_torque": 1.0}
+            "left.brake_torque": 1.0, "right.brake_torque": 1.0, "pinion.torque_command": 0.5, "final_drive.friction_torque": 3e-3}
+# powers of their size with which quantities of similar final drives grow
+GROWTH = {"inertia.pinion": 5, "inertia.propeller_end": 5, "final_drive.stiffness": 1, "final_drive.damping": 2,
+          "final_drive.holding_stiffness": 3, "propeller_shaft.stiffness": 3, "propeller_shaft.damping": 4}
 
 
 def limits(variable):
@@ -131,6 +141,7 @@ def values(variables, shares):
     contact(scene, shares)
     drives(scene, shares)
     effects(scene, shares)
+    final_drive(scene, shares)
     return scene
 
 
@@ -179,6 +190,20 @@ def drives(scene, u):
     for side in ("left", "right"):
         scene[f"scene.{side}_drive"] = 2 if side in imposed else 1
     scene["scene.planet_spin"] = 2 if "spin" in imposed else 1
+
+
+def final_drive(scene, u):
+    """Sets the ratio of a car or a truck, bodies of the size of the gears, and commands of the pinion that fit those of the carrier."""
+    scene["effects.final_drive"] |= scene["effects.propeller_shaft"]
+    scene["final_drive.pinion_teeth"] = 8 + int(u["final_drive.pinion_teeth"] * 7)
+    scene["final_drive.ring_teeth"] = 31 + int(u["final_drive.ring_teeth"] * 15)
+    ratio = scene["final_drive.ring_teeth"] / scene["final_drive.pinion_teeth"]
+    for name, power in GROWTH.items():
+        scene[name] *= (scene["geometry.module"] / MODULE) ** power
+    # oil takes up to a few percent of the torque at usual speeds
+    scene["final_drive.viscous"] = 1e-5 * u["final_drive.viscous"] * abs(scene["carrier.torque_command"])
+    scene["pinion.speed_command"] = ratio * scene["carrier.speed_command"]
+    scene["pinion.torque_command"] = scene["carrier.torque_command"] / ratio
 
 
 def effects(scene, u):

@@ -217,6 +217,8 @@ def kinetic(scene, outputs):
     bodies = [("inertia.carrier", "carrier.speed"), ("inertia.left_end", "left.speed"),
               ("inertia.right_end", "right.speed"), ("inertia.side_gear", "left.speed"),
               ("inertia.side_gear", "right.speed")]
+    bodies += [("inertia.pinion", "pinion.speed")] if start["effects.final_drive"] else []
+    bodies += [("inertia.propeller_end", "propeller.speed")] if start["effects.propeller_shaft"] else []
     return sum(0.5 * start[inertia] * outputs[speed] ** 2 for inertia, speed in bodies)
 
 

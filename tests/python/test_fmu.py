@@ -153,6 +153,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     # one wheel is at rest while planets spin at 1 rad/s
     scenes += [{"effects.half_shaft": True, **brakes, "carrier.speed_command": speed} for speed in [-0.625, 0.625]]
     left, right = {"scene.left_drive": "speed"}, {"scene.right_drive": "speed"}
+    elastic, propeller = {"final_drive.elastic_mesh": True, "final_drive.error_1": 1e-6}, {"effects.propeller_shaft": True}
     ways = [(carrier, spin) for carrier in ["speed", "torque"] for spin in ["free", "imposed"]]
     drives = [(scene, *way) for scene in scenes for way in ways]
     # at most two speeds can be imposed
@@ -162,7 +163,8 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
     drives += [({**shafts, **values, **side, f"{name}.speed_command": 50.0}, "speed", "free")
                for name, values, side in (("left", brakes, left), ("right", swapped, right))]
     drives += [({**shafts, **left, **right, "effects.strength": True, "effects.tooth_friction": True}, "torque", "free"),
-               ({**ends, "effects.final_drive": True}, "speed", "free")]
+               *(({**ends, "effects.final_drive": True, **values}, carrier, spin)
+                 for values in ({}, elastic, {**elastic, **propeller}, propeller) for carrier, spin in ways)]
     for contact in ["tooth", "lumped", "ideal"]:
         for scene, carrier, spin in drives:
             if contact != "tooth":

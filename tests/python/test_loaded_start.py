@@ -163,7 +163,10 @@ BALANCED_DRIVES = {
     "drag": {**DRAG, "carrier.speed_command": 50.0},
     "drag, driven by torque": {**DRAG, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
                                "left.load_torque": 300.0, "right.load_torque": 300.0, "carrier.speed_command": 50.0},
-    "final drive": {"effects.final_drive": True, "carrier.speed_command": 50.0},
+    "final drive": {"effects.final_drive": True, "pinion.speed_command": 205.0},
+    "elastic final drive behind a joint": {
+        "effects.final_drive": True, "final_drive.elastic_mesh": True, "final_drive.error_1": 2e-6, "effects.propeller_shaft": True,
+        "propeller_shaft.joint_angle": 0.1, "pinion.speed_command": 20.0},
     "one wheel held at its speed": {"scene.left_drive": "speed", "left.speed_command": 50.0, "carrier.speed_command": 50.0,
                                     "right.load_torque": 300.0},
 }

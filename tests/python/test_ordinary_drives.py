@@ -56,6 +56,7 @@ def test_drives_cover_the_required_cases():
         found.update(name for name in ("mirrored", "slopes", "event_mode") if drive[name])
         found.update(name for name in EFFECTS if f"effects.{name}" in start)
         found.update(f"slope {sign:g}" for sign in {np.sign(drive["inputs"]["left.load_torque"][0][1])})
+        found.update(name for name in ("final_drive.elastic_mesh", "effects.propeller_shaft", "propeller_shaft.joint_angle") if name in start)
         wheel = start["inertia.left_end"]
         found.update(name for name, fits in (("light", wheel < 0.1), ("heavy", wheel > 90.0)) if fits)
         # a drive with short communication steps is short, and parking for an hour has steps of a second
@@ -64,7 +65,7 @@ def test_drives_cover_the_required_cases():
                 "0.0001 s", "0.001 s", "0.01 s", "1 s", "speed", "torque", "rest", "rolling", "equilibrium",
                 "ideal impact", "lumped impact", "solid impact", "tooth impact", "tooth line", "tooth line_weber",
                 "adaptive", "fixed_step", "radau", "2 planets", "3 planets", "4 planets", "mirrored", "slopes", "event_mode",
-                "slope -1", "slope 0", "slope 1", "light", "heavy"]
+                "final_drive.elastic_mesh", "effects.propeller_shaft", "propeller_shaft.joint_angle", "slope -1", "slope 0", "slope 1", "light", "heavy"]
     assert not [name for name in expected if found[name] < 5], found
     assert found["adaptive"] > 0.8 * DRAWN and found["torque"] > 0.75 * DRAWN
 

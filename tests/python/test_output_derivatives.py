@@ -16,6 +16,9 @@ WARM = {"effects.warm_up": True, "warm_up.gears_above_oil": 20.0, "warm_up.clutc
         "warm_up.clutch_capacity": 50.0}
 RUBBING = {"effects.thrust_friction": True, **theory.CLUTCHES, **theory.DRAG}
 DRIVEN = BRAKED | brakes(150.0, 100.0) | drive_torque(700.0) | WHEELS | {"carrier.speed_command": 40.0}
+PINION = {"effects.final_drive": True, "pinion.torque_command": 150.0, "pinion.speed_command": 160.0, "final_drive.spiral_angle": 0.5,
+          "final_drive.ring_side": "right"}
+ERRORS = {"final_drive.elastic_mesh": True, "final_drive.error_1": 1e-6, "final_drive.pinion_runout": 1e-5}
 # a start out of equilibrium keeps everything moving
 SCENES = {
     "ideal": DRIVEN | WARM | {"scene.gear_contact": "ideal", **theory.DRAG, **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0,
@@ -26,12 +29,18 @@ SCENES = {
     "line": STEADY_TURN | WHEELS | WARM | RUBBING | {"contact.law": "line", "effects.tooth_friction": True, "effects.strength": True,
                                             "effects.tooth_errors": True, "tooth_errors.planet_runout": 1e-5},
     "four planets": STEADY_TURN | WHEELS | {"geometry.planet_teeth": 9, "geometry.side_teeth": 14, "geometry.planet_count": 4, "scene.planet_spin": "free", "scene.start": "rolling"},
-    "half-shafts": BIAS | {"effects.half_shaft": True, "effects.pin_compliance": True, "effects.final_drive": True},
+    "half-shafts": BIAS | {"effects.half_shaft": True, "effects.pin_compliance": True, "effects.final_drive": True,
+                           "pinion.torque_command": 1670.0 / 4.1, "pinion.speed_command": 205.0},
+    "final drive": DRIVEN | PINION | {"final_drive.friction_torque": 1.0, "final_drive.viscous": 0.01, "effects.half_shaft": True},
+    "propeller shaft": DRIVEN | PINION | ERRORS | {"scene.gear_contact": "ideal", "effects.propeller_shaft": True, "scene.carrier_drive": "speed",
+                                                   "final_drive.ring_side": "left",
+                                                   "propeller_shaft.joint_angle": 0.1, "scene.start": "rolling"},
     "half-shafts that warm up": DRIVEN | WARM | RUBBING | {"effects.half_shaft": True, "scene.start": "rolling"},
 }
 # inputs that change within the steps, per second
 SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "warm_up.ambient_change": 5.0},
           "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
+          "final drive": {"pinion.torque_command": 500.0}, "propeller shaft": {"pinion.speed_command": 50.0},
           "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
 # outputs that jump by the documentation: with completed steps, at events, and from tooth pair to tooth pair
 JUMPS = ("damage.", "solver.", "held.", "safety.root_min", "safety.flank_min", "coupling.")

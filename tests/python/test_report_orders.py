@@ -10,7 +10,7 @@ from bevel_differential.report.forces import bands, rolling, share, spectrum
 from bevel_differential.report.gears import pair_of
 from bevel_differential.report.waterfall import TURN, waterfall
 from bevel_differential.report.pattern import Contacts
-from bevel_differential.report.runup import ANGLE, SIGNAL, SPIN, run_up
+from bevel_differential.report.runup import ANGLE, SIGNAL, SPIN, run_up, theory
 from bevel_differential.report.simulated import Simulated
 
 # turns in a window: a spectral line is 1/8 of an order wide
@@ -64,19 +64,22 @@ def test_too_few_points_and_an_angle_that_turns_back_are_refused():
         waterfall(np.sin(angle), values, speed, WINDOW, 2.0)
 
 
-def test_a_run_up_has_the_orders_of_mesh_and_ring_gear(simulated):
-    run = simulated("study_turning", {"effects.final_drive": True, "final_drive.ring_teeth": 9, "final_drive.amplitude": 0.2,
-                                      "effects.half_shaft": True, "inertia.left_end": 1.0, "inertia.right_end": 1.0})
+def test_a_run_up_has_the_orders_of_mesh_ring_gear_and_pinion(simulated):
+    run = simulated("study_turning", {"effects.final_drive": True, "final_drive.ring_teeth": 9, "final_drive.pinion_teeth": 6,
+                                      "final_drive.elastic_mesh": True, "final_drive.error_1": 1e-4, "final_drive.pinion_runout": 4e-4,
+                                      "pinion.speed_command": "1431 deg/s", "effects.half_shaft": True, "inertia.left_end": 1.0,
+                                      "inertia.right_end": 1.0})
     up = run_up(run)
+    assert theory(run, up.ratio)["pinion 1.5 per carrier turn"] == 1.5 / abs(up.ratio)
     record = up.record
     spin, carrier = (np.ptp(record[name]) / np.ptp(record["time"]) for name in (ANGLE, "carrier.angle"))
-    expected = {"mesh": 10.0, "second": 20.0, "ring": 9.0 * carrier / spin}
+    expected = {"mesh": 10.0, "second": 20.0, "ring": 9.0 * carrier / spin, "pinion": 1.5 * carrier / spin}
     spectra = waterfall(record[ANGLE], record[SIGNAL], record["carrier.speed"], WINDOW, 60.0)
     found = [order for order, _ in spectra.strongest(12, 1e-3)]
     for name, order in expected.items():
         assert min(abs(order - theirs) for theirs in found) < LINE, f"{name}: {order} is not among {found}"
-    # there is nothing else: all lines are sums of multiples of both
-    sums = [abs(10.0 * k + expected["ring"] * n) for k in range(-8, 9) for n in range(-3, 4)]
+    # there is nothing else: all lines are sums of multiples of both meshes and of turns of the pinion
+    sums = [abs(10.0 * k + expected["pinion"] * n) for k in range(-8, 9) for n in range(-12, 13)]
     assert all(min(abs(order - theirs) for theirs in sums) < LINE for order in found), found
 
 

@@ -197,7 +197,7 @@ def powers(scene, o):
     p = scene.p
     ends = [o[f"{side}.end_speed"] if has else o[f"{side}.speed"] for side, has in zip(SIDES, scene.has_ends)]
     torques = [o[f"{side}.shaft_torque"] for side in SIDES]
-    given = [o["carrier.torque"] * o["carrier.speed"], o["spin.torque"] * o["planet[1].spin_speed"]]
+    given = [o["propeller.torque"] * o["propeller.speed"], o["spin.torque"] * o["planet[1].spin_speed"]]
     taken = [torque * speed for torque, speed in zip(torques, ends)]
     yield "power in", o["power.in"], sum(given), sum(map(abs, given))
     yield "power out", o["power.out"], sum(taken), sum(map(abs, taken))
@@ -206,7 +206,8 @@ def powers(scene, o):
         yield "efficiency", o["efficiency"], max(1.0 - o["power.loss"] / fed, 0.0), 1.0
     for name in o:
         effect = {"heat.tooth_friction": "tooth_friction", "heat.thrust": "thrust_friction", "heat.support": "pin_compliance",
-                  "heat.drag": "bearing_drag", "heat.brake": "wheel_brake"}.get(name)
+                  "heat.drag": "bearing_drag", "heat.brake": "wheel_brake", "heat.final_drive": "final_drive",
+                  "heat.propeller_shaft": "propeller_shaft"}.get(name)
         if effect and not p[f"effects.{effect}"]:
             yield f"{name} of nothing", o[name], 0.0, 0.0
     ratio, locking = o["torque_bias_ratio"], o["locking_value"]

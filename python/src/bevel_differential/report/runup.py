@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..answers import Progress
+from ..drive_port import port_command, port_value
 from ..progress import silent
 from ..scene import Scene
 from ..values import DifferentialError, Number
@@ -32,14 +33,14 @@ SETTLING, BEGINNING = 3.0, 1.0
 PER_TURN, PER_ORDER = 256, 6.0
 # if a scene has none of this damping, nothing dies out
 DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_damping")
-# number of multiples of the mesh order, and prefix of the other order's name
-MULTIPLES, RING = 6, "ring gear"
+# number of multiples of the mesh order, and prefixes of the names of the other orders
+MULTIPLES, RING, PINION = 6, "ring gear", "pinion"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
 SHAFTS = ("left.shaft_torque", "right.shaft_torque")
 RECORDED = (ANGLE, "carrier.angle", "carrier.speed", SIGNAL, *SHAFTS)
 SPIN = "the planets' spin"
-# possible speed drives: variable and literal that select the drive, and its command
+# possible speed drives; with a final drive, that of the carrier acts on its port: variable and literal that select the drive, and its command
 DRIVES = {"the carrier's speed": ("scene.carrier_drive", "speed", "carrier.speed_command"),
           "the left wheel's speed": ("scene.left_drive", "speed", "left.speed_command"),
           "the right wheel's speed": ("scene.right_drive", "speed", "right.speed_command"),
@@ -108,7 +109,8 @@ def imposed_of(run: Simulated) -> tuple[list[str], list[str]]:
 def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, float]:
     """Commands of the imposed speeds over the speed of the carrier."""
     speeds = _speeds(run, ratio)
-    return {DRIVES[name][2]: speeds[name] for name in imposed}
+    commands = {DRIVES[name][2]: speeds[name] for name in imposed}
+    return {port_command(run.scene, name): port_value(run.scene, name, value) for name, value in commands.items()}
 
 
 def _speeds(run: Simulated, ratio: float) -> dict[str, float]:
@@ -147,15 +149,17 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
 
 def _values(run, commands, imposed, loads):
     """Values that differ from the scene's, and sentences about differences that a reader would not expect."""
+    # the start uses the speed of a carrier that is driven by torque
+    drive = {"carrier.torque_command": sum(loads), "carrier.speed_command": SLOWEST}
     values: dict[str, Number | str] = {
-        "scene.start": "rolling", "carrier.torque_command": sum(loads), "left.load_torque": loads[0], "right.load_torque": loads[1],
-        # the start uses this speed for a carrier that is driven by torque
-        "carrier.speed_command": SLOWEST, **{name: part * SLOWEST for name, part in commands.items()}}
+        "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
+        **{port_command(run.scene, name): port_value(run.scene, name, value) for name, value in drive.items()},
+        **{name: part * SLOWEST for name, part in commands.items()}}
     for name in imposed:
         drive, literal, _ = DRIVES[name]
         values[drive] = literal
     changed = []
-    undamped = [name for name in DAMPING if run.value(name) == 0.0]
+    undamped = [name for name in (*DAMPING, *(["final_drive.damping"] if has_errors(run) else [])) if run.value(name) == 0.0]
     if undamped:
         values.update({name: run.scene.fmu.variable(name).start for name in undamped})
         changed.append(f"{' and '.join(undamped)} {'has its' if len(undamped) == 1 else 'have their'} start value"
@@ -174,10 +178,17 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
     """Orders per turn of a planet that theory predicts, by name."""
     teeth = int(run.value("geometry.planet_teeth"))
     found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
-    if run.value("effects.final_drive"):
-        ring = int(run.value("final_drive.ring_teeth"))
+    if has_errors(run):
+        ring, pinion = (int(run.value(f"final_drive.{name}_teeth")) for name in ("ring", "pinion"))
         found[f"{RING} {ring} per carrier turn"] = ring / abs(ratio)
+        if run.value("final_drive.pinion_runout") > 0.0:
+            found[f"{PINION} {words.number(ring / pinion)} per carrier turn"] = ring / pinion / abs(ratio)
     return found
+
+
+def has_errors(run: Simulated) -> bool:
+    """True if the mesh of the final drive excites the carrier: a rigid mesh has no transmission error."""
+    return bool(run.value("effects.final_drive") and run.value("final_drive.elastic_mesh"))
 
 
 def _simulate(scene: Scene, values, commands, wheels, seconds, step, most, progress):

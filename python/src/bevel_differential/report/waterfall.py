@@ -12,7 +12,7 @@ from ..progress import silent
 from ..values import DifferentialError
 from . import words
 from .blocks import Section, Table
-from .runup import ANGLE, FASTEST, MULTIPLES, RING, SIGNAL, SLOWEST, RunUp, run_up, theory
+from .runup import ANGLE, FASTEST, MULTIPLES, PINION, RING, SIGNAL, SLOWEST, RunUp, has_errors, run_up, theory
 from .simulated import Simulated, reason_of
 from .svg_style import BLUE, GREEN, RED, picture
 
@@ -27,6 +27,8 @@ TURN = 2.0 * np.pi
 # points in a period of the highest order: minimum of a record, and of the signal over the angle. The second number is large, so
 # that content above the orders of interest is not aliased to them
 PER_PERIOD, FINER = 4, 16
+# prefixes of the orders of the final drive
+FINAL = (RING, PINION)
 # overlap of neighbouring windows
 OVERLAP = 0.75
 
@@ -109,7 +111,7 @@ def _panels(run, spectra: Waterfall, expected):
     orders, teeth = spectra.orders, float(run.value("geometry.planet_teeth"))
     top, highest = UM * float(spectra.amplitudes.max()), UM * spectra.mean.max()
     edges = np.append(orders, orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
-    names = [RING if name.startswith(RING) else f"{order / teeth:.0f} × {teeth:.0f}" for name, order in expected.items()]
+    names = [name.partition(" ")[0] if name.startswith(FINAL) else f"{order / teeth:.0f} × {teeth:.0f}" for name, order in expected.items()]
     axis = Axis("order: periods per turn of a planet")
     yield Panel(axis, Axis("carrier speed, rpm", lambda speed: speed * RPM), [
         Mark("pcolormesh", edges, _edges(spectra.speeds), np.maximum(UM * spectra.amplitudes, 1e-12), cmap="magma_r",
@@ -117,7 +119,7 @@ def _panels(run, spectra: Waterfall, expected):
         Mark(lambda axes: axes.secondary_xaxis("top").set_xticks(list(expected.values()), names, fontsize=8.5))], grid="")
     yield Panel(axis, Axis("rms over speeds, µm", lambda size: UM * size), [
         curve(orders, spectra.mean, None, BLUE),
-        *(Mark("axvline", order, color=GREEN if name.startswith(RING) else RED, lw=0.9, ls="--") for name, order in expected.items())],
+        *(Mark("axvline", order, color=GREEN if name.startswith(FINAL) else RED, lw=0.9, ls="--") for name, order in expected.items())],
         yscale="log", xlim=(0.0, orders[-1]), ylim=(10.0 ** -(DECADES + 0.5) * highest, 2.0 * highest))
 
 
@@ -134,7 +136,8 @@ def _caption(run, up, spectra, expected):
     course = UM * spectra.amplitudes[:, at]
     k = int(np.argmax(course))
     marks = "on top and red, multiples of the mesh order" + (
-        "; green, the teeth of the ring gear" if run.value("effects.final_drive") else "")
+        "" if not has_errors(run) else "; green, the teeth of the ring gear and turns of the pinion"
+        if any(name.startswith(PINION) for name in expected) else "; green, the teeth of the ring gear")
     return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; "
             f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}{named}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "
@@ -166,10 +169,10 @@ def _named(run, expected, side, order):
     teeth = int(run.value("geometry.planet_teeth"))
     nearest = max(1, round(order / teeth))
     named = [*expected.items(), (f"mesh {nearest} × {teeth}", float(nearest * teeth))]
-    if run.value("effects.final_drive"):
-        ring = expected[next(name for name in expected if name.startswith(RING))]
-        named += [(f"mesh {k} × {teeth} {'+' if sign > 0 else '−'} ring gear", abs(k * teeth + sign * ring))
-                  for k in range(1, 2 * MULTIPLES) for sign in (1, -1)]
+    for name, theirs in expected.items():
+        if name.startswith(FINAL):
+            named += [(f"mesh {k} × {teeth} {'+' if sign > 0 else '−'} {name.partition(' per ')[0]}", abs(k * teeth + sign * theirs))
+                      for k in range(1, 2 * MULTIPLES) for sign in (1, -1)]
     if run.value("effects.tooth_errors") or run.value("effects.tooth_fault"):
         for gear, unit in (("planet", 1.0), ("side gear", side)):
             count = round(order / unit)
