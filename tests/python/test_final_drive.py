@@ -1,93 +1,174 @@
-"""Final drive and propeller shaft: momentum (final_drives.py), power, friction, wind-up, forces and the joint."""
+"""Final drive with a rigid or elastic mesh: the same motion as a heavier carrier, its ratio at all outputs, and its mirror image."""
 
-from math import atan, cos, sin, tan
+from math import pi
 
 import numpy as np
 import pytest
-from driving import Drive
+from bevel_differential import Differential
+from final_drive_scenes import RATIO
 
-ON = {"effects.final_drive": True, "scene.carrier_drive": "torque", "pinion.torque_command": 200.0, "pinion.speed_command": 150.0,
-      "inertia.left_end": 1.0, "inertia.right_end": 1.0, "left.load_torque": 300.0, "right.load_torque": 300.0}
-ELASTIC = {"final_drive.elastic_mesh": True}
-ERRORS = ELASTIC | {"final_drive.error_1": 5e-6, "final_drive.error_2": 3e-6, "final_drive.error_phase_2": 1.0, "final_drive.error_3": 1e-6,
-                    "final_drive.pinion_runout": 2e-5, "final_drive.ring_runout": 3e-5, "final_drive.ring_runout_phase": 0.5}
-SHAFT = {"effects.propeller_shaft": True}
-FRICTION = {"final_drive.friction_torque": 2.0, "final_drive.viscous": 0.01}
-SCENES = {
-    "rigid": {}, "rigid with friction": FRICTION, "elastic": ELASTIC, "errors": ERRORS, "errors and friction": ERRORS | FRICTION,
-    "rigid behind a shaft": SHAFT, "elastic behind a shaft": ELASTIC | SHAFT | FRICTION,
-    "rigid behind a joint": SHAFT | {"propeller_shaft.joint_angle": 0.2},
-    "errors behind a joint": ERRORS | SHAFT | FRICTION | {"propeller_shaft.joint_angle": 0.3, "propeller_shaft.joint_quarter_turn": True},
-    "errors at an imposed speed": ERRORS | FRICTION | {"scene.carrier_drive": "speed"},
-    "joint at an imposed speed": ELASTIC | SHAFT | {"scene.carrier_drive": "speed", "propeller_shaft.joint_angle": 0.2}}
+# relative to the largest value of each output
+SAME = 1e-9
+PINION, CARRIER = 0.004, 0.006
+# outputs that only a final drive has, and those that describe the effort of the solver instead of the motion
+OWN = ("pinion.", "propeller.", "ring_gear.", "left_bearing.", "right_bearing.")
+EFFORT = ["solver.step_size"]
+CAR = {"left.load_torque": 700.0, "right.load_torque": 640.0, "inertia.left_end": 0.2, "inertia.right_end": 0.3, "contact.law": "line"}
+STOP = 0.05
+
+
+@pytest.fixture
+def with_and_without(fmu_file, outputs):
+    """with_and_without(values, drive, course): records with a final drive, and of the equivalent carrier; `course`: command of the
+    carrier at the start and at the end."""
+    def simulate(values, drive, course):
+        base, speed = values | {"scene.carrier_drive": drive}, course[0] if drive == "speed" else 20.0
+        driven = base | {"effects.final_drive": True, "inertia.carrier": CARRIER, "inertia.pinion": PINION,
+                         "pinion.speed_command": RATIO * speed}
+        plain = base | {"inertia.carrier": CARRIER + RATIO**2 * PINION, "carrier.speed_command": speed}
+        records, times = [], np.array([0.0, STOP])
+        for scene, port, factor in ((driven, "pinion", RATIO if drive == "speed" else 1.0 / RATIO), (plain, "carrier", 1.0)):
+            with Differential(scene, fmu=fmu_file) as differential:
+                records.append(differential.run({f"{port}.{drive}_command": (times, factor * np.array(course))}, outputs, STOP))
+        return records
+
+    return simulate
+
+
+def differs(a, b, scale=None):
+    """True if two courses differ by more than rounding."""
+    return np.abs(a - b).max() > SAME * (np.abs(b).max() if scale is None else scale)
+
+
+# commands of the carrier at the start and the end, and a factor on the loads. The flanks of real teeth stay in contact: where they part,
+# the steps of the solver depend on the last digits
+COURSES = [("torque", [1300.0, 1500.0], 1.0), ("torque", [-1200.0, -1400.0], -1.0), ("speed", [20.0, 24.0], 1.0),
+           ("speed", [5.0, -15.0], 1.0)]
+
+
+@pytest.mark.parametrize("contact, drive, course, load", [(contact, *case) for contact in ("ideal", "lumped", "tooth") for case in COURSES]
+                         + [("ideal", "torque", [-900.0, 300.0], 1.0)])
+def test_a_rigid_final_drive_is_a_heavier_carrier(with_and_without, outputs, contact, drive, course, load):
+    turned = {name: load * CAR[name] for name in ("left.load_torque", "right.load_torque")}
+    driven, plain = with_and_without(CAR | turned | {"scene.gear_contact": contact}, drive, course)
+    names = [name for name in outputs if not name.startswith(OWN) and name not in [*EFFORT, "carrier.torque", "solver.energy_residual"]]
+    assert [name for name in names if differs(driven[name], plain[name])] == []
+    # the residual is a small difference of the energies turned over
+    turned_over = np.abs(plain["power.in"]).max() * STOP
+    assert not differs(driven["solver.energy_residual"], plain["solver.energy_residual"], turned_over)
+    ring = plain["carrier.torque"] - RATIO**2 * PINION * plain["carrier.acceleration"]
+    assert not differs(driven["carrier.torque"], ring)
+    for port in ("pinion", "propeller"):
+        assert not differs(driven[f"{port}.torque"], plain["carrier.torque"] / RATIO)
+        assert not differs(driven[f"{port}.speed"], RATIO * plain["carrier.speed"])
+        assert not differs(driven[f"{port}.angle"], RATIO * plain["carrier.angle"])
 
 
 @pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
-@pytest.mark.parametrize("name", SCENES)
-def test_momentum_and_energy_are_in_balance(fmu, name, contact):
-    with Drive(fmu, ON | {"scene.gear_contact": contact} | SCENES[name]) as drive:
-        drive.to(0.02, 5e-4)
-        # the load changes its sign, so that flanks cross the lash
-        drive.set({"left.load_torque": -200.0, "right.load_torque": 100.0, "pinion.torque_command": -100.0})
-        drive.to(0.05, 5e-4)
-        assert drive.imbalance() < 1e-5
-        power, port = drive.read(["power.in", "propeller.torque"])
-        assert power == pytest.approx(port * drive["propeller.speed"], rel=1e-9)
+@pytest.mark.parametrize("elastic", [False, True])
+@pytest.mark.parametrize("drive", ["torque", "speed"])
+def test_commands_of_the_carrier_have_no_influence(run, outputs, contact, elastic, drive):
+    values = CAR | {"effects.final_drive": True, "final_drive.elastic_mesh": elastic, "scene.gear_contact": contact,
+                    "scene.carrier_drive": drive, "pinion.speed_command": 80.0, "pinion.torque_command": 350.0}
+    one, other = (run(values | {"carrier.speed_command": speed, "carrier.torque_command": torque}, 0.01)
+                  for speed, torque in ((1.0, 2.0), (-300.0, 4000.0)))
+    assert [name for name in outputs if not np.array_equal(one[name], other[name])] == []
 
 
-@pytest.mark.parametrize("name", ["rigid with friction", "elastic with friction"])
-def test_friction_takes_its_torque_from_the_mesh_and_gives_its_power_as_heat(drive, name):
-    driven = drive(ON | FRICTION | (ELASTIC if name.startswith("elastic") else {}) | {"scene.carrier_drive": "speed"}).to(0.1, 0.01)
-    before = driven["heat.final_drive"]
-    friction = 2.0 + 0.01 * 150.0
-    port, ring = driven.read(["propeller.torque", "carrier.torque"])
-    assert ring == pytest.approx(4.1 * (port - friction), rel=1e-6)
-    assert driven["power.loss"] == pytest.approx(friction * 150.0, rel=1e-4)
-    driven.to(0.2, 0.01)
-    assert driven["heat.final_drive"] - before == pytest.approx(friction * 150.0 * 0.1, rel=1e-4)
-    assert driven["efficiency"] == pytest.approx(1.0 - friction / port, rel=1e-4)
+@pytest.mark.parametrize("pinion, ring", [(10, 41), (41, 10), (7, 7), (250, 1000)])
+@pytest.mark.parametrize("elastic", [False, True])
+def test_the_ratio_is_that_of_the_teeth(run, pinion, ring, elastic):
+    record = run({"effects.final_drive": True, "final_drive.elastic_mesh": elastic, "final_drive.pinion_teeth": pinion,
+                  "final_drive.ring_teeth": ring, "pinion.speed_command": 30.0})
+    last = record[-1]
+    assert last["carrier.speed"] == pytest.approx(30.0 * pinion / ring, rel=SAME)
+    assert last["pinion.torque"] == pytest.approx(1670.0 * pinion / ring, rel=SAME)
+    assert last["power.in"] == pytest.approx(1670.0 * 30.0 * pinion / ring, rel=SAME)
+    assert last["carrier.torque"] == pytest.approx(1670.0, rel=SAME)
 
 
-def test_an_elastic_mesh_and_a_shaft_wind_up_by_their_stiffness_and_lash(drive):
-    """The start is in equilibrium, so the pinion is ahead of the carrier by half of the lash and the deflection of the mesh."""
-    driven = drive(ON | ELASTIC | SHAFT | {"scene.gear_contact": "ideal", "pinion.torque_command": 600.0 / 4.1})
-    pinion, carrier, end = driven.read(["pinion.angle", "carrier.angle", "propeller.angle"])
-    radius = 0.09
-    assert pinion / 4.1 - carrier == pytest.approx(600.0 / (3e8 * radius**2) + 0.06e-3 / radius, rel=1e-9)
-    assert end - pinion == pytest.approx(600.0 / 4.1 / 2e4, rel=1e-9)
+# signs of outputs after all rotations have changed theirs, by the end of the name; other outputs keep their values
+ODD = ("carrier.angle", ".speed", ".acceleration", ".torque", ".shaft_torque", ".tangential_force", "pinion.angle", "propeller.angle",
+       ".vertical_force", ".wheel_speed")
+EVEN = (".axial_force", ".radial_force", ".longitudinal_force", ".normal_force", ".thrust_force", "power.in", "power.out", "power.loss",
+        "efficiency", "heat.final_drive", "heat.contact", "heat.half_shaft", "heat.propeller_shaft")
+LOSSES = {"final_drive.friction_torque": 3.0, "final_drive.drive_loss": 0.03, "final_drive.coast_loss": 0.03, "final_drive.viscous": 0.01}
 
 
-@pytest.mark.parametrize("torque", [400.0, -400.0])
-def test_forces_of_the_mesh_are_those_of_its_angles_and_the_bearings_balance_them(drive, torque):
-    """Spiral bevel gears by the equations of the forces on a cone, with a left-hand ring gear on the left of the planets."""
-    spiral, cone, drives, coasts, radius, offset, left, right = 0.6, 1.25, 0.33, 0.4, 0.095, 0.03, 0.08, 0.07
-    driven = drive(ON | {"final_drive.spiral_angle": spiral, "final_drive.pitch_angle": cone, "final_drive.drive_pressure_angle": drives,
-                         "final_drive.coast_pressure_angle": coasts, "final_drive.mean_radius": radius, "final_drive.hand": "left",
-                         "final_drive.ring_offset": offset, "final_drive.left_bearing": left, "final_drive.right_bearing": right,
-                         "pinion.torque_command": torque / 4.1, "left.load_torque": 0.5 * torque, "right.load_torque": 0.5 * torque})
-    tangential, axial, radial, on_ring = driven.read([*(f"ring_gear.{name}_force" for name in ("tangential", "axial", "radial")), "carrier.torque"])
-    angle, sign = (drives, 1.0) if torque > 0.0 else (coasts, -1.0)
-    assert tangential == pytest.approx(on_ring / radius, rel=1e-12)
-    pressing = abs(tangential) / cos(spiral)
-    assert axial == pytest.approx(pressing * (tan(angle) * sin(cone) + sign * sin(spiral) * cos(cone)), rel=1e-12)
-    assert radial == pytest.approx(pressing * (tan(angle) * cos(cone) - sign * sin(spiral) * sin(cone)), rel=1e-12)
-    bearings = [driven.read([f"{side}_bearing.{name}_force" for name in ("longitudinal", "axial", "vertical")]) for side in ("left", "right")]
-    # the mesh is in front of the axle, where a forward force on the circumference acts downward
-    assert np.sum(bearings, axis=0) == pytest.approx([-radial, axial, -tangential], rel=1e-12)
-    [lx, _, lz], [rx, _, rz] = bearings
-    assert left * lz - right * rz == pytest.approx(-offset * tangential, rel=1e-9)
-    assert right * rx - left * lx == pytest.approx(radius * axial + offset * radial, rel=1e-9)
+def noisy(sign):
+    """Errors of all orders. Their image has the phases of the opposite error at the opposite angle."""
+    phases = {"error_phase_1": 0.3, "error_phase_2": 1.1, "error_phase_3": -0.7, "pinion_runout_phase": 2.0, "ring_runout_phase": -1.3}
+    sizes = {"error_1": 8e-6, "error_2": 3e-6, "error_3": 1e-6, "pinion_runout": 2e-5, "ring_runout": 3e-5}
+    return ({f"final_drive.{name}": phase if sign > 0.0 else pi - phase for name, phase in phases.items()}
+            | {f"final_drive.{name}": size for name, size in sizes.items()})
 
 
-def test_the_joint_turns_its_output_by_its_kinematics(drive):
-    """A heavy driven end turns evenly, and a stiff shaft follows the joint."""
-    bend = 0.3
-    driven = drive(ON | SHAFT | {"scene.carrier_drive": "speed", "scene.start": "rolling", "propeller_shaft.joint_angle": bend,
-                                 "propeller_shaft.stiffness": 1e7, "propeller_shaft.damping": 500.0, "pinion.speed_command": 30.0})
-    seen = []
-    driven.to(0.3, 1e-3, lambda d: seen.append(d.read(["propeller.angle", "pinion.angle"])))
-    end, pinion = np.array(seen[50:]).T
-    expected = np.arctan2(np.cos(bend) * np.sin(end), np.cos(end))
-    off = np.angle(np.exp(1j * (pinion - expected)))
-    assert np.abs(off - np.mean(off)).max() < 2e-3 and abs(np.mean(off)) < 2e-3
-    assert np.ptp(end - pinion) == pytest.approx(2.0 * atan(tan(0.5 * bend) ** 2), rel=0.1)
+def view(sign, drive, elastic, load, more):
+    """Scene with this load on the carrier [N.m], or its image in the horizontal plane."""
+    values = {"effects.final_drive": True, "final_drive.elastic_mesh": elastic, "scene.carrier_drive": drive,
+              "final_drive.spiral_angle": 0.6, "final_drive.hand": "right" if sign > 0.0 else "left", "final_drive.azimuth": 0.2 * sign,
+              "inertia.left_end": 0.1, "inertia.right_end": 0.15, "left.load_torque": 0.55 * load * sign,
+              "right.load_torque": 0.45 * load * sign}
+    return values | LOSSES | (noisy(sign) if elastic else {}) | more
+
+
+@pytest.fixture
+def images(fmu_file, outputs):
+    """images(drive, elastic, load, course, more): records of a scene and of its image; `course`: command of the pinion, by time."""
+    def simulate(drive, elastic, load, course, more):
+        names, records = [name for name in outputs if name.endswith(ODD + EVEN)], []
+        times, commands = np.array(course).T
+        for sign in (1.0, -1.0):
+            values = view(sign, drive, elastic, load, more | {"pinion.speed_command": 40.0 * sign})
+            with Differential(values, fmu=fmu_file) as differential:
+                records.append(differential.run({f"pinion.{drive}_command": (times, sign * commands)}, names, times[-1]))
+        return records
+
+    return simulate
+
+
+def mirrored(here, there, within=SAME):
+    """Names of outputs that are not those of the mirror image, up to this share of their largest values."""
+    return [name for name in here.dtype.names[1:]
+            if np.abs(there[name] - (-1.0 if name.endswith(ODD) else 1.0) * here[name]).max() > within * np.abs(here[name]).max()]
+
+
+WITH_SHAFT = {"effects.propeller_shaft": True, "propeller_shaft.joint_angle": 0.3}
+VIEWS = pytest.mark.parametrize("more", [{}, WITH_SHAFT], ids=["pinion", "shaft"])
+CONTACTS = pytest.mark.parametrize("contact", ["ideal", "lumped"])
+
+
+@CONTACTS
+@VIEWS
+@pytest.mark.parametrize("elastic", [False, True])
+@pytest.mark.parametrize("way", [1.0, -1.0])
+@pytest.mark.parametrize("drive", ["torque", "speed"])
+def test_all_inputs_reversed_give_the_mirror_image_of_loaded_flanks(images, contact, elastic, drive, way, more):
+    course = [(0.0, 170.0), (0.02, 190.0), (0.05, 150.0)] if drive == "torque" else [(0.0, 40.0), (0.02, 45.0), (0.05, 30.0)]
+    if way < 0.0:
+        course = [(time, -value if drive == "torque" else value) for time, value in course]
+    here, there = images(drive, elastic, 600.0 * way, course, more | {"scene.gear_contact": contact})
+    assert np.ptp(here["pinion.speed"]) > 1.0 and np.abs(here["carrier.torque"]).min() > 100.0
+    assert mirrored(here, there) == []
+
+
+TURNING = {"torque": [(0.0, 0.0), (0.02, 90.0), (0.04, -80.0), (0.05, 10.0)],
+           "speed": [(0.0, 0.0), (0.02, 30.0), (0.04, -20.0), (0.05, 5.0)]}
+
+
+@VIEWS
+@pytest.mark.parametrize("drive", ["torque", "speed"])
+def test_all_inputs_reversed_give_the_mirror_image_through_rest(images, drive, more):
+    here, there = images(drive, False, 60.0, TURNING[drive], more | {"scene.gear_contact": "ideal", "scene.start": "rest"})
+    assert here["pinion.speed"].min() < -1.0 and here["pinion.speed"].max() > 1.0
+    assert mirrored(here, there) == []
+
+
+@VIEWS
+@pytest.mark.parametrize("drive", ["torque", "speed"])
+def test_all_inputs_reversed_give_the_mirror_image_through_the_lash(images, drive, more):
+    """Rounding decides on the steps of the solver where flanks touch, so the images agree only as well as the solution is exact."""
+    here, there = images(drive, True, 60.0, TURNING[drive], more | {
+        "scene.gear_contact": "ideal", "scene.start": "rest", "solver.relative_tolerance": 1e-10})
+    assert here["carrier.torque"].min() < -50.0 and here["carrier.torque"].max() > 50.0
+    assert np.abs(there["carrier.speed"] + here["carrier.speed"]).max() < 1e-6 * np.abs(here["carrier.speed"]).max()
