@@ -132,7 +132,9 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         (
             "elastic final drive, shafts, lumped",
             turn(|p| {
-                (final_drive(p, true), propeller(p), p.effects.half_shaft = true).0;
+                final_drive(p, true);
+                propeller(p);
+                p.effects.half_shaft = true;
                 p.scene.gear_contact = GearContact::Lumped;
             }),
         ),
