@@ -262,6 +262,20 @@ def test_nothing_that_the_car_sets_is_without_influence(fmu_file, contact, speed
     assert not [warning for warning in caught if "changes nothing" in str(warning.message)]
 
 
+@pytest.mark.parametrize("final", [{}, {"effects.propeller_shaft": True, "propeller_shaft.stiffness": 1e6, "propeller_shaft.damping": 100.0},
+                                   {"final_drive.elastic_mesh": True, "final_drive.backlash": 0.0}])
+def test_a_car_with_a_final_drive_moves_as_one_whose_motor_turns_the_carrier(fmu_file, final):
+    """The ratio of the motor includes the final drive, so bodies of nearly no inertia and stiff springs change next to nothing."""
+    light = {"inertia.pinion": 1e-6, "inertia.propeller_end": 1e-6, "effects.final_drive": True}
+    names = ["body.speed", "motor.speed", "motor.torque", "left.shaft_torque"]
+    plain, driven = (Car(IDEAL | values, left=LEFT, right=RIGHT, fmu=fmu_file).run(
+        [*names, "propeller.speed", "propeller.torque"], 1.0, 1e-3, request=100.0, speed=5.0) for values in ({}, light | final))
+    for name in names:
+        assert driven[name][500:] == pytest.approx(plain[name][500:], rel=2e-3), name
+    assert driven["propeller.speed"] == pytest.approx(4.1 / 9.0 * driven["motor.speed"], rel=1e-9)
+    assert driven["propeller.torque"][1:-1] == pytest.approx(9.0 / 4.1 * driven["motor.torque"][1:-1], rel=0.02)
+
+
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 def test_a_short_request_gives_the_same_speed_at_any_step(fmu_file, sign):
     pulse = [0.0, 0.01005, 0.0102, 0.01035], [0.0, 0.0, sign * 200.0, 0.0]

@@ -110,7 +110,7 @@ def commands_of(run: Simulated, ratio: float, imposed: list[str]) -> dict[str, f
     """Commands of the imposed speeds over the speed of the carrier."""
     speeds = _speeds(run, ratio)
     commands = {DRIVES[name][2]: speeds[name] for name in imposed}
-    return {port_command(run.scene, name): port_value(run.scene, name, value) for name, value in commands.items()}
+    return {port_command(run.value, name): port_value(run.value, name, value) for name, value in commands.items()}
 
 
 def _speeds(run: Simulated, ratio: float) -> dict[str, float]:
@@ -153,7 +153,7 @@ def _values(run, commands, imposed, loads):
     drive = {"carrier.torque_command": sum(loads), "carrier.speed_command": SLOWEST}
     values: dict[str, Number | str] = {
         "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
-        **{port_command(run.scene, name): port_value(run.scene, name, value) for name, value in drive.items()},
+        **{port_command(run.value, name): port_value(run.value, name, value) for name, value in drive.items()},
         **{name: part * SLOWEST for name, part in commands.items()}}
     for name in imposed:
         drive, literal, _ = DRIVES[name]

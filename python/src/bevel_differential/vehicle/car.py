@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..drive_port import PORT, PORT_SPEED, SPEED, TORQUE, drive_ratio, port_command, port_inertia, port_value
 from ..fmu import Fmu
 from ..inputs import prolonged, times_of_rows
 from ..instance import Instance
@@ -24,9 +25,9 @@ from .signals import Course, Requests, course, speed_value
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-# signals to the differential, and back
-LOADS = ("carrier.torque_command", "left.load_torque", "right.load_torque")
-SPEEDS = ("carrier.speed", "left.wheel_speed", "right.wheel_speed")
+# signals to the differential, and back; with a final drive, the torque acts on its port
+LOADS = (TORQUE, "left.load_torque", "right.load_torque")
+SPEEDS = (PORT_SPEED, "left.wheel_speed", "right.wheel_speed")
 # units of the recorded outputs of the parts
 UNITS = {"motor.torque": "N.m", "motor.speed": "rad/s", "left_tyre.force": "N", "right_tyre.force": "N", "left_tyre.slip": "",
          "right_tyre.slip": "", "body.speed": "m/s", "body.lateral_speed": "m/s", "body.yaw_rate": "rad/s",
@@ -50,8 +51,8 @@ class Car:
     """Car with this differential in its driven axle.
 
     `differential`: parameters as for `Differential`. The car sets the drives: torques at all three shafts, the motor's inertia at the
-    carrier in addition to `inertia.carrier`, and the wheels' inertia at the half-shafts. Parts have the start values of a passenger
-    car. `unset` lists parameters that nobody gave; if any part was given, the first run warns of them. `accept_start_values` as for
+    carrier in addition to `inertia.carrier`, and the wheels' inertia at the half-shafts. With effects.final_drive, the motor turns the
+    pinion or its propeller shaft, by a gear that has the rest of its ratio. Parts have the start values of a passenger car. `unset` lists parameters that nobody gave; if any part was given, the first run warns of them. `accept_start_values` as for
     `Differential`; True also accepts those of the parts.
 
     >>> from bevel_differential.vehicle import Car, Tyre
@@ -92,9 +93,10 @@ class Car:
         steps = requests.steps(stop, step)
         rows = []
         with self.fmu.open() as instance:
-            run = _Run(instance, motion, [name for name in names if name not in UNITS], step)
+            loads = [port_command(self._value, name) for name in LOADS]
+            run = _Run(instance, motion, loads, drive_ratio(self._value), [name for name in names if name not in UNITS], step)
             ask, turn = requests.within(steps[0], 0.0).values()
-            run.start(self._start(motion, begin, ask(0.0)), stop)
+            run.start(self._start(motion, begin, ask(0.0)), begin / self._radius(), stop)
             values = run.values(turn(0.0))
             rows.append([values[name] for name in names])
             wanted: Mapping[str, Value] = {}
@@ -140,8 +142,8 @@ class Car:
         self._is_warned = True
 
     def _checked(self, given):
-        own = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive", "scene.start", "scene.planet_spin", *LOADS,
-               "inertia.left_end", "inertia.right_end", "carrier.speed_command")
+        own = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive", "scene.start", "scene.planet_spin", *LOADS, SPEED,
+               *PORT.values(), "inertia.left_end", "inertia.right_end")
         for name in given:
             if name in own:
                 raise DifferentialError(f"{name}: the car sets it; what acts on the shafts are motor, tyres and body")
@@ -150,16 +152,22 @@ class Car:
 
     def _start(self, motion, speed, request):
         left, right = self.tyres
-        begin = speed / (0.5 * (left.radius + right.radius))
+        begin, ratio = speed / self._radius(), drive_ratio(self._value)
         if speed:
             motion.x[0] = motor_torque(self.motor, request, self.motor.ratio * begin)
         # a start from rest reads the speed only if the gears are ideal
         is_ideal = self._value("scene.gear_contact") == self.fmu.variable("scene.gear_contact").literals["ideal"]
-        start = {"carrier.speed_command": begin} if speed or is_ideal else {}
-        return {**self._given, **start, "inertia.carrier": self._value("inertia.carrier") + self.motor.inertia * self.motor.ratio**2,
+        start = {port_command(self._value, SPEED): port_value(self._value, SPEED, begin)} if speed or is_ideal else {}
+        body = port_inertia(self._value)
+        return {**self._given, **start, body: self._value(body) + self.motor.inertia * (self.motor.ratio / ratio) ** 2,
                 "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",
                 "scene.start": "equilibrium" if speed else "rest",
                 "inertia.left_end": left.inertia, "inertia.right_end": right.inertia}
+
+    def _radius(self):
+        """Mean radius of the tyres, m."""
+        left, right = self.tyres
+        return 0.5 * (left.radius + right.radius)
 
     def _value(self, name):
         """Value of a parameter of the differential, given or by default."""
@@ -185,7 +193,8 @@ class Car:
 
         motion = Motion(self.motor, self.tyres, self.body, 0.0)
         with self.fmu.open() as instance:
-            instance.initialise(self._start(motion, 0.0, 0.0) | dict.fromkeys(LOADS, 0.0))
+            loads = [port_command(self._value, name) for name in LOADS]
+            instance.initialise(self._start(motion, 0.0, 0.0) | dict.fromkeys(loads, 0.0))
             unit = linearised(instance, LOADS[1:], SPEEDS[1:])
         walk = max(tyre.walk for tyre in self.tyres)
         return min(stability(unit, [_host(side, tyre, part * walk) for side, tyre in zip(("left", "right"), self.tyres)],
@@ -216,23 +225,28 @@ def _times(tyre):
 
 
 class _Run:
-    """One run: from step to step, the differential receives lines of torque, and the parts receive lines of speed."""
+    """One run: from step to step, the differential receives lines of torque, and the parts receive lines of speed. The parts refer
+    speed and torque of the motor to the carrier, over the `ratio` of a final drive; `loads`: names of the torques."""
 
-    def __init__(self, instance: Instance, motion: Motion, names: list[str], communication_step: float):
-        self.instance, self.motion, self.names = instance, motion, names
-        self.port = instance.port(LOADS, [*SPEEDS, *names])
+    def __init__(self, instance: Instance, motion: Motion, loads: list[str], ratio: float, names: list[str], communication_step: float):
+        self.instance, self.motion, self.names, self.names_of_loads, self.ratio = instance, motion, names, loads, ratio
+        self.port = instance.port(loads, [*SPEEDS, *names])
         # times and speeds: the last point that is a communication step or more ago, and all points since then
         self.past: list[tuple[float, list[float]]] = []
         self.communication_step = communication_step * (1.0 - SAME)
         self.read: list[Number] = []
 
-    def start(self, values, stop):
-        at = values.get("carrier.speed_command", 0.0)
-        self.instance.initialise(values | dict(zip(LOADS, self.motion.loads([at] * 3))), stop)
+    def start(self, values, at, stop):
+        """Starts with carrier and wheels at the speed `at`, rad/s."""
+        self.instance.initialise(values | dict(zip(self.names_of_loads, self._loads([at] * 3))), stop)
         self._keep(0.0, self.port.read())
 
+    def _loads(self, speeds):
+        drive, *sides = self.motion.loads(speeds)
+        return [drive / self.ratio, *sides]
+
     def _keep(self, time, outputs):
-        self.past.append((time, outputs[:3]))
+        self.past.append((time, [outputs[0] / self.ratio, *outputs[1:3]]))
         # a line through points that are close together would be a rounding error
         while len(self.past) > 2 and time - self.past[1][0] >= self.communication_step:
             self.past.pop(0)
@@ -249,9 +263,9 @@ class _Run:
         def line(t):
             return [value + slope * t for value, slope in zip(now, slopes)]
 
-        begin = self.motion.loads(now)
+        begin = self._loads(now)
         self.motion.advance(size, line, *(lambda t, of=of: of(time + t) for of in asked))
-        end = self.motion.loads(line(size))
+        end = self._loads(line(size))
         if not all(map(math.isfinite, end)):
             raise DifferentialError(f"at {time:g} s: the tyres' loads are not numbers; use shorter steps, or check the parameters",
                                     kind="failed")

@@ -25,7 +25,7 @@ class Tyre(Part):
 
 @dataclass
 class Motor(Part):
-    """Motor with a gear of fixed ratio to the carrier. Its torque follows the request with a lag of first order. Below the knee, the torque
+    """Motor with a gear of fixed ratio to the carrier, of which a final drive is a part. Its torque follows the request with a lag of first order. Below the knee, the torque
     is at most `peak`. Above the knee, the power is at most `peak` times `knee`, driving or braking, forward or backward. With
     `ratio` = 1 the motor represents any source of torque."""
 
