@@ -83,4 +83,4 @@ def test_numbers_of_the_page_are_those_of_the_source():
     assert f"two planets that differ | {sizes['TWO_GROUPS_SIZE']} |" in page
     assert f"half-shafts that twist | {sizes['ENDS_SIZE']} |" in page
     assert f"| teeth, `Largest` | up to {sizes['MAX_SIZE']} |" in page
-    assert f"| gears without teeth | up to {sizes['ENDS_SIZE']} |" in page
+    assert f"| gears without teeth | up to {sizes['ENDS_SIZE']}, 8 |" in page

@@ -5,8 +5,9 @@
 
 use super::face::PointStorage;
 use super::opening::Opened;
-use super::planet::{Meshes, NearPair};
+use super::planet::Meshes;
 use super::sums::{Approach, Sums};
+use super::touching::NearPair;
 use super::{Detailed, PairName};
 use crate::contact::bodies::LoadedPair;
 use crate::contact::shared::{COORDINATES, Change, OpeningByOthers, Pairs, Sharing};

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::face::{Part, PointStorage};
 use super::opening::Opened;
 use super::totals::SUMS;
-use super::touching::Touching;
+use super::touching::{NearPair, Touching};
 use super::{Detailed, DetailedLoad, DetailedState, MeshTeeth, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER};
 use crate::contact::bodies::PairCouplings;
 use crate::contact::shared::Share;
@@ -25,20 +25,6 @@ pub struct Meshes<'a> {
     /// Number of the planet tooth whose position in the right mesh corresponds to the position of tooth 0 in the left
     /// mesh.
     pub opposite: i64,
-}
-
-/// A pair that may touch.
-pub struct NearPair<'a, P> {
-    /// Identity of the teeth.
-    pub name: &'a PairName,
-    /// The pair; its depth is the approach of its flanks.
-    pub pair: &'a ToothPair,
-    /// Opening of the flanks.
-    pub opened: &'a Opened,
-    /// Values of the elastic law at the position of the pair, if known already.
-    pub local: Option<P>,
-    /// Share of the load. On rigid bodies, only its own arc is set, which equals the approach.
-    pub share: &'a Share<'a>,
 }
 
 /// Loads with derivatives with respect to `WIDE` variables: those of one mesh on rigid bodies, or those of both meshes

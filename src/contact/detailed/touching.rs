@@ -1,10 +1,25 @@
 //! A touching tooth pair: adds the loads of its face to the loads of its mesh.
 
 use super::face::Part;
-use super::planet::NearPair;
+use super::opening::Opened;
 use super::sums::{Approach, LoadedNode, PairFriction, Sums};
 use super::{Detailed, Face, MeshTeeth, Opening, PairMotion, PairName, SliceLoad, Totals};
+use crate::contact::shared::Share;
 use crate::contact::{Spring, ToothPair};
+
+/// A pair that may touch.
+pub struct NearPair<'a, P> {
+    /// Identity of the teeth.
+    pub name: &'a PairName,
+    /// The pair; its depth is the approach of its flanks.
+    pub pair: &'a ToothPair,
+    /// Opening of the flanks.
+    pub opened: &'a Opened,
+    /// Values of the elastic law at the position of the pair, if known already.
+    pub local: Option<P>,
+    /// Share of the load. On rigid bodies, only its own arc is set, which equals the approach.
+    pub share: &'a Share<'a>,
+}
 
 /// A touching pair.
 pub struct Touching<'a, P, const OPEN: bool> {
