@@ -6,11 +6,11 @@ use super::face::{Part, PointStorage};
 use super::opening::Opened;
 use super::totals::SUMS;
 use super::touching::{NearPair, Touching};
-use super::{Detailed, DetailedLoad, DetailedState, MeshTeeth, PairMotion, PairName, SliceLoad, Totals, WITH_OTHER};
+use super::{Detailed, DetailedLoad, DetailedState, MeshTeeth, PairMotion, SliceLoad, Totals, WITH_OTHER};
 use crate::contact::bodies::PairCouplings;
 use crate::contact::shared::Share;
 use crate::contact::spring::with_spring;
-use crate::contact::{AnySpring, Spring, ToothPair};
+use crate::contact::{AnySpring, Spring};
 use crate::numeric::Dual;
 
 /// Both meshes of a planet.
