@@ -169,3 +169,16 @@ def test_the_command_writes_figure_numbers_and_scene(tmp_path):
     assert {file.name for file in (tmp_path / "out").iterdir()} == {"winter_start.png", "winter_start.csv", "winter_start.toml"}
     with Image.open(tmp_path / "out" / "winter_start.png") as picture:
         assert len(picture.getcolors(maxcolors=1 << 20)) > 10
+
+
+@pytest.mark.parametrize("law, shaft, contact", [("impact", False, "tooth"), ("line", False, "tooth"), ("line", True, "tooth"), ("line", False, "lumped")])
+def test_the_play_at_the_pinion_is_that_of_both_meshes(fmu_file, tmp_path, law, shaft, contact):
+    """Lash of 0.1 mm on the outer pitch radius of the side gears, 36 mm, and of 0.12 mm on the ring gear at 90 mm, times the ratio."""
+    values = {"contact.law": law, "effects.propeller_shaft": shaft, "scene.gear_contact": contact}
+    says = bench("lash", tmp_path, values=values if contact == "tooth" else {"scene.gear_contact": contact}, fmu=fmu_file)
+    play = np.degrees(4.1 * (0.1 / 36.0 + 0.12 / 90.0))
+    assert play == pytest.approx(0.96575, abs=5e-6)
+    assert float(says.split(" deg")[0].split()[-1]) == pytest.approx(play, abs=1e-5)
+    if shaft:
+        wound = float(says.split("wind up by ")[1].split()[0])
+        assert wound > np.degrees(2.0 * 300.0 / 2e4)

@@ -172,6 +172,16 @@ def test_a_side_driven_by_speed_meets_an_inertia_with_a_damper_to_the_ground(sce
     assert same.limit == made.limit
 
 
+def test_a_host_in_front_of_a_final_drive_has_the_limit_of_its_values_at_the_carrier(scene):
+    """A rigid final drive with a pinion of nearly no inertia only changes units: torque by 1/i, speed by i."""
+    final = {"effects.final_drive": True, "inertia.pinion": 1e-9, "pinion.torque_command": 800.0 / 4.1, "pinion.speed_command": 41.0}
+    at_port = {name: value for name, value in LOADED.items() if not name.startswith("carrier.")} | final
+    k, c, inertia = 8000.0, 5.0, 0.4
+    one = coupling(scene(LOADED), [Host.spring("carrier", k, c, inertia)]).limit
+    other = coupling(scene(at_port), [Host.spring("carrier", k / 4.1**2, c / 4.1**2, inertia / 4.1**2)]).limit
+    assert other == pytest.approx(one, rel=1e-4)
+
+
 def test_a_carrier_driven_by_speed_meets_an_inertia(scene, fmu):
     values = {"scene.gear_contact": "tooth", "carrier.speed_command": 10.0, "left.load_torque": 400.0, "right.load_torque": 400.0,
               "inertia.left_end": 1.0, "inertia.right_end": 1.0, "solver.relative_tolerance": 1e-9}

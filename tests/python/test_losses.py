@@ -82,6 +82,17 @@ def test_drag_is_lost_by_its_formula(point, difference):
     assert loss == pytest.approx(drag(2.0, 0.02, SPEED) + 1e-3 * SPEED**3 + sides, rel=1e-4)
 
 
+@pytest.mark.parametrize("elastic", [False, True])
+def test_a_final_drive_adds_its_friction_to_the_losses_at_its_port(point, elastic):
+    """Torque and speed of a point are those of the port, referred to the carrier."""
+    final = {"effects.final_drive": True, "final_drive.elastic_mesh": elastic, "final_drive.friction_torque": 3.0, "final_drive.viscous": 0.01}
+    left, right, loss, _, _ = point(final, TORQUE, SPEED, 2.0)
+    friction = 3.0 + 0.01 * 4.1 * SPEED
+    assert left + right == pytest.approx(TORQUE - 4.1 * friction, rel=1e-4)
+    assert loss == pytest.approx(PRELOAD * 2.0 + friction * 4.1 * SPEED, rel=1e-3)
+    assert TORQUE * SPEED == pytest.approx(left * (SPEED + 1.0) + right * (SPEED - 1.0) + loss, rel=1e-4)
+
+
 def test_a_small_difference_costs_no_more_than_a_large_one_and_agrees_with_it(point):
     # teeth whose friction does not depend on speed
     teeth = {"scene.gear_contact": "tooth", "effects.limited_slip": False, "effects.thrust_friction": True}

@@ -14,9 +14,17 @@ const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Output that depends on speeds and on brake torques, and the suffix of these torques.
 const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
 /// Commands that speeds follow immediately, and the suffixes of these speeds. Sides of unequal inertia couple both.
-const COMMANDS: [&str; 2] = ["carrier.speed_command", "spin.command"];
-const FOLLOWERS: [&str; 6] =
-    ["carrier.speed", "left.speed", "right.speed", "wheel_speed", "spin_speed", "mesh.frequency"];
+const COMMANDS: [&str; 3] = ["carrier.speed_command", "pinion.speed_command", "spin.command"];
+const FOLLOWERS: [&str; 8] = [
+    "carrier.speed",
+    "pinion.speed",
+    "propeller.speed",
+    "left.speed",
+    "right.speed",
+    "wheel_speed",
+    "spin_speed",
+    "mesh.frequency",
+];
 /// Suffixes of the speed command of a half-shaft's end, and of the output on the same side that follows it immediately.
 const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 

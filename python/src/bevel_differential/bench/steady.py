@@ -14,6 +14,7 @@ from ..losses.point import FIGURES, PointTask, benched
 from ..losses.tables import bias as ratio_of
 from ..panel import CYCLE, Panel, curve, picture
 from ..records import write
+from ..drive_port import TORQUE, drive_ratio, port_command
 from ..scene import Scene
 from ..values import DifferentialError, Number
 
@@ -60,10 +61,11 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
 
 def largest_torque(scene: Scene) -> float:
     """Largest carrier torque of the bench [N·m], from the scene."""
-    command = float(scene.value("carrier.torque_command"))
+    name = port_command(scene.value, TORQUE)
+    command = float(scene.value(name))
     if command <= 0.0:
-        raise DifferentialError(f"carrier.torque_command = {command:g} N.m: the bench needs its largest torque here, above 0")
-    return command
+        raise DifferentialError(f"{name} = {command:g} N.m: the bench needs its largest torque here, above 0")
+    return command * drive_ratio(scene.value)
 
 
 def means(scene: Scene, runs: Sequence[Mapping[str, Number]], farm: Mapping[str, Any]) -> list[list[float]]:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..drive_port import PORT
 from ..instance import Instance
 from ..scene import Scene
 from ..values import DifferentialError
@@ -15,7 +16,9 @@ INPUTS = {("carrier", "torque"): ("carrier.torque_command", -1.0), ("carrier", "
           **{(side, drive): (f"{side}.{name}", 1.0) for side in ("left", "right")
              for drive, name in (("torque", "load_torque"), ("speed", "speed_command"))}}
 # output torques with which a port drives its host; the carrier's torque is what the host exerts
-SIGNS = {"carrier.torque": -1.0}
+SIGNS = {"carrier.torque": -1.0, "propeller.torque": -1.0}
+# with a final drive, the host of the carrier turns the port of the drive
+AT_PORT = {**PORT, **{f"carrier.{name}": f"propeller.{name}" for name in ("angle", "speed", "torque")}}
 
 
 def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]) -> Linear:
@@ -31,7 +34,7 @@ def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]
 def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bool]:
     """The unit as its hosts see it at the time `at` [s] of a scene, and true if its teeth are loaded there. Inputs are the values that
     hosts return, outputs are those that they read, in the order of the hosts."""
-    inputs, signs = [], []
+    inputs, signs, final = [], [], scene.value("effects.final_drive")
     ideal = scene.value("scene.gear_contact") == scene.fmu.variable("scene.gear_contact").literals["ideal"]
     for host in hosts:
         variable = scene.fmu.variable(f"scene.{host.port}_drive")
@@ -45,9 +48,9 @@ def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bo
             raise DifferentialError("carrier: gears without teeth follow its speed at once, so a jump of the speed has no finite torque; set "
                                     "scene.gear_contact to lumped or tooth, or drive it by torque")
         name, sign = INPUTS[host.port, drive]
-        inputs.append(name)
+        inputs.append(AT_PORT.get(name, name) if final else name)
         signs.append(sign)
-    outputs = [name for host in hosts for name in host.outputs]
+    outputs = [AT_PORT.get(name, name) if final else name for host in hosts for name in host.outputs]
     scene._record(["carrier.speed"], None, at)
     instance = scene._instance()
     unit = linearised(instance, inputs, outputs)

@@ -94,13 +94,15 @@ def _axes(scene, arguments):
 
 
 def _reached(scene):
-    """Largest magnitudes of the torque and the speed of the carrier in the scene."""
+    """Largest magnitudes of the torque of the drive and of its speed in the scene, both referred to the carrier."""
+    from ..drive_port import PORT_SPEED, PORT_TORQUE, drive_ratio
     from ..warned import silenced
 
     # the runs of the map pass on the warnings of the FMU
     with silenced():
-        record = scene.run(["carrier.torque", "carrier.speed"])
-    return [float(abs(record[name]).max()) for name in ("carrier.torque", "carrier.speed")]
+        record = scene.run([PORT_TORQUE, PORT_SPEED])
+    torque, speed = (float(abs(record[name]).max()) for name in (PORT_TORQUE, PORT_SPEED))
+    return [torque * drive_ratio(scene.value), speed / drive_ratio(scene.value)]
 
 
 def _bound(text):

@@ -4,7 +4,10 @@ until its means settle.
 The carrier is driven by torque, both wheels by speed. Means are over whole mesh cycles: of torques sampled within a cycle, and of
 the heat that a cycle adds. A slow cycle costs no more than a fast one, because steps grow with it. Well damped half-shafts keep
 falling friction from juddering, so the means are quasi-static at small differences. Without a difference, the differential is
-stuck: it is wound up in both directions, slowly, over a mesh cycle, and its torques range up to breakaway."""
+stuck: it is wound up in both directions, slowly, over a mesh cycle, and its torques range up to breakaway.
+
+With a final drive, torque and speed act on its port. Both are still referred to the carrier, so that the balance of torques and powers
+is the same, and the loss includes the heat of final drive and propeller shaft."""
 
 import time
 from collections.abc import Callable, Mapping
@@ -13,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from ..drive_port import PORT, port_command, port_value
 from ..instance import Instance
 from ..scene import Scene
 from ..values import UNFELT, DifferentialError, Number
@@ -82,14 +86,16 @@ class PointTask:
         return list(self.evaluate(0, values).warnings or ())
 
     def _warnings(self):
-        own = {*AXES[:-1], *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
+        own = {*AXES[:-1], *PORT.values(), *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
         said = self._instance.messages if self._instance is not None else []
         return tuple(text for text in said if not (UNFELT in text and text.partition(": ")[0] in own))
 
     def _begun(self, values):
         if self._instance is None:
             self._instance = self.scene.fmu.open()
-        return self._instance.initialise({**self.scene.values, **values})
+        value = self.scene.value
+        at_port = {port_command(value, name): port_value(value, name, float(number)) for name, number in values.items()}
+        return self._instance.initialise({**self.scene.values, **at_port})
 
     def _slipping(self, values):
         instance = self._begun(values)

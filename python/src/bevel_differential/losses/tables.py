@@ -15,13 +15,13 @@ from .loss_map import MAPPED, SIGNS
 MEANINGS = {
     "kind": "map: a point of the map, which slips; stuck: a point without a difference of speeds; unseen: a random point that "
             "measured the error",
-    "carrier.torque": "torque that drives the carrier, N·m",
+    "carrier.torque": "torque of the drive, referred to the carrier: with a final drive, that of its port times the ratio, N·m",
     "carrier.speed": "speed of the carrier, the mean of the wheels' speeds, rad/s",
     "speed_difference": "speed of the left wheel less that of the right wheel, rad/s",
     "oil.temperature": "temperature of the oil and of all surfaces, K; 0 °C are 273.15 K",
     "left.shaft_torque": "torque of the left half-shaft, a mean over mesh cycles, N·m",
     "right.shaft_torque": "torque of the right half-shaft, a mean over mesh cycles, N·m",
-    "power.loss": "power that becomes heat, a mean over mesh cycles, W",
+    "power.loss": "power that becomes heat, with that of final drive and propeller shaft, a mean over mesh cycles, W",
     "left.shaft_torque_min": "map: the least left torque of a mesh cycle; stuck: that at which the left wheel breaks loose ahead, N·m",
     "left.shaft_torque_max": "map: the greatest left torque of a mesh cycle; stuck: that at which the right wheel breaks loose ahead, N·m",
     "torque_bias_ratio": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques "
