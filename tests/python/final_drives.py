@@ -88,6 +88,8 @@ class FinalDrive:
         rest = shaft - inertial[0] - self.ratio * self.of["final_drive.viscous"] * speed
         friction = rest - on_carrier * (1.0 - by_pinion) / (1.0 + by_carrier)
         # dry friction that holds the pinion takes any value up to its limit
-        limit = self.ratio * self.of["final_drive.friction_torque"]
+        torque = on_carrier / (1.0 + by_carrier)
+        loss = self.of["final_drive.drive_loss" if torque > 0.0 else "final_drive.coast_loss"]
+        limit = self.ratio * self.of["final_drive.friction_torque"] + loss * abs(torque)
         allowed += INSTANT * (abs(rest) + abs(on_carrier))
         assert abs(friction) <= limit + allowed, f"the ring gear gives {on_carrier} N.m, and dry friction takes {friction}, at most {limit}"

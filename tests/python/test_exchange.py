@@ -57,11 +57,11 @@ def test_cvode_converges_to_the_fmu_s_solver(simulate):
 
 def test_states_and_derivatives_are_in_the_model_structure(description):
     derivatives = [unknown.variable for unknown in description.derivatives]
-    assert len(derivatives) == 30
+    assert len(derivatives) == 34
     names = [variable.derivative.name for variable in derivatives]
-    assert names[0] == "left.relative_angle" and names[15] == "left.speed" and len(set(names)) == 30
+    assert names[0] == "left.relative_angle" and names[17] == "left.speed" and len(set(names)) == 34
     assert all(variable.derivative.nominal for variable in derivatives)
-    assert description.numberOfEventIndicators == 24
+    assert description.numberOfEventIndicators == 25
 
 
 def test_states_are_read_in_the_order_of_the_model_structure(fmu, description):

@@ -25,6 +25,8 @@ const FOLLOWERS: [&str; 8] = [
     "spin_speed",
     "mesh.frequency",
 ];
+/// Beginnings of the names of outputs that only a final drive has.
+const IN_FRONT: [&str; 3] = ["ring_gear.", "left_bearing.", "right_bearing."];
 /// Suffixes of the speed command of a half-shaft's end, and of the output on the same side that follows it immediately.
 const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 
@@ -83,7 +85,14 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
             if named(&BY_MOTION_OF_TEETH) {
                 return inputs_where(table, is_followed);
             }
-            inputs_where(table, |input| is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+            // behind a final drive, the commands of the carrier do not act
+            let is_in_front = IN_FRONT.iter().any(|part| row.name.starts_with(part));
+            inputs_where(table, |input| {
+                // the acceleration of a carrier with imposed speed is the rate of its command
+                let is_own = row.name == "carrier.acceleration" && input.name == "carrier.speed_command";
+                let acts = !(is_in_front && input.name.starts_with("carrier.") || is_own);
+                acts && (is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+            })
         }
         _ => Vec::new(),
     }

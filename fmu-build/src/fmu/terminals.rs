@@ -44,7 +44,7 @@ struct Terminal {
 
 use Kind::{Inflow, Outflow, Signal};
 
-const TERMINALS: [Terminal; 13] = [
+const TERMINALS: [Terminal; 15] = [
     Terminal {
         name: "carrier_torque_driven",
         kind: TORQUE_DRIVEN,
@@ -62,6 +62,24 @@ const TERMINALS: [Terminal; 13] = [
         description: "Carrier with scene.carrier_drive = speed: the speed is the input. The speed is positive forward; a positive \
                       torque of the drive drives the differential forward",
         members: &[("tau", "carrier.torque", Inflow), ("w", "carrier.speed_command", Signal)],
+    },
+    Terminal {
+        name: "port_torque_driven",
+        kind: TORQUE_DRIVEN,
+        description: "Pinion, or its propeller shaft, with effects.final_drive and scene.carrier_drive = torque: the torque is \
+                      the input. Speed, angle and torque are positive forward",
+        members: &[
+            ("tau", "pinion.torque_command", Inflow),
+            ("w", "propeller.speed", Signal),
+            ("phi", "propeller.angle", Signal),
+        ],
+    },
+    Terminal {
+        name: "port_speed_driven",
+        kind: SPEED_DRIVEN,
+        description: "Pinion, or its propeller shaft, with effects.final_drive and scene.carrier_drive = speed: the speed is the \
+                      input. The speed is positive forward; a positive torque of the drive drives forward",
+        members: &[("tau", "propeller.torque", Inflow), ("w", "pinion.speed_command", Signal)],
     },
     Terminal {
         name: "left_torque_driven",

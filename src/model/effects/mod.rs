@@ -5,7 +5,7 @@
 mod bearing_drag;
 mod body_compliance;
 pub mod coupling_advice;
-pub mod final_drive;
+mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
 mod lock;
@@ -19,6 +19,8 @@ mod tooth_fault;
 mod tooth_friction;
 pub mod warm_up;
 mod wheel_brake;
+
+pub use final_drive::{FinalDriveSpec, Hand, RingSide};
 
 use std::any::{Any, TypeId};
 
