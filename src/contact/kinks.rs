@@ -8,7 +8,7 @@ use super::{Engagement, Flank, Spot};
 use crate::numeric::quotient;
 
 /// Fractions of a step between which the step is cut at a kink. A kink near either end of a step does no harm.
-const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
+pub const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Largest number of pairs searched in a motion. A motion past more pairs is longer than a whole turn of a gear and
 /// resolves no kink. At absurd speeds the search would not end.
 const MAX_PAIRS: i64 = 256;

@@ -12,6 +12,7 @@ pub mod gaps;
 pub mod hertz;
 pub mod impact;
 mod kinks;
+pub use kinks::WORTHWHILE;
 pub mod mesh;
 pub mod pair_load;
 pub mod pairs;

@@ -44,8 +44,8 @@ pub use readings::{CostClass, Reported};
 pub use run::{Accepted, HostInputs, Simulation, StepFailure, six_digits};
 pub use scene::layout::MAX_PLANETS;
 pub use scene::{
-    CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, Material, Method, ORDERS, Plan,
-    PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
+    CarrierDrive, GearContact, Group, InertiaSpec, InputDerivatives, Inputs, Layout, MAX_SPEED, MAX_TORQUE, Material,
+    Method, ORDERS, Plan, PlanetSpin, Scene, SideDrive, SolidTeeth, SolverSpec, Start,
 };
 pub use setup::ATTACHED;
 pub use setup::Parameters;

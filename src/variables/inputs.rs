@@ -3,13 +3,9 @@
 use crate::declaration::units::*;
 use crate::declaration::{Condition, Row, all, any, row};
 use crate::model::{
-    CarrierDrive, FinalDriveSpec, GearContact, InputField, PlanetSpin, Scene, SideDrive, Start, effects,
+    CarrierDrive, FinalDriveSpec, GearContact, InputField, MAX_SPEED, MAX_TORQUE, PlanetSpin, Scene, SideDrive, Start,
+    effects,
 };
-
-/// Limit of speeds [rad/s], far beyond any differential, but small enough that no intermediate result overflows.
-const MAX_SPEED: f64 = 1e5;
-/// Limit of torques [N·m], far beyond any differential, but small enough that no intermediate result overflows.
-const MAX_TORQUE: f64 = 1e8;
 
 /// Condition that a carrier that is driven by torque turns at the start.
 fn starts_turning() -> Condition {

@@ -225,12 +225,7 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         if S::MAY_ACT && self.teeth.effect_terms.body_effects.loss.is_some() {
             self.brake_pinion(at, sum, ledger_rates);
         }
-        let (port, imposed) = (self.port(), if S::MAY_ACT { rates.drive_speed } else { 0.0 });
-        let drive = if plan.drive_imposed {
-            self.teeth.inertia[port] * imposed - sum[port]
-        } else {
-            self.applied.inputs.drive_torque
-        };
+        let (port, drive) = (self.port(), self.drive_under(sum));
         input += drive * at.v[port];
         sum[port] += drive;
         if plan.spin_imposed {
@@ -254,9 +249,21 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         ledger_rates.input += input;
     }
 
+    /// Torque of the drive, given the `sum` of all other torques. Only an imposed speed depends on them.
+    #[inline(always)]
+    pub(in crate::model) fn drive_under(&self, sum: &[f64; N]) -> f64 {
+        let (port, rates) = (self.port(), &self.applied.input_derivatives.rates[0]);
+        let imposed = if S::MAY_ACT { rates.drive_speed } else { 0.0 };
+        if self.teeth.plan.drive_imposed {
+            self.teeth.inertia[port] * imposed - sum[port]
+        } else {
+            self.applied.inputs.drive_torque
+        }
+    }
+
     /// Subtracts the friction of a rigid pinion under the torque of its mesh.
     #[inline(never)]
-    fn brake_pinion(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+    pub(in crate::model) fn brake_pinion(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
         if let Some(pinion) = self.sliding_pinion() {
             let of = self.driven_carrier(at, sum);
             pinion.brake((of[0], of[1], at.v[CARRIER]), sum, ledger_rates);
@@ -431,14 +438,13 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
 
     fn drive_torque(&self, at: &Point<N>, time: f64) -> f64 {
         let these = if self.applied.driven && time > 0.0 { self.later(time) } else { *self };
-        if !these.teeth.plan.drive_imposed {
-            return these.applied.inputs.drive_torque;
+        let mut sum = [0.0; N];
+        if these.teeth.plan.drive_imposed {
+            let mut ledger_rates = LedgerRates::default();
+            these.act(at, &mut sum, &mut ledger_rates);
+            these.brake_pinion(at, &mut sum, &mut ledger_rates);
         }
-        let (mut sum, mut ledger_rates) = ([0.0; N], LedgerRates::default());
-        these.act(at, &mut sum, &mut ledger_rates);
-        these.brake_pinion(at, &mut sum, &mut ledger_rates);
-        let port = these.port();
-        these.teeth.inertia[port] * these.applied.input_derivatives.rates[0].drive_speed - sum[port]
+        these.drive_under(&sum)
     }
 
     fn carrier_mobility(&self) -> f64 {

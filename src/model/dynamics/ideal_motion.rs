@@ -5,7 +5,7 @@ use super::ledger_rates::LedgerRates;
 use super::shape::{set_twist_rates, turn_twist_rates};
 use super::{FrictionEquations, IdealEquations};
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs, PLANET};
+use crate::model::scene::{CARRIER, Inputs, PLANET};
 
 impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     type Rates = LedgerRates;
@@ -104,11 +104,7 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     }
 
     fn drift(&self, at: &Point<N>, time: f64) -> [f64; N] {
-        let (_, InputDerivatives { rates: [first, second] }) =
-            self.applied.input_derivatives.after(time, &self.applied.inputs);
-        let with = self.accelerate(at, (&first, &second));
-        let without = self.accelerate(at, (&Inputs::ZERO, &Inputs::ZERO));
-        std::array::from_fn(|i| with[i] - without[i])
+        self.drift_at(at, time)
     }
 
     fn combined(&self, of: [(f64, &LedgerRates); 5]) -> LedgerRates {

@@ -7,12 +7,10 @@ use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
 use crate::model::scene::{
-    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
+    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair, Viscosity,
 };
 use crate::model::thermal::NODES;
 
-/// Number of the pinion among the pairs.
-const PINION_PAIR: usize = RubbingKind::Pinion.number(0);
 /// Share of a change of inputs along which accelerations are compared.
 const CHANGE: f64 = 1.0 / 1024.0;
 
@@ -116,7 +114,7 @@ fn slip_position<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> f64 {
 
 /// Motion of a pair.
 #[inline]
-fn slip<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> Slip {
+pub fn slip<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> Slip {
     Slip { position: slip_position(at, pair), speed: slip_speed(at, pair) }
 }
 
@@ -227,8 +225,9 @@ pub trait FrictionEquations<const N: usize> {
     where
         Self: Copy,
     {
-        let [first, second] = self.later(time).applied().input_derivatives.rates;
-        self.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
+        let later = self.later(time);
+        let [first, second] = later.applied().input_derivatives.rates;
+        later.input_accelerations(at, &first, &InputDerivatives { rates: [second, Inputs::ZERO] })
     }
 
     /// Positions, velocities and inputs, as passed to effects.

@@ -12,14 +12,12 @@
 //! changes the torque of the drive instead of ω̇_c, and T = T₀.
 
 use super::FrictionEquations;
+use super::inputs_and_friction::slip;
 use super::ledger_rates::LedgerRates;
 use crate::integrate::{Matrix, Point};
-use crate::model::effect_kinds::{Action, Loss, Mode, Slip, Slopes, SurfaceLoad};
-use crate::model::scene::{CARRIER, RubbingKind};
+use crate::model::effect_kinds::{Action, Loss, Mode, Slopes, SurfaceLoad};
+use crate::model::scene::{CARRIER, PINION_PAIR};
 use crate::model::setup::HEATS;
-
-/// Number of the pinion among the pairs that rub.
-const PINION_PAIR: usize = RubbingKind::Pinion.number(0);
 
 /// A pinion that slides in its bearings, rigid with the carrier.
 #[derive(Clone, Copy)]
@@ -109,11 +107,7 @@ pub trait PinionLoss<const N: usize>: FrictionEquations<N> {
         if !friction.is_on() {
             return rest;
         }
-        let slip = Slip {
-            position: pair.position().iter().map(|&(i, factor)| factor * at.q[i]).sum(),
-            speed: at.v[pair.body],
-        };
-        let unreduced = rest - friction.torque(state, &slip, &SurfaceLoad::default());
+        let unreduced = rest - friction.torque(state, &slip(at, pair), &SurfaceLoad::default());
         let loss = self.body_effects().and_then(|all| all.loss).filter(|_| state.mode != Mode::Stuck);
         unreduced
             / loss.map_or(1.0, |loss| 1.0 + state.mode.direction() * loss.coefficient(unreduced) * unreduced.signum())

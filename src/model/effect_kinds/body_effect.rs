@@ -90,7 +90,7 @@ pub trait BodyEffect: Debug + Send + Sync {
         None
     }
     /// Sets positions and velocities of its bodies so that it carries `loads` at rest relative to the carrier.
-    fn wind_up(&self, _loads: &StaticLoads, _layout: &Layout, _motion: [&mut [f64]; 2]) {}
+    fn wind_up(&self, _loads: &StaticLoads, _motion: [&mut [f64]; 2]) {}
     /// True if it acts on the pinion from in front of the mesh.
     fn is_in_front(&self) -> bool {
         false

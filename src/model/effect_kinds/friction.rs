@@ -4,7 +4,7 @@ use super::body_friction::{BodyFriction, MOST_SURFACES};
 use super::dry_friction::DAMPING_TIME;
 use super::rubbing_surface::SideLimits;
 use super::{Command, Ramps, RubbingSurface, SurfaceLoad};
-use crate::model::scene::{InputDerivatives, Inputs, PAIRS, RubbingKind};
+use crate::model::scene::{InputDerivatives, Inputs, PAIRS, PINION_PAIR, RubbingKind};
 use crate::model::thermal::NODES;
 use crate::problem::Problem;
 
@@ -118,7 +118,7 @@ impl Friction {
 
     /// True if limit torques depend on the loads of the meshes.
     pub fn depends_on_load(&self) -> bool {
-        let of_pinion = FRICTION_OF[RubbingKind::Pinion.number(0)];
+        let of_pinion = FRICTION_OF[PINION_PAIR];
         self.frictions[..of_pinion].iter().any(BodyFriction::depends_on_load)
     }
 

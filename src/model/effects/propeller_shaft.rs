@@ -17,7 +17,7 @@ use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
     Action, Attached, BodyEffect, BodyMotion, Declare, Effect, Heat, Reading, Setting, Slopes, StaticLoads, readings,
 };
-use crate::model::scene::{AttachedBody, Base, CARRIER, Layout, PROPELLER, Plan, Requests};
+use crate::model::scene::{AttachedBody, Base, CARRIER, PROPELLER, Plan, Requests};
 use crate::numeric::{Dual, Scalar, cos, sin};
 
 /// Number of iterations with which the static twist finds the joint's output at its own angle.
@@ -86,7 +86,6 @@ impl Effect for PropellerShaftSpec {
             q: tangent * tangent * if self.joint_quarter_turn { -1.0 } else { 1.0 },
             pinion: layout.pinion(),
             end: layout.port,
-            has_pinion: layout.pinion() != CARRIER,
             heat_index: setting.heat_index,
         }))
     }
@@ -106,8 +105,6 @@ struct Shaft {
     /// Degrees of freedom of the pinion and of the driven end.
     pinion: usize,
     end: usize,
-    /// True if the pinion turns relative to the carrier.
-    has_pinion: bool,
     heat_index: usize,
 }
 
@@ -144,10 +141,19 @@ impl Shaft {
         [-(torque * slope), torque]
     }
 
-    /// Local coordinates, and the degrees of freedom whose positions, times a factor, add up to the angle of the end.
+    /// True if the pinion turns relative to the carrier.
+    fn has_own_pinion(&self) -> bool {
+        self.pinion != CARRIER
+    }
+
+    /// Angle of the pinion at the carrier's speed.
+    fn pinion_angle(&self, q: &[f64]) -> f64 {
+        q[CARRIER] - if self.has_own_pinion() { q[self.pinion] } else { 0.0 }
+    }
+
+    /// Local coordinates.
     fn local(&self, at: &BodyMotion) -> [f64; LOCAL] {
-        let pinion = at.q[CARRIER] - if self.has_pinion { at.q[self.pinion] } else { 0.0 };
-        [pinion - at.q[self.end], at.q[self.end], at.v[self.end], at.v[self.pinion]]
+        [self.pinion_angle(at.q) - at.q[self.end], at.q[self.end], at.v[self.end], at.v[self.pinion]]
     }
 }
 
@@ -167,7 +173,7 @@ impl BodyEffect for Shaft {
         for (row, torque) in [self.end, self.pinion].into_iter().zip(torques) {
             let [by_angle, by_lag, by_end_speed, by_pinion_speed] = torque.d;
             out.position(row, CARRIER, by_angle);
-            if self.has_pinion {
+            if self.has_own_pinion() {
                 out.position(row, self.pinion, -by_angle);
             }
             out.position(row, self.end, by_lag - by_angle);
@@ -194,8 +200,8 @@ impl BodyEffect for Shaft {
         Some(on_pinion)
     }
 
-    fn wind_up(&self, loads: &StaticLoads, _: &Layout, [q, v]: [&mut [f64]; 2]) {
-        let pinion = q[CARRIER] - if self.has_pinion { q[self.pinion] } else { 0.0 };
+    fn wind_up(&self, loads: &StaticLoads, [q, v]: [&mut [f64]; 2]) {
+        let pinion = self.pinion_angle(q);
         for _ in 0..ROUNDS {
             let [twist, rate, slope] = self.twist([pinion - q[self.end], q[self.end], v[self.end], v[self.pinion]]);
             if !loads.imposed {

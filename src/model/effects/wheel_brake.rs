@@ -16,7 +16,7 @@ use crate::model::effect_kinds::{
     BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, Reading, RubbingSurface, Setting, Slides, SlipSpec,
     SurfaceTemperature, check_slip, depends_on_temperature, readings,
 };
-use crate::model::scene::RubbingKind;
+use crate::model::scene::{MAX_TORQUE, RubbingKind};
 use crate::numeric::sqrt;
 use crate::problem::Problem;
 
@@ -44,9 +44,6 @@ impl Slides for WheelBrakeSpec {
         &mut self.sliding
     }
 }
-
-/// Largest brake torque [N·m]. It is far above the torque of any brake, but no intermediate result overflows.
-const MAX_TORQUE: f64 = 1e8;
 
 impl Declare for WheelBrakeSpec {
     const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";

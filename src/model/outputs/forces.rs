@@ -322,7 +322,9 @@ impl Largest<'_> {
         let on_sides = self.add_mesh_forces(at, &mut sum, &mut ledger_rates);
         self.act_on_bodies(at, &mut sum, &mut ledger_rates);
         let rates = &self.applied.input_derivatives.rates[0];
-        let drive_torque = self.drive_torque(at, 0.0);
+        let mut braked = sum;
+        self.brake_pinion(at, &mut braked, &mut LedgerRates::default());
+        let drive_torque = self.drive_under(&braked);
         let inertial = self.teeth.inertia[self.planet(0)] * rates.planet_spin;
         let spin_torque =
             if plan.spin_imposed { self.sum(|g| self.members(g) * (inertial - sum[self.planet(g)])) } else { 0.0 };

@@ -6,6 +6,11 @@ use serde::{Deserialize, Serialize};
 use super::Plan;
 use crate::numeric::finite;
 
+/// Largest command of a speed [rad/s], far beyond any differential, but small enough that no intermediate result overflows.
+pub const MAX_SPEED: f64 = 1e5;
+/// Largest command of a torque [N·m], far beyond any differential, but small enough that no intermediate result
+/// overflows.
+pub const MAX_TORQUE: f64 = 1e8;
 /// Limits of an input that may have either sign.
 const FREE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Limits of a torque that only resists.

@@ -11,10 +11,10 @@ mod solver;
 
 pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
-pub use inputs::Inputs;
+pub use inputs::{Inputs, MAX_SPEED, MAX_TORQUE};
 pub use layout::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PINION, PLANET, PROPELLER};
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};
 pub use plan::{AttachedBody, Base, Group, Plan, Requests};
-pub use rubbing::{PAIRS, RubbingKind, RubbingPair};
+pub use rubbing::{PAIRS, PINION_PAIR, RubbingKind, RubbingPair};
 pub use solver::{Method, SolidTeeth, SolverSpec};

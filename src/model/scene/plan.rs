@@ -233,7 +233,7 @@ impl Plan {
 
     /// True if the drive acts on the carrier itself or is rigid with it.
     pub fn drives_carrier(&self) -> bool {
-        self.layout().port == CARRIER
+        self.attached[PINION..=PROPELLER].iter().all(Option::is_none)
     }
 
     /// Periods by which positions are wrapped [rad]; infinite for positions that are not wrapped.

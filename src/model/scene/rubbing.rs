@@ -26,6 +26,9 @@ pub enum RubbingKind {
 /// Largest number of pairs.
 pub const PAIRS: usize = RubbingKind::ALL[RubbingKind::ALL.len() - 1].numbers().end;
 
+/// Number of the pair of the pinion.
+pub const PINION_PAIR: usize = RubbingKind::Pinion.number(0);
+
 impl RubbingKind {
     /// All kinds, in the order of their numbers.
     pub const ALL: [Self; 4] = [Self::Side, Self::Planet, Self::Wheel, Self::Pinion];
@@ -115,9 +118,9 @@ impl Plan {
             let (body, angle) = if self.shafts[s] { (end, &angle[..]) } else { (s, &angle[..2]) };
             add(RubbingPair::new(RubbingKind::Wheel.number(s), (body, None), angle, 1.0));
         }
-        let (pinion, number) = (layout.pinion(), RubbingKind::Pinion.number(0));
+        let pinion = layout.pinion();
         let angle: Vec<(usize, f64)> = layout.angle(pinion).collect();
-        add(RubbingPair::new(number, (pinion, None), &angle, 1.0));
+        add(RubbingPair::new(PINION_PAIR, (pinion, None), &angle, 1.0));
         for g in (0..layout.groups).filter(|_| has_teeth) {
             let (number, planet) = (RubbingKind::Planet.number(g), layout.planet(g));
             add(RubbingPair::new(number, (planet, None), &[(planet, 1.0)], self.group(g).members));

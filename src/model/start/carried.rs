@@ -3,8 +3,8 @@
 use crate::model::assembly::{Ideal, IdealMotion, Model, SIGMA};
 use crate::model::dynamics::State;
 use crate::model::effect_kinds::dry_friction::DryFriction;
-use crate::model::effect_kinds::{Action, BodyMotion, StaticLoads, SurfaceLoad};
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, RubbingKind};
+use crate::model::effect_kinds::{Action, BodyMotion, Friction, StaticLoads, SurfaceLoad};
+use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PINION_PAIR, RubbingKind};
 use crate::model::setup::HEATS;
 
 /// Number of rounds in which the friction of the pinion and the torque of its mesh find each other.
@@ -99,27 +99,34 @@ impl Carried {
 
 /// Torque with which friction holds a turning pinion back, under the `torque` of its mesh [N·m].
 fn sliding_pinion(model: &Model, inputs: &Inputs, state: &State, torque: f64) -> f64 {
-    let effects = model.body_effects();
-    let Some(pair) = &effects.pairs[RubbingKind::Pinion.number(0)] else { return 0.0 };
-    let friction = effects.friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
-    let speed = state.v[pair.body];
-    let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
-    let load = effects.loss.map_or(0.0, |loss| loss.of(torque));
-    let friction = DryFriction::new(friction.on(pair.number), &effects.surfaces);
-    direction * friction.sliding_limit(direction * speed, &SurfaceLoad { load, ..SurfaceLoad::default() })[0]
+    let load = model.body_effects().loss.map_or(0.0, |loss| loss.of(torque));
+    sliding_friction(model, inputs, state, PINION_PAIR, |_| SurfaceLoad { load, ..SurfaceLoad::default() })
 }
 
 /// Brake torques on turning wheels [N·m].
 fn sliding_brakes(model: &Model, inputs: &Inputs, state: &State) -> [f64; 2] {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
-    let loads = friction.commanded_loads(inputs);
     [0, 1].map(|s| {
-        let Some(pair) = &model.body_effects().pairs[RubbingKind::Wheel.number(s)] else { return 0.0 };
-        let speed = state.v[pair.body];
-        let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
-        let friction = DryFriction::new(friction.on(pair.number), &model.body_effects().surfaces);
-        direction * friction.sliding_limit(direction * speed, &loads[pair.number])[0]
+        let number = RubbingKind::Wheel.number(s);
+        sliding_friction(model, inputs, state, number, |friction| friction.commanded_loads(inputs)[number])
     })
+}
+
+/// Torque of dry friction on the pair with this `number` at its speed in `state`, under the load that `load` returns; 0
+/// at standstill [N·m].
+fn sliding_friction(
+    model: &Model,
+    inputs: &Inputs,
+    state: &State,
+    number: usize,
+    load: impl Fn(&Friction) -> SurfaceLoad,
+) -> f64 {
+    let effects = model.body_effects();
+    let Some(pair) = &effects.pairs[number] else { return 0.0 };
+    let friction = effects.friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
+    let speed = state.v[pair.body];
+    let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
+    let on_pair = DryFriction::new(friction.on(number), &effects.surfaces);
+    direction * on_pair.sliding_limit(direction * speed, &load(&friction))[0]
 }
 
 /// Torques of effects, such as drag, on side gears and carrier at the speeds of `state` [N·m]. Half-shafts, pins and

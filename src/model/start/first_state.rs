@@ -31,7 +31,7 @@ impl Simulation {
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
-        let (model, state, inputs) = (&simulation.model, &mut simulation.state, &simulation.inputs.clone());
+        let (model, state, inputs) = (&simulation.model, &mut simulation.state, &{ simulation.inputs });
         state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start

@@ -21,13 +21,13 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
 
 /// Winds up what is in front of the carrier. An imposed speed of the drive remains.
 fn wind_up(model: &Model, carried: &Carried, state: &mut State) {
-    let (layout, imposed) = (&model.layout, model.ideal.plan.drive_imposed);
-    let driven = state.v[layout.port];
+    let (port, imposed) = (model.layout.port, model.ideal.plan.drive_imposed);
+    let driven = state.v[port];
     for effect in model.body_effects().forces.iter() {
-        effect.wind_up(&carried.in_front, layout, [&mut state.q, &mut state.v]);
+        effect.wind_up(&carried.in_front, [&mut state.q, &mut state.v]);
     }
     if imposed {
-        state.v[layout.port] = driven;
+        state.v[port] = driven;
     }
 }
 

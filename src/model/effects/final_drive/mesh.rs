@@ -14,13 +14,11 @@
 //! Source: A. Kahraman and R. Singh, J. Sound Vib. 142 (1990) 49–75, for a pair with lash and transmission error.
 
 use super::FinalDriveSpec;
+use crate::contact::WORTHWHILE;
 use crate::model::effect_kinds::{BodyMotion, Slopes};
 use crate::model::scene::{CARRIER, Layout};
 use crate::numeric::{Dual, Scalar};
 
-/// Fractions of a step between which it ends on a touch or a separation. Closer to its ends, the rest of a step would
-/// be cut again and again.
-const WORTHWHILE: (f64, f64) = (3e-4, 0.9997);
 /// Number of iterations with which the static deflection finds the error at its own angle.
 const ROUNDS: usize = 8;
 
@@ -66,6 +64,7 @@ pub struct Mesh {
 type Local<T> = [T; 4];
 
 /// Deviation x, its rate ẋ, and the derivatives ∂e/∂θ_c and i ∂e/∂θ_p.
+#[derive(Clone, Copy)]
 struct Deviation<T> {
     x: T,
     rate: T,
@@ -127,19 +126,18 @@ impl Mesh {
     }
 
     /// Torques on the carrier and on the pinion.
-    fn torques<T: Scalar>(&self, at: Local<T>) -> [T; 2] {
-        let Deviation { x, rate, by_carrier, by_pinion } = self.deviation(at);
+    fn torques<T: Scalar>(&self, &Deviation { x, rate, by_carrier, by_pinion }: &Deviation<T>) -> [T; 2] {
         let torque = self.torque(x, rate);
         [torque + torque * by_carrier, torque * by_pinion - torque]
     }
 
     /// Adds the torques to `force`. Returns the power of the damping [W].
     pub fn act(&self, at: &BodyMotion, force: &mut [f64]) -> f64 {
-        let local = self.local(at);
-        let [on_carrier, on_pinion] = self.torques(local);
+        let deviation = self.deviation(self.local(at));
+        let [on_carrier, on_pinion] = self.torques(&deviation);
         force[CARRIER] += on_carrier;
         force[self.pinion] += on_pinion;
-        let Deviation { x, rate, .. } = self.deviation(local);
+        let Deviation { x, rate, .. } = deviation;
         let spring = self.contact(x).map_or(0.0, |(depth, direction)| direction * self.stiffness * depth);
         (self.torque(x, rate) - spring) * rate
     }
@@ -147,7 +145,7 @@ impl Mesh {
     /// Adds the derivatives of the torques.
     pub fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
         let local = self.local(at);
-        let torques = self.torques(std::array::from_fn(|k| Dual::<4>::variable(local[k], k)));
+        let torques = self.torques(&self.deviation(std::array::from_fn(|k| Dual::<4>::variable(local[k], k))));
         for (row, torque) in [CARRIER, self.pinion].into_iter().zip(torques) {
             out.position(row, CARRIER, torque.d[0]);
             out.position(row, self.pinion, torque.d[1]);
@@ -164,7 +162,7 @@ impl Mesh {
 
     /// Torque on the carrier [N·m].
     pub fn on_carrier(&self, at: &BodyMotion) -> f64 {
-        self.torques(self.local(at))[0]
+        self.torques(&self.deviation(self.local(at)))[0]
     }
 
     /// Torque T of the mesh [N·m].
@@ -194,9 +192,8 @@ impl Mesh {
 
     /// Sets the lag of the pinion so that the mesh carries the `torque` on the carrier [N·m]; without torque, the flanks
     /// are in the middle of the lash. The pinion then keeps its distance from the path of perfect teeth.
-    pub fn wind_up(&self, torque: f64, layout: &Layout, [q, v]: [&mut [f64]; 2]) {
+    pub fn wind_up(&self, torque: f64, [q, v]: [&mut [f64]; 2]) {
         let depth = torque / self.stiffness + if torque == 0.0 { 0.0 } else { self.half_lash.copysign(torque) };
-        debug_assert_eq!(layout.pinion(), self.pinion);
         for _ in 0..ROUNDS {
             let Deviation { x, .. } = self.deviation([q[CARRIER], q[self.pinion], 0.0, 0.0]);
             q[self.pinion] += x - depth;

@@ -21,7 +21,8 @@ use crate::model::effect_kinds::{
     RubbingSurface, Setting, Slopes, StaticLoads, readings,
 };
 use crate::model::scene::{
-    AttachedBody, Base, CARRIER, CarrierDrive, InertiaSpec, Layout, PINION, Plan, Requests, RubbingKind, Scene,
+    AttachedBody, Base, CARRIER, CarrierDrive, InertiaSpec, MAX_SPEED, MAX_TORQUE, PINION, Plan, Requests, RubbingKind,
+    Scene,
 };
 use crate::problem::Problem;
 
@@ -112,10 +113,8 @@ parameters! {
     }
 }
 
-/// Limit of speeds [rad/s], as for the commands of the carrier.
-const MAX_SPEED: f64 = 1e6;
-/// Limit of torques [N·m], as for the commands of the carrier.
-const MAX_TORQUE: f64 = 1e8;
+/// Limit of speeds over that of the carrier, because a pinion turns faster.
+const FASTER: f64 = 10.0;
 
 impl Declare for FinalDriveSpec {
     const DESCRIPTION: &'static str = "Final drive: a pinion drives the ring gear on the carrier";
@@ -166,7 +165,7 @@ impl Declare for FinalDriveSpec {
     }
 
     fn inputs() -> Vec<Row<InputField>> {
-        let [speed, torque] = if BUILT { [MAX_SPEED, MAX_TORQUE] } else { [0.0; 2] };
+        let [speed, torque] = if BUILT { [FASTER * MAX_SPEED, MAX_TORQUE] } else { [0.0; 2] };
         vec![
             row(
                 "pinion.speed_command",
@@ -283,9 +282,9 @@ impl BodyEffect for FinalDrive {
         self.mesh?.kink(at, h)
     }
 
-    fn wind_up(&self, loads: &StaticLoads, layout: &Layout, [q, v]: [&mut [f64]; 2]) {
+    fn wind_up(&self, loads: &StaticLoads, motion: [&mut [f64]; 2]) {
         if let Some(mesh) = &self.mesh {
-            mesh.wind_up(loads.ring, layout, [q, v]);
+            mesh.wind_up(loads.ring, motion);
         }
     }
 
