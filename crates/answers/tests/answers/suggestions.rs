@@ -50,10 +50,10 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("Geometry.Module", &["geometry.module"]),
     ("geometry-face-width", &["geometry.face_width"]),
     ("bearing_drag.oillevel", &["bearing_drag.oil_level"]),
-    ("torque", &["carrier.torque", "lock.torque", "spin.torque"]),
+    ("torque", &[]),
     // too many names are equally similar, or no name is
     ("planet.torque_capacity_of_gearbox", &[]),
-    ("speed", &["carrier.speed", "left.speed", "right.speed"]),
+    ("speed", &[]),
     ("ratio", &[]),
     ("static_ratio", &[]),
     ("clutch.torque", &[]),
