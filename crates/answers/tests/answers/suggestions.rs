@@ -50,8 +50,8 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("Geometry.Module", &["geometry.module"]),
     ("geometry-face-width", &["geometry.face_width"]),
     ("bearing_drag.oillevel", &["bearing_drag.oil_level"]),
-    ("torque", &[]),
     // too many names are equally similar, or no name is
+    ("torque", &[]),
     ("planet.torque_capacity_of_gearbox", &[]),
     ("speed", &[]),
     ("ratio", &[]),
