@@ -189,6 +189,8 @@ fn final_drive(d: &mut Rng, p: &mut Parameters) {
     let drive = &mut p.specs.final_drive;
     drive.pinion_teeth = d.whole(7, 14);
     drive.elastic_mesh = d.share(0.6);
+    (drive.stiffness, drive.damping) = (d.about(1e8, 3.0), d.about(3e3, 3.0));
+    (drive.backlash, drive.mean_radius) = (d.between(0.0, 2e-4), d.between(0.07, 0.12));
     (drive.error_1, drive.error_2) = (d.between(0.0, 1e-5), d.between(0.0, 5e-6));
     (drive.error_phase_1, drive.error_phase_2) = (d.between(-3.0, 3.0), d.between(-3.0, 3.0));
     (drive.pinion_runout, drive.ring_runout) = (d.between(0.0, 1e-5), d.between(0.0, 1e-5));
