@@ -5,7 +5,7 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::model::scene::{CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
+use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
 /// Number of degrees of freedom of plain teeth with identical planets.
 pub const PLAIN_SIZE: usize = 4;
@@ -13,13 +13,14 @@ pub const PLAIN_SIZE: usize = 4;
 pub const TWO_GROUPS_SIZE: usize = 5;
 /// Number of degrees of freedom with identical planets and half-shafts that twist.
 pub const ENDS_SIZE: usize = 6;
-/// Matrix size for other shapes with at most this number of degrees of freedom. It is a multiple of any vector width.
+/// Matrix size for identical planets with any attached bodies, and for other shapes with at most this number of degrees
+/// of freedom. It is a multiple of any vector width.
 pub const MEDIUM_SIZE: usize = 8;
 /// Matrix size that fits every scene. It is a multiple of any vector width.
 pub const MAX_SIZE: usize = 20;
 
-// otherwise another attached body could exceed this number unnoticed
-const _: () = assert!(MAX_DOF <= MAX_SIZE);
+// otherwise another attached body could exceed these numbers unnoticed
+const _: () = assert!(MAX_DOF <= MAX_SIZE && PLANET + 1 + ATTACHED_COUNT <= MEDIUM_SIZE);
 
 /// A value for each planet group.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {
@@ -76,9 +77,13 @@ pub trait Shape<const N: usize>: Copy {
 #[derive(Clone, Copy)]
 pub struct Compact<const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool>;
 
-/// Shape of any teeth, whose sizes are known at run time.
+/// Shape whose sizes are known at run time, with at most `G` planet groups. Pins and seats may move if `PINS`, and steps
+/// are monomorphised for it if `OWN_STEPS`.
 #[derive(Clone, Copy)]
-pub struct Any;
+pub struct Loose<const G: usize, const PINS: bool, const OWN_STEPS: bool>;
+
+/// Shape of any teeth.
+pub type Any = Loose<MAX_GROUPS, true, false>;
 
 /// Plain teeth with planets in `G` groups, on which no effect acts.
 pub type Plain<const G: usize> = Compact<G, false, false, false>;
@@ -88,6 +93,8 @@ pub type PlainDriven = Compact<1, false, false, true>;
 pub type WithEffects<const G: usize> = Compact<G, false, true, true>;
 /// Teeth with effects, identical planets, and half-shafts that twist.
 pub type WithEnds = Compact<1, true, true, true>;
+/// Teeth with effects, identical planets, and any attached bodies.
+pub type WithBodies = Loose<1, false, true>;
 
 impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool> Shape<N>
     for Compact<G, HAS_ENDS, ACT, CHANGE>
@@ -141,13 +148,13 @@ impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, cons
     }
 }
 
-impl<const N: usize> Shape<N> for Any {
-    type ByGroup<T: Copy> = [T; MAX_GROUPS];
+impl<const N: usize, const G: usize, const PINS: bool, const OWN_STEPS: bool> Shape<N> for Loose<G, PINS, OWN_STEPS> {
+    type ByGroup<T: Copy> = [T; G];
     const MAY_ACT: bool = true;
     const MAY_CHANGE: bool = true;
-    const HAS_OWN_STEPS: bool = false;
-    const HAS_FIXED_STEPS: bool = true;
-    const HAS_RADAU: bool = crate::FULL;
+    const HAS_OWN_STEPS: bool = OWN_STEPS;
+    const HAS_FIXED_STEPS: bool = !OWN_STEPS;
+    const HAS_RADAU: bool = crate::FULL && !OWN_STEPS;
 
     #[inline]
     fn count(layout: &Layout) -> usize {
@@ -155,15 +162,15 @@ impl<const N: usize> Shape<N> for Any {
     }
     #[inline]
     fn groups(layout: &Layout) -> usize {
-        layout.groups.min(MAX_GROUPS)
+        layout.groups.min(G)
     }
     #[inline]
     fn planet(layout: &Layout, g: usize) -> usize {
-        layout.planet(g)
+        if PINS { layout.planet(g) } else { PLANET + g }
     }
     #[inline]
     fn has_pins(layout: &Layout) -> bool {
-        layout.has_pins
+        PINS && layout.has_pins
     }
     #[inline]
     fn has_ends(layout: &Layout) -> bool {

@@ -20,7 +20,8 @@ use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects, S
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
-    Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithEffects, WithEnds,
+    Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithBodies, WithEffects,
+    WithEnds,
 };
 use crate::model::dynamics::timeline::LONGEST_INTERVAL;
 use crate::model::dynamics::{Clock, Equations, IdealEquations, MAX_SIZE, State};
@@ -96,6 +97,9 @@ pub fn integrate_teeth(
         }
         (2, Some(false)) if FULL && is_default => integrate_monomorphised::<TWO_GROUPS_SIZE, WithEffects<2>>(arguments),
         (1, Some(true)) if is_default || !FULL => integrate_monomorphised::<ENDS_SIZE, WithEnds>(arguments),
+        (1, _) if FULL && is_default && !teeth.layout.has_pins => {
+            integrate_monomorphised::<MEDIUM_SIZE, WithBodies>(arguments)
+        }
         _ if FULL && teeth.layout.count() <= MEDIUM_SIZE => integrate_through_object::<MEDIUM_SIZE>(arguments),
         _ => integrate_through_object::<MAX_SIZE>(arguments),
     }

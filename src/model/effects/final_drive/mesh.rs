@@ -34,6 +34,11 @@ struct Harmonic {
 }
 
 impl Harmonic {
+    /// True unless the amplitude is zero.
+    fn acts(&self) -> bool {
+        self.amplitude != 0.0
+    }
+
     /// Value of the harmonic and its derivative with respect to the angle.
     fn at<T: Scalar>(&self, angle: T) -> [T; 2] {
         let argument = angle * self.order + self.phase;
@@ -100,9 +105,11 @@ impl Mesh {
 
     fn deviation<T: Scalar>(&self, [carrier, lag, carrier_speed, pinion_speed]: Local<T>) -> Deviation<T> {
         let pinion = (carrier - lag) * self.ratio;
-        let [mut error, by_carrier] = self.of_carrier.at(carrier);
-        let mut by_pinion = T::constant(0.0);
-        for harmonic in self.of_pinion.iter().filter(|harmonic| harmonic.amplitude != 0.0) {
+        let [mut error, mut by_carrier, mut by_pinion] = [T::constant(0.0); 3];
+        if self.of_carrier.acts() {
+            [error, by_carrier] = self.of_carrier.at(carrier);
+        }
+        for harmonic in self.of_pinion.iter().filter(|harmonic| harmonic.acts()) {
             let [value, slope] = harmonic.at(pinion);
             error = error + value;
             by_pinion = by_pinion + slope * self.ratio;
