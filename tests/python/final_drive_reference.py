@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from math import asin, atan2, cos, pi, radians, sin, sqrt
 
 import numpy as np
+import theory
+from plain import Differential, Scene
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -126,6 +128,7 @@ class LumpedMesh:
     teeth: tuple = (10, 16)
     module: float = 4.5e-3
     face: float = 20e-3
+    deepest: float = np.inf    # penetration up to which the law is valid [m]
 
     def __post_init__(self):
         pitch = atan2(self.teeth[1], self.teeth[0])
@@ -148,9 +151,36 @@ class LumpedMesh:
         u = min(depth / self.depth, 1.0)
         return self.spring * depth + self.damping * u * u * (3.0 - 2.0 * u) * rate
 
+    def depth_under(self, force):
+        """Penetration under a steady force of a planet."""
+        return force / self.spring
+
     def torque(self, way, ahead, rate):
         """Torque of all planets on one side gear [N.m] while the flank `way` presses (0: none)."""
         return way * self.planets * self.base * self.radius * self.force(*self.depth_and_rate(way, ahead, rate)) if way else 0.0
+
+
+class ToothMesh(LumpedMesh):
+    """Pairs of teeth with the law IMPACT between planets that do not spin and a side gear. No tip corner touches."""
+
+    def __init__(self, stiffness, damping, depth, backlash):
+        super().__init__(stiffness, damping, depth, backlash)
+        still = Differential(Scene(stiffness=stiffness, damping=damping, full_damping=depth, backlash=backlash))
+        # arc between the flanks up to which the same pairs touch
+        deepest = 1e-3
+        found = [[pair[:2] for pair in still.pairs(arc, 0.0, 0.0, 0.0)] for arc in (1e-6, deepest)]
+        assert found[0] == found[1] and all(place == 0 for _, place in found[0])
+        self.pairs, self.exponent, self.radius, self.deepest = len(found[0]), theory.EXPONENT, theory.MEAN_CONE, deepest * theory.MEAN_CONE
+
+    def force(self, depth, rate):
+        """Force of all pairs of a planet [N], before it is limited to zero."""
+        u = min(max(depth / self.depth, 0.0), 1.0)
+        spring = self.stiffness * abs(depth) ** self.exponent * (1.0 if depth > 0.0 else -1.0)
+        return self.pairs * (spring + self.damping * u * u * (3.0 - 2.0 * u) * rate)
+
+    def depth_under(self, force):
+        """Penetration under a steady force of a planet."""
+        return (force / self.pairs / self.stiffness) ** (1.0 / self.exponent)
 
 
 @dataclass
@@ -229,7 +259,7 @@ class TwoLashes:
         way = 1 if torque > 0.0 else -1
         side = 0.5 * torque / self.shaft[0]
         d = self.differential
-        depth = 0.5 * abs(torque) / (d.planets * d.base * d.radius * d.spring)
+        depth = d.depth_under(0.5 * abs(torque) / (d.planets * d.base * d.radius))
         carrier = side + way * (depth / d.radius + d.half_lash) / d.base
         return np.array([carrier + torque / self.stiffness + way * 0.5 * self.lash, carrier, side, 0.0, 0.0, 0.0])
 

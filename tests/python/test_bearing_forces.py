@@ -6,7 +6,7 @@ from math import atan
 import flank_reference
 import numpy as np
 import pytest
-from final_drive_scenes import DRIVEN, RATIO, loads
+from final_drive_scenes import DRIVEN, RATIO, loads, sampled
 
 # relative to the force of the mesh
 SAME = 1e-9
@@ -128,3 +128,25 @@ def test_straight_teeth_have_the_forces_of_textbooks(fmu):
     tangential = ring / radius
     wanted = tangential * np.array([1.0, np.tan(pressure) * np.sin(pitch), np.tan(pressure) * np.cos(pitch)])
     assert mesh == pytest.approx(wanted, rel=SAME)
+
+
+def test_errors_of_the_differential_do_not_change_mean_forces(fmu):
+    """Mean forces over a repeat of the error pattern: all pairs of the teeth of planet and side gear."""
+    spin, points, planet, side = 40.0, 16, 10, 16
+    pairs = np.lcm(planet, side)
+    of = design(np.random.default_rng(8))
+    values = scene(of, True, True, 80.0, 0.0) | loads(900.0) | {
+        "scene.gear_contact": "tooth", "contact.law": "line", "scene.carrier_drive": "speed", "scene.planet_spin": "imposed",
+        "spin.command": spin, "effects.tooth_errors": True, "tooth_errors.seed": 4, "solver.relative_tolerance": 1e-6}
+    means, swings = [], []
+    for grade in (0, 8):
+        with fmu.open() as opened:
+            opened.initialise(values | {"tooth_errors.accuracy_grade": grade})
+            opened.step(0.1)
+            forces = sampled(opened, [*MESH, *BEARINGS], 2.0 * np.pi / spin / planet / points, pairs * points)
+        means.append(forces.mean(axis=0))
+        swings.append(np.ptp(forces[:, 0]))
+    size = np.linalg.norm(means[0][:3])
+    # the errors move the force at every instant, much more than its mean
+    assert swings[1] > 10.0 * 1e-4 * size and swings[1] > 2.0 * swings[0]
+    assert np.abs(means[1] - means[0]).max() < 1e-4 * size
