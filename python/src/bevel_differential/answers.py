@@ -49,6 +49,12 @@ def ask(question: Mapping[str, Any], numbers: np.ndarray | None = None, progress
     return found["answer"]
 
 
+def effect_classes() -> dict[str, list[str]]:
+    """Switches of effects by class: "machine", which say what is built in, broken or driven, so that they are part of a question;
+    "outputs", which change no motion and only add outputs."""
+    return ask({"ask": "effect_classes"})
+
+
 def about(scene: Any, changes: Mapping[str, Any] | None = None, display_units: Sequence[str] = ()) -> dict[str, Any]:
     """Scene of a question: a file, the name of a shipped scene, or a `Scene`, with `changes` (values by name) and
     `display_units`."""

@@ -101,6 +101,26 @@ macro_rules! readings {
 
 pub(in crate::model) use readings;
 
+/// Meaning of an effect for a user who asks how accurate a model must be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// It says what is built in, broken or driven, so it is part of the question.
+    Machine,
+    /// It makes the model more accurate.
+    Refinement,
+    /// It changes no motion and only adds outputs.
+    Outputs,
+}
+
+/// A part of an effect's model that a plainer model leaves out.
+#[derive(Clone, Copy, Debug)]
+pub struct Refinement {
+    /// Name in messages.
+    pub name: &'static str,
+    /// Parameters with their values in SI units in the plainer model. The refinement acts if another value acts.
+    pub plain: &'static [(&'static str, f64)],
+}
+
 /// Representations of tooth contact that an effect needs.
 #[derive(Clone, Copy, Debug)]
 pub struct Needs {
@@ -170,6 +190,10 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
     const NEEDS: Option<Needs> = None;
     /// Switch of another effect without which this effect cannot act.
     const NEEDS_EFFECT: Option<&'static str> = None;
+    /// Its meaning for a user who asks how accurate a model must be.
+    const CLASS: Class = Class::Refinement;
+    /// Parts of its model that a plainer model leaves out.
+    const REFINEMENTS: &'static [Refinement] = &[];
     /// True if the effect may act although its switch is off.
     const MAY_ACT_UNSWITCHED: bool = false;
     /// True if it is friction that differs with the sense of rolling, and so biases the torque.

@@ -26,7 +26,9 @@ pub mod torque_curve;
 
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes, StaticLoads};
 pub(super) use effect::readings;
-pub use effect::{Attached, BUILT, Changes, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Setting};
+pub use effect::{
+    Attached, BUILT, Changes, Class, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Refinement, Setting,
+};
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
 pub use friction_state::{FrictionState, Mode};

@@ -30,7 +30,9 @@ use crate::contact::errors::{ToothErrorSpec, ToothFaultSpec};
 use crate::declaration::{Condition, Field, Need, Parameter, Row, Rows, RowsOf, Setting, row};
 use crate::friction::ToothFrictionSpec;
 use crate::geometry::PlainTeeth;
-use crate::model::effect_kinds::{Attached, Declare, Effect, Heat, InputField, Memory, Needs, Reading, Remembered};
+use crate::model::effect_kinds::{
+    Attached, Class, Declare, Effect, Heat, InputField, Memory, Needs, Reading, Refinement, Remembered,
+};
 
 /// Entry of an effect in the list [`EFFECTS`].
 #[derive(Clone, Copy, Debug)]
@@ -45,6 +47,10 @@ pub struct EffectEntry {
     pub needs: Option<Needs>,
     /// Switch of another effect that it needs.
     pub needs_effect: Option<&'static str>,
+    /// Its meaning for a user who asks how accurate a model must be.
+    pub class: Class,
+    /// Parts of its model that a plainer model leaves out.
+    pub refinements: &'static [Refinement],
     /// True if the effect may act although its switch is off.
     pub may_act_unswitched: bool,
     /// Name of its limit of p·v, if it has one.
@@ -67,6 +73,8 @@ impl EffectEntry {
             switch,
             needs: E::NEEDS,
             needs_effect: E::NEEDS_EFFECT,
+            class: E::CLASS,
+            refinements: E::REFINEMENTS,
             may_act_unswitched: E::MAY_ACT_UNSWITCHED,
             pv_limit: E::PV_LIMIT,
             heat: E::HEAT,

@@ -15,7 +15,8 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, Attached, BodyEffect, BodyMotion, Declare, Effect, Heat, Reading, Setting, Slopes, StaticLoads, readings,
+    Action, Attached, BodyEffect, BodyMotion, Class, Declare, Effect, Heat, Reading, Setting, Slopes, StaticLoads,
+    readings,
 };
 use crate::model::scene::{AttachedBody, Base, CARRIER, PROPELLER, Plan, Requests};
 use crate::numeric::{Dual, Scalar, cos, sin};
@@ -39,6 +40,7 @@ parameters! {
 
 impl Declare for PropellerShaftSpec {
     const DESCRIPTION: &'static str = "Propeller shaft that twists, in front of the final drive";
+    const CLASS: Class = Class::Machine;
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.propeller_shaft",
         description: "Heat of damping in the propeller shaft since the start",

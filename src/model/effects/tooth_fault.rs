@@ -6,12 +6,13 @@ use crate::contact::FlankGaps;
 use crate::contact::errors::{Chip, ToothFaultSpec, breaks};
 use crate::declaration::units::ONE;
 use crate::declaration::{Row, row};
-use crate::model::effect_kinds::{Declare, Effect, InputField, Needs, Setting, ToothEffects};
+use crate::model::effect_kinds::{Class, Declare, Effect, InputField, Needs, Setting, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
 impl Declare for ToothFaultSpec {
     const DESCRIPTION: &'static str = "Broken tooth: a piece breaks off at a given time or by fault.trigger";
+    const CLASS: Class = Class::Machine;
     const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("tooth_fault.at_onset", 1.0), ("tooth_fault.onset", 1e-9), ("tooth_fault.missing_fraction", 0.6)];

@@ -13,8 +13,8 @@ use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, Reading, RubbingSurface, Setting, Slides, SlipSpec,
-    SurfaceTemperature, check_slip, depends_on_temperature, readings,
+    BUILT, ByLoad, Class, Command, Declare, Effect, Heat, InputField, Reading, RubbingSurface, Setting, Slides,
+    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::{MAX_TORQUE, RubbingKind};
 use crate::numeric::sqrt;
@@ -47,6 +47,7 @@ impl Slides for WheelBrakeSpec {
 
 impl Declare for WheelBrakeSpec {
     const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";
+    const CLASS: Class = Class::Machine;
     const PV_LIMIT: Option<&'static str> = Some("wheel_brake.pv_limit");
     const HEAT: Option<Heat> =
         Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });

@@ -231,6 +231,11 @@ impl Plan {
         self.on_carrier + self.attached[PINION].map_or(0.0, |pinion| pinion.inertia)
     }
 
+    /// Moment of inertia of the driven end of the propeller shaft at the carrier's speed [kg·m²], if there is one.
+    pub fn propeller_inertia(&self) -> Option<f64> {
+        self.attached[PROPELLER].map(|end| end.inertia)
+    }
+
     /// True if the drive acts on the carrier itself or is rigid with it.
     pub fn drives_carrier(&self) -> bool {
         self.attached[PINION..=PROPELLER].iter().all(Option::is_none)

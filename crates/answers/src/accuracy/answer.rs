@@ -83,7 +83,7 @@ pub enum Role {
     SetOff,
     /// Only adds outputs, none of which is wanted.
     NotAsked,
-    /// Runs without it fail, for this reason.
+    /// No run is without it, for this reason.
     Kept(String),
     /// Does not fit the scene, for this reason.
     Refused(String),
@@ -175,6 +175,7 @@ fn roles(bench: &mut Bench, scene: &Scene, richest: &Richest, found: &Found, wit
             (None, Status::NotAsked) => Role::NotAsked,
             (None, _) if in_rich => Role::NotOnLevel,
             (None, Status::SetOff) => Role::SetOff,
+            (None, Status::Plain) => continue,
             (None, Status::NotInScene) => Role::NotInScene,
             (None, Status::On | Status::Off) => Role::Refused(
                 refused.map_or_else(|| format!("not with {}", richest.gears.text()), |(_, why)| why.clone()),

@@ -266,7 +266,7 @@ fn effects(answer: &Answer) -> Vec<(&'static str, String)> {
     push(
         "Kept",
         names(&|s, role| match role {
-            Role::Kept(why) => Some(format!("{}, as the run without it fails: {why}", s.name())),
+            Role::Kept(why) => Some(format!("{} ({why})", s.name())),
             _ => None,
         }),
     );

@@ -133,7 +133,13 @@ fn without_each(bench: &mut Bench, base: usize) -> Vec<Single<Switch>> {
     let on = effects().filter(|switch| switch.is_on(&scene.parameters));
     on.map(|switch| {
         let off = switch.turned(&scene, false);
-        Single { of: switch, run: bench.run(&off, &format!("without {}", switch.name())) }
+        let run = match switch.commands(&scene) {
+            Some(input) => Err(format!("{input} commands the scene")),
+            None => bench
+                .run(&off, &format!("without {}", switch.name()))
+                .map_err(|why| format!("the run without it fails: {why}")),
+        };
+        Single { of: switch, run }
     })
     .collect()
 }
@@ -144,7 +150,8 @@ fn minimal(bench: &mut Bench, mut chosen: usize, plainer: &[Gears], written: &Sc
     loop {
         let scene = bench.trials[chosen].scene.clone();
         let own = Gears::of(&scene.parameters);
-        let on = effects().filter(|switch| switch.is_on(&scene.parameters) && !switch.is_bodies());
+        let may_go = |switch: &Switch| !switch.is_bodies() && switch.commands(&scene).is_none();
+        let on = effects().filter(|switch| switch.is_on(&scene.parameters) && may_go(switch));
         let less = on.map(|switch| {
             let what = format!("also without {}", switch.name());
             (switch.turned(&scene, false), what, !switch.is_on(&written.parameters))
@@ -214,7 +221,7 @@ fn leave_out(
         }
     }
     for single in left {
-        if single.run.is_ok() && size(bench, single) > HOPELESS * within {
+        if single.run.is_ok() && size(bench, single) > HOPELESS * within || single.of.commands(written).is_some() {
             continue;
         }
         let scene = single.of.turned(&bench.trials[current].scene, false);

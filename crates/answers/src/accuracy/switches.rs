@@ -1,29 +1,17 @@
-//! Effects that a scene may switch, and the status of each in the scene.
+//! What a plainer model may leave out: effects, and refinements of the models of effects. The status of each in a scene.
 
-use bevel_differential::model::{EFFECTS, Inputs, Parameters};
+use bevel_differential::model::effects::EffectEntry;
+use bevel_differential::model::{Class, EFFECTS, Inputs, Parameters};
 use bevel_differential::problem::Problem;
-use bevel_differential::variables::effective::Situation;
-use bevel_differential::variables::{Access, Variable, named, table, value_of};
+use bevel_differential::variables::effective::{self, Situation};
+use bevel_differential::variables::{Access, Causality, Variable, assign, index_of, named, table, value_of};
 
 use crate::scene::Scene;
 use crate::scene::acting::acts;
 use crate::scene::run::SceneRun;
 
-/// Common prefix of all switches.
+/// Common prefix of the switches of effects.
 const PREFIX: &str = "effects.";
-
-/// Effects that say what is built in, broken or driven, rather than how accurately it is modelled. Clutch packs, a
-/// broken tooth and the excitation are part of the question, so these effects are not added to a scene without them.
-const PART_OF_THE_QUESTION: [&str; 4] =
-    ["effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake"];
-
-/// Effects that change no motion and only add outputs, with parts of the names of these outputs. A scene can ask for
-/// such an output even if it is zero, such as a damage of 0.
-const ONLY_GIVE_OUTPUTS: [(&str, &[&str]); 3] = [
-    ("effects.strength", &["stress.", "damage.", "safety."]),
-    ("effects.mesh_history", &["_peak_to_peak"]),
-    ("effects.coupling_advice", &["coupling."]),
-];
 
 /// Status of an effect in a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,12 +26,23 @@ pub enum Status {
     NotInScene,
     /// Only adds outputs, none of which is wanted.
     NotAsked,
+    /// A refinement that the scene does not have.
+    Plain,
 }
 
-/// The switch of an effect.
+/// An effect, or a refinement of its model.
 #[derive(Clone, Copy)]
 pub struct Switch {
-    row: &'static Variable,
+    name: &'static str,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy)]
+enum Kind {
+    /// Effect with its switch. Backlash and corner contact have no entry in the list of effects.
+    Effect(&'static Variable, Option<&'static EffectEntry>),
+    /// Refinement with its parameters and their values in the plainer model.
+    Refinement(&'static [(&'static str, f64)]),
 }
 
 /// A scene without the effects that do not fit it.
@@ -55,17 +54,21 @@ pub struct Settled {
     pub without: Vec<&'static str>,
 }
 
-/// All effects of the table of variables.
+/// All effects of the table of variables, and all refinements.
 pub fn effects() -> impl Iterator<Item = Switch> {
-    let rows = table().rows.iter();
-    rows.filter(|row| row.name.starts_with(PREFIX) && matches!(row.access, Access::Boolean(_)))
-        .map(|row| Switch { row })
+    let rows = table().rows.iter().filter(|row| matches!(row.access, Access::Boolean(_)));
+    let effects = rows.filter_map(|row| {
+        let entry = EFFECTS.iter().find(|effect| effect.switch == Some(row.name));
+        Some(Switch { name: row.name.strip_prefix(PREFIX)?, kind: Kind::Effect(row, entry) })
+    });
+    let refinements = EFFECTS.iter().flat_map(|effect| effect.refinements);
+    effects.chain(refinements.map(|part| Switch { name: part.name, kind: Kind::Refinement(part.plain) }))
 }
 
 impl Switch {
     /// Short name.
     pub fn name(&self) -> &'static str {
-        self.row.name.strip_prefix(PREFIX).unwrap_or(self.row.name)
+        self.name
     }
 
     /// True for the elastic gear bodies, which are part of a level ([`super::gears`]).
@@ -73,16 +76,57 @@ impl Switch {
         self.name() == "body_compliance"
     }
 
-    /// True if the effect is on in `p`.
+    /// True if the effect is on in `p`, or the refinement acts.
     pub fn is_on(&self, p: &Parameters) -> bool {
-        value_of(self.row, p, &Inputs::ZERO) == Some(1.0)
+        match self.kind {
+            Kind::Effect(row, _) => value_of(row, p, &Inputs::ZERO) == Some(1.0),
+            Kind::Refinement(plain) => plain.iter().any(|&(name, value)| {
+                named(name).is_some_and(|row| value_of(row, p, &Inputs::ZERO) != Some(value))
+                    && index_of(name).is_some_and(|index| effective::acts(index, p, Situation::START))
+            }),
+        }
     }
 
-    /// Switches the effect in `p`.
+    /// Switches the effect in `p`, or leaves out the refinement. Nothing adds a refinement.
     pub fn set(&self, p: &mut Parameters, on: bool) {
-        if let Access::Boolean(access) = self.row.access {
-            *access(p) = on;
+        match self.kind {
+            Kind::Effect(row, _) => {
+                if let Access::Boolean(access) = row.access {
+                    *access(p) = on;
+                }
+            }
+            Kind::Refinement(plain) => {
+                for (row, value) in plain.iter().filter_map(|&(name, value)| Some((named(name)?, value))) {
+                    // plain values are within their ranges
+                    let fits = assign(row, value, p, &mut Inputs::default());
+                    debug_assert_eq!((on, fits), (false, Ok(())));
+                }
+            }
         }
+    }
+
+    /// Entry of the effect in the list of effects.
+    fn entry(&self) -> Option<&'static EffectEntry> {
+        if let Kind::Effect(_, entry) = self.kind { entry } else { None }
+    }
+
+    /// Meaning of the effect for the question.
+    fn class(&self) -> Class {
+        self.entry().map_or(Class::Refinement, |effect| effect.class)
+    }
+
+    /// Variable of the switch.
+    fn row(&self) -> Option<&'static Variable> {
+        if let Kind::Effect(row, _) = self.kind { Some(row) } else { None }
+    }
+
+    /// Input that commands `scene` and has no influence without this effect. The scene without it is another question.
+    pub fn commands(&self, scene: &Scene) -> Option<&'static str> {
+        let off = self.turned(scene, false);
+        let set = scene.settings.iter().map(|setting| setting.row);
+        let inputs = set.chain(scene.input_tables.iter().map(|table| table.row));
+        let mut inputs = inputs.filter(|row| row.causality == Causality::Input);
+        inputs.find(|row| acts(row, scene, Situation::START) && !acts(row, &off, Situation::START)).map(|row| row.name)
     }
 
     /// Status of the effect in `scene`.
@@ -91,9 +135,11 @@ impl Switch {
             Status::NotAsked
         } else if self.is_on(&scene.parameters) {
             Status::On
-        } else if scene.settings.iter().any(|setting| setting.row.name == self.row.name) {
+        } else if self.row().is_some_and(|row| scene.settings.iter().any(|setting| setting.row.name == row.name)) {
             Status::SetOff
-        } else if PART_OF_THE_QUESTION.contains(&self.row.name) {
+        } else if self.row().is_none() {
+            Status::Plain
+        } else if self.class() == Class::Machine {
             Status::NotInScene
         } else {
             Status::Off
@@ -101,13 +147,13 @@ impl Switch {
     }
 
     fn only_gives_outputs(&self) -> bool {
-        ONLY_GIVE_OUTPUTS.iter().any(|(name, _)| *name == self.row.name)
+        self.class() == Class::Outputs
     }
 
     /// True if the effect only adds outputs and `outputs` contains one of them.
     pub fn is_asked_for(&self, outputs: &[&Variable]) -> bool {
-        let own = ONLY_GIVE_OUTPUTS.iter().filter(|(name, _)| *name == self.row.name).flat_map(|(_, own)| own.iter());
-        own.into_iter().any(|own| outputs.iter().any(|output| output.name.contains(own)))
+        let own = self.entry().filter(|_| self.only_gives_outputs()).map_or(&[][..], |effect| effect.readings);
+        own.iter().any(|own| outputs.iter().any(|output| output.name == own.name))
     }
 
     /// Returns `scene` with this effect on or off.
@@ -146,9 +192,8 @@ impl Switch {
         if self.is_bodies() {
             return Vec::new();
         }
-        let declared = EFFECTS.iter().filter(|effect| effect.switch == Some(self.row.name));
-        let examples =
-            declared.flat_map(|effect| effect.example).filter_map(|&(name, value)| Some((named(name)?, value)));
+        let examples = self.entry().map_or(&[][..], |effect| effect.example);
+        let examples = examples.iter().filter_map(|&(name, value)| Some((named(name)?, value)));
         // for a parameter of the effect that the scene sets to zero, the start value is the typical one
         let own = scene.settings.iter().map(|setting| setting.row).filter(|row| group(row.name) == self.name());
         let starts = own.filter_map(|row| Some((row, number(row, &Parameters::default(), &Inputs::default())?)));
@@ -177,7 +222,9 @@ pub fn settled(scene: &Scene) -> Result<Settled, Vec<Problem>> {
     let mut settled = Settled { scene: scene.clone(), without: Vec::new() };
     loop {
         let Err(problems) = SceneRun::attempt(&settled.scene, settled.scene.step) else { return Ok(settled) };
-        let named = |switch: &Switch| problems.iter().any(|problem| problem.variable == switch.row.name);
+        let named = |switch: &Switch| {
+            switch.row().is_some_and(|row| problems.iter().any(|problem| problem.variable == row.name))
+        };
         let known: Vec<Switch> = effects().filter(|s| named(s) && s.is_on(&settled.scene.parameters)).collect();
         if known.is_empty() {
             return Err(problems);

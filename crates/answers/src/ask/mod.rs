@@ -16,8 +16,9 @@ mod source;
 mod text;
 
 use anyhow::Result;
+use bevel_differential::model::{Class, EFFECTS};
 use serde::Deserialize;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::problem::{Problem, Problems};
 use crate::progress::{Progress, Stopped};
@@ -46,6 +47,8 @@ pub enum Question {
     Export(scenes::ExportQuestion),
     /// The force on each loaded tooth pair, written to a file.
     Loads(scenes::LoadsQuestion),
+    /// Switches of effects that are part of the machine, and of effects that only add outputs.
+    EffectClasses {},
     /// The cheapest model that is accurate enough.
     Accuracy(accuracy_and_statistics::AccuracyQuestion),
     /// Contact patterns: areas of the flanks that bear.
@@ -84,6 +87,7 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
         Question::Run(question) => question.answer(progress),
         Question::Export(question) => question.answer(progress),
         Question::Loads(question) => question.answer(progress),
+        Question::EffectClasses {} => Ok(effect_classes()),
         Question::Accuracy(question) => question.answer(progress),
         Question::Pattern(question) => question.answer(progress),
         Question::Geometry(question) => question.answer(progress),
@@ -98,6 +102,14 @@ pub fn ask(question: &Question, numbers: &[f64], progress: &mut Progress) -> Res
     };
     // after a stop, other errors have no meaning
     answer.map_err(|why| progress.check_stopped().err().map_or(why, Into::into))
+}
+
+/// Names of switches by the class of their effects.
+fn effect_classes() -> Value {
+    let of = |class: Class| -> Vec<&str> {
+        EFFECTS.iter().filter(|effect| effect.class == class).filter_map(|effect| effect.switch).collect()
+    };
+    json!({"machine": of(Class::Machine), "outputs": of(Class::Outputs)})
 }
 
 /// Reason for the lack of an answer.

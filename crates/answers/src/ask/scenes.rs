@@ -73,13 +73,16 @@ pub struct RunQuestion {
     out: PathBuf,
 }
 
-/// Request for the loads of tooth pairs.
+/// Request for the loads of tooth pairs, or of the final drive.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LoadsQuestion {
     of: Source,
     /// The file to write.
     out: PathBuf,
+    /// True for the forces of the final drive on ring gear and bearings.
+    #[serde(default)]
+    bearings: bool,
     /// Time between records; by default the scene's communication step.
     #[serde(default)]
     every: Option<String>,
@@ -177,7 +180,8 @@ impl ExportQuestion {
 impl LoadsQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
         let (scene, every) = (self.of.scene(progress)?, seconds("every", self.every.as_deref())?);
-        let (lines, text) = written(&self.out, |file| loads::write(&scene, every, file, progress))?;
+        let write = if self.bearings { loads::write_bearings } else { loads::write };
+        let (lines, text) = written(&self.out, |file| write(&scene, every, file, progress))?;
         Ok(json!({"lines": lines, "file": self.out, "text": text}))
     }
 }

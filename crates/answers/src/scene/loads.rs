@@ -1,4 +1,5 @@
-//! Mesh forces over time for FEA in the frames of both gears: one line per loaded tooth pair or slice.
+//! Forces over time for FEA: those of the meshes in the frames of both gears, one line per loaded tooth pair or slice, and
+//! those of the final drive on the ring gear and on the bearings of the carrier.
 
 use std::f64::consts::PI;
 use std::io::Write;
@@ -8,9 +9,10 @@ use bevel_differential::contact::pairs::{Flank, Spot};
 use bevel_differential::geometry::Pair;
 use bevel_differential::geometry::action::LineOfAction;
 use bevel_differential::model::{GearContact, ToothLoad};
+use bevel_differential::variables::table;
 
-use super::Scene;
 use super::run::SceneRun;
+use super::{Scene, off};
 use crate::problem::question_error;
 use crate::progress::Progress;
 
@@ -46,8 +48,11 @@ pub fn on_gears(action: &LineOfAction, pair: &Pair, load: &ToothLoad) -> [OnGear
     })
 }
 
-/// Writes the history of `scene` to `out`, with a record every `every` seconds (by default the communication step).
-/// Returns the number of lines, and an explanation of the file.
+/// Groups of outputs that are forces of the final drive.
+const OF_FINAL_DRIVE: [&str; 3] = ["ring_gear.", "left_bearing.", "right_bearing."];
+
+/// Writes the history of the meshes in `scene` to `out`, with a record every `every` seconds (by default the communication
+/// step). Returns the number of lines, and an explanation of the file.
 pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &mut Progress) -> Result<(u64, String)> {
     if scene.parameters.scene.gear_contact == GearContact::Ideal {
         return Err(question_error(format!(
@@ -55,6 +60,60 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
             scene.name
         )));
     }
+    let mut rows = csv::Writer::from_writer(out);
+    let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
+    let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
+    rows.write_record(head)?;
+    let mut lines = 0u64;
+    let (run, every) = records(scene, every, progress, |run| {
+        let (time, mut written) = (run.time(), Ok(()));
+        let pair = *run.simulation.pair();
+        let action = LineOfAction::new(&pair);
+        run.simulation.tooth_loads(|load| {
+            if written.is_ok() {
+                written = line(&mut rows, time, load, &on_gears(&action, &pair, load));
+                lines += 1;
+            }
+        });
+        Ok(written?)
+    })?;
+    rows.flush()?;
+    Ok((lines, explanation(scene, every, &run)))
+}
+
+/// Writes the forces of the final drive on the ring gear and on the bearings of the carrier, as [`write()`] does.
+pub fn write_bearings(
+    scene: &Scene,
+    every: Option<f64>,
+    out: &mut dyn Write,
+    progress: &mut Progress,
+) -> Result<(u64, String)> {
+    let forces = || table().rows.iter().filter(|row| OF_FINAL_DRIVE.iter().any(|group| row.name.starts_with(group)));
+    if let Some(why) = forces().find_map(|row| off::reason(row.name, scene)) {
+        return Err(question_error(format!("scene {} has no forces on carrier bearings: {why}", scene.name)));
+    }
+    let mut rows = csv::Writer::from_writer(out);
+    rows.write_record(std::iter::once("time").chain(forces().map(|row| row.name)))?;
+    let mut lines = 0u64;
+    records(scene, every, progress, |run| {
+        let values: Vec<f64> = std::iter::once(run.time()).chain(forces().map(|row| run.read(row))).collect();
+        lines += 1;
+        Ok(rows.write_record(values.iter().map(|value| format!("{value:.12e}")))?)
+    })?;
+    rows.flush()?;
+    let explanation = "forces of the final drive in N: on the ring gear along its circumference (positive if it drives forward), along the \
+                       axle (positive away from the planets) and toward the axle; on the bearings of the carrier to the left (axial), upward \
+                       (vertical) and forward (longitudinal)\n";
+    Ok((lines, explanation.into()))
+}
+
+/// Runs `scene` and calls `record` every `every` seconds. Returns the finished run, and the time between records.
+fn records<'a>(
+    scene: &'a Scene,
+    every: Option<f64>,
+    progress: &mut Progress,
+    mut record: impl FnMut(&mut SceneRun) -> Result<()>,
+) -> Result<(SceneRun<'a>, f64)> {
     let every = every.unwrap_or(scene.step);
     // a scene of zero duration has one record, at its start
     if !(every > 0.0 && (every <= scene.stop_time || scene.stop_time == 0.0)) {
@@ -64,26 +123,12 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         )));
     }
     let mut run = SceneRun::start(scene, scene.step.min(every))?;
-    let pair = *run.simulation.pair();
-    let action = LineOfAction::new(&pair);
-    let explanation = explanation(scene, every, &run);
-    let mut rows = csv::Writer::from_writer(out);
-    let columns = |gear: &'static str| VECTORS.map(|v| format!("{gear}_{v}"));
-    let head = LOAD.split(',').map(str::to_owned).chain(columns("planet")).chain(columns("side"));
-    rows.write_record(head)?;
     progress.begin_task(0.0, "simulating");
-    let (mut records, mut lines) = (0u64, 0u64);
+    let mut done = 0u64;
     loop {
-        if run.time() >= (records as f64 - SAME) * every {
-            let (time, mut written) = (run.time(), Ok(()));
-            run.simulation.tooth_loads(|load| {
-                if written.is_ok() {
-                    written = line(&mut rows, time, load, &on_gears(&action, &pair, load));
-                    lines += 1;
-                }
-            });
-            written?;
-            records += 1;
+        if run.time() >= (done as f64 - SAME) * every {
+            record(&mut run)?;
+            done += 1;
         }
         if run.is_over() {
             break;
@@ -91,9 +136,8 @@ pub fn write(scene: &Scene, every: Option<f64>, out: &mut dyn Write, progress: &
         run.advance()?;
         progress.advance(run.time() / scene.stop_time)?;
     }
-    rows.flush()?;
     progress.warn(run.warnings());
-    Ok((lines, explanation))
+    Ok((run, every))
 }
 
 fn line(rows: &mut csv::Writer<&mut dyn Write>, time: f64, load: &ToothLoad, gears: &[OnGear; 2]) -> csv::Result<()> {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use bevel_differential::model::{CostClass, Inputs, Parameters, Simulation};
+use bevel_differential::model::{CostClass, Inputs, Parameters, Plan, Simulation};
 use bevel_differential::variables::{Causality, Variable, named, unset, value_of};
 use cpu_time::ThreadTime;
 
@@ -65,7 +65,7 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
         line(name.rsplit('.').next().unwrap_or(name).replace('_', " ").as_str(), &choice(scene, name));
     }
     line("planets", &format!("{} planets simulated in {}", plan.planets, plan.describe_groups()));
-    for (i, drive) in drives(scene).into_iter().enumerate() {
+    for (i, drive) in drives(scene, plan).into_iter().enumerate() {
         line(if i == 0 { "drives" } else { "" }, &drive);
     }
     let (freedoms, imposed) = (plan.degrees_of_freedom(), plan.imposed());
@@ -90,13 +90,14 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     line(
         "inertias",
         &format!(
-            "carrier with planets {}, side gears {} and {}, their ends {} and {}, planet {} kg.m2",
-            units::six_digits(j.carrier),
+            "carrier with planets {}, side gears {} and {}, their ends {} and {}, planet {}{} kg.m2",
+            units::six_digits(j.carrier - plan.on_carrier),
             own(0),
             own(1),
             units::six_digits(j.end[0]),
             units::six_digits(j.end[1]),
-            units::six_digits(j.planet)
+            units::six_digits(j.planet),
+            in_front(plan)
         ),
     );
     for event in &scene.events {
@@ -122,8 +123,17 @@ fn choice(scene: &Scene, name: &str) -> String {
     known.map_or(String::new(), |(literal, meaning)| format!("{literal}: {meaning}"))
 }
 
+/// Inertias of the bodies in front of the carrier, at their own speeds.
+fn in_front(plan: &Plan) -> String {
+    let Some(ratio) = plan.drive_ratio else { return String::new() };
+    let own = |referred: f64| units::six_digits(referred / (ratio * ratio));
+    let end = plan.propeller_inertia();
+    let end = end.map_or(String::new(), |end| format!(", end of the propeller shaft {}", own(end)));
+    format!(", pinion {}{end}", own(plan.pinion_inertia()))
+}
+
 /// Drive of each shaft, with the values at the start.
-fn drives(scene: &Scene) -> Vec<String> {
+fn drives(scene: &Scene, plan: &Plan) -> Vec<String> {
     let value = |name: &str| {
         let value = named(name).and_then(|row| Some((row, value_of(row, &scene.parameters, &scene.inputs)?)));
         value.map_or(String::new(), |(row, value)| {
@@ -131,9 +141,19 @@ fn drives(scene: &Scene) -> Vec<String> {
         })
     };
     let driven = |name: &str| choice(scene, name).split(':').next().unwrap_or_default().to_owned();
-    let mut drives = vec![format!("carrier by {}", driven("scene.carrier_drive"))];
-    let command = if drives[0].ends_with("torque") { "carrier.torque_command" } else { "carrier.speed_command" };
-    drives[0].push_str(&format!(", {}", value(command)));
+    let by = driven("scene.carrier_drive");
+    let command = if by == "torque" { "torque_command" } else { "speed_command" };
+    let mut drives = vec![match plan.drive_ratio {
+        None => format!("carrier by {by}, {}", value(&format!("carrier.{command}"))),
+        Some(ratio) => {
+            let port = if plan.propeller_inertia().is_some() { "propeller shaft" } else { "pinion" };
+            let ratio = units::six_digits(ratio);
+            format!(
+                "{port} by {by}, {}, at {ratio} times the speed of the carrier",
+                value(&format!("pinion.{command}"))
+            )
+        }
+    }];
     for side in ["left", "right"] {
         let by = driven(&format!("scene.{side}_drive"));
         let command = if by == "speed" { "speed_command" } else { "load_torque" };

@@ -410,3 +410,43 @@ fn a_clutch_without_preload_that_does_not_slip_is_not_said_to_be_zero() {
     let found = asked(&format!("{IDEAL}effects.limited_slip = true\n"), &["carrier.torque:mean"], 0.01);
     assert!(matches!(role(&found, "limited_slip"), Role::Neutral { .. }));
 }
+
+/// Ideal gears behind a final drive whose mesh has an error of 20 um at 10 teeth per turn of the pinion.
+const AXLE: &str = r#"
+description = "axle"
+stop_time = 0.3
+step = 2e-4
+outputs = ["carrier.speed"]
+
+[set]
+scene.gear_contact = "ideal"
+pinion.speed_command = 200.0
+left.load_torque = 200.0
+right.load_torque = 200.0
+effects.final_drive = true
+inertia.pinion = 0.003
+final_drive.elastic_mesh = true
+final_drive.error_1 = "20 um"
+final_drive.damping = "30 N.s/mm"
+"#;
+
+#[test]
+fn a_final_drive_is_kept_and_its_mesh_is_elastic_only_for_what_it_moves() {
+    for (want, within, elastic) in
+        [("carrier.speed:mean", 0.01, false), ("ring_gear.tangential_force:peak_to_peak", 0.05, true)]
+    {
+        let found = asked(AXLE, &[want], within);
+        let p = found.choice().expect("a setting").scene.parameters;
+        assert_eq!((p.effects.final_drive, p.specs.final_drive.elastic_mesh), (true, elastic), "{want}");
+        let Role::Kept(why) = role(&found, "final_drive") else { panic!("{}", report::text(&found)) };
+        assert_eq!(why, "pinion.speed_command commands the scene");
+        let Role::Acts { by, chosen } = role(&found, "final_drive errors") else { panic!("{}", report::text(&found)) };
+        assert_eq!((*chosen, *by > within), (elastic, elastic), "{want}: {by}");
+        // flanks in contact never reach the lash
+        let Role::Acts { by, chosen: false } = role(&found, "final_drive.backlash") else { panic!("lash") };
+        assert!(*by <= within, "{want}: {by}");
+    }
+    // a rigid mesh has nothing to leave out
+    let found = asked(&AXLE.replace("elastic_mesh = true", "elastic_mesh = false"), &["carrier.speed:mean"], 0.01);
+    assert!(found.effects.iter().all(|(switch, _)| !switch.name().starts_with("final_drive.")));
+}

@@ -120,6 +120,50 @@ fn scenes_without_teeth_have_no_loads() -> Result<()> {
     Ok(())
 }
 
+#[test]
+fn forces_on_ring_gear_and_bearings_are_written_over_time_and_balance() -> Result<()> {
+    let set = "[set]\nscene.gear_contact = \"ideal\"\neffects.final_drive = true\nscene.carrier_drive = \"torque\"\n\
+               pinion.torque_command = 100.0\nfinal_drive.spiral_angle = 0.6\nfinal_drive.azimuth = 0.4\n";
+    let (mut text, scene) = (Vec::new(), parsed(set)?);
+    let (lines, explanation) = loads::write_bearings(&scene, Some(0.02), &mut text, &mut Progress::silent())?;
+    let text = String::from_utf8(text)?;
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!((rows.len() as u64, lines, rows[0].len()), (lines + 1, 6, 10));
+    assert!(explanation.contains("in N") && explanation.contains("forward"), "{explanation}");
+    let column = |name: &str| rows[0].iter().position(|column| *column == name).expect(name);
+    for row in &rows[1..] {
+        let n = |name: &str| row[column(name)].parse::<f64>().expect(name);
+        let both = |along: &str| n(&format!("left_bearing.{along}_force")) + n(&format!("right_bearing.{along}_force"));
+        let across = f64::hypot(n("ring_gear.tangential_force"), n("ring_gear.radial_force"));
+        assert!((f64::hypot(both("vertical"), both("longitudinal")) / across - 1.0).abs() < 1e-9);
+        // the ring gear is on the left
+        assert!((both("axial") / n("ring_gear.axial_force") - 1.0).abs() < 1e-9);
+    }
+    let off = loads::write_bearings(&find("hil", &folder())?, None, &mut Vec::new(), &mut Progress::silent());
+    assert!(off.expect_err("no final drive").to_string().contains("effects.final_drive is off"));
+    Ok(())
+}
+
+#[test]
+fn a_plan_names_the_port_and_the_inertias_in_front_of_the_carrier() -> Result<()> {
+    let set = "[set]\neffects.final_drive = true\npinion.speed_command = 82.0\ninertia.pinion = 0.003\n";
+    let shaft = "effects.propeller_shaft = true\ninertia.propeller_end = 0.02\n";
+    for (set, port, inertias) in [
+        (set.to_owned(), "pinion by speed, pinion.speed_command = ", ", pinion 0.003 kg.m2"),
+        (
+            format!("{set}{shaft}"),
+            "propeller shaft by speed, ",
+            ", pinion 0.003, end of the propeller shaft 0.02 kg.m2",
+        ),
+    ] {
+        let scene = parsed(&set)?;
+        let text = plan::text(&scene, &SceneRun::start(&scene, scene.step)?.simulation);
+        assert!(text.contains(port) && text.contains("4.1 times the speed of the carrier"), "{text}");
+        assert!(text.contains(inertias), "{text}");
+    }
+    Ok(())
+}
+
 const FRAME: &str = "description = \"d\"\nstop_time = 0.1\nstep = 1e-3\noutputs = [\"left.speed\"]\n";
 
 fn parsed(rest: &str) -> Result<Scene> {

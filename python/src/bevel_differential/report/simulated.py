@@ -6,6 +6,7 @@ from typing import Self
 
 import numpy as np
 
+from ..answers import effect_classes
 from ..panel import Axis, time_axis
 from ..points import at_times
 from ..scene import Scene
@@ -13,8 +14,6 @@ from ..values import DifferentialError, Number
 from ..want import mean_over_time
 from ..warned import warn
 
-# effects that only add outputs, without influence on motion; a test checks that the command `accuracy` has the same list
-ONLY_GIVE_OUTPUTS = ("effects.strength", "effects.mesh_history", "effects.coupling_advice")
 # the fastest of several runs counts: maximum number of runs, and the total time after which no further run starts, s
 TIMED, SHORT = 3, 0.5
 # main speeds and torques, drawn in every report
@@ -58,7 +57,7 @@ class Simulated:
             seconds.append(time.perf_counter() - begin)
         refused: dict[str, str] = {}
         added: dict[str, Number] = {}
-        for effect in ONLY_GIVE_OUTPUTS:
+        for effect in effect_classes()["outputs"]:
             if not scene.values.get(effect):
                 try:
                     scene._record(values={**added, effect: True}, stop=scene.step)

@@ -7,19 +7,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..answers import Progress
+from ..answers import effect_classes
 from ..panel import Axis, Mark, Panel, shades
 from ..progress import silent
 from ..values import DifferentialError, Number
 from ..want import mean_over_time
 from . import words
 from .blocks import Section, Table
-from .simulated import ONLY_GIVE_OUTPUTS, Simulated, reason_of
+from .simulated import Simulated, reason_of
 from .svg_style import BLUE, GREY, RED, picture
 from .traces import main_outputs
 
-# effects that describe what is installed, broken or driven. They are part of the question, not of the accuracy of the answer. A test
-# checks that the command `accuracy` has the same list
-PART_OF_THE_QUESTION = ("effects.limited_slip", "effects.tooth_fault", "effects.final_drive", "effects.wheel_brake")
 # number of largest changes in the table
 NAMED = 3
 PREFIX = "effects."
@@ -56,9 +54,12 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
     found = Section("worth", "What is switched off, and what it is worth")
     variables = run.scene.fmu.variables
     switches = [name for name, variable in variables.items() if name.startswith(PREFIX) and variable.kind == "Boolean"]
-    off = [name for name in switches if not run.value(name) and name not in ONLY_GIVE_OUTPUTS]
-    there = [name for name in off if name not in PART_OF_THE_QUESTION]
-    found.say(_named(run, switches, off))
+    classes = effect_classes()
+    switches = [name for name in switches if name not in classes["outputs"]]
+    off = [name for name in switches if not run.value(name)]
+    question = [name for name in classes["machine"] if name in off]
+    there = [name for name in off if name not in question]
+    found.say(_named([name for name in switches if name not in off], question))
     if not there:
         return found
     progress(0.0, "effects that are off")
@@ -122,9 +123,8 @@ def together(run: Simulated, names: list[str]) -> Tried:
     return replace(found, name=without)
 
 
-def _named(run, switches, off):
-    on = [name.removeprefix(PREFIX) for name in switches if run.value(name) and name not in ONLY_GIVE_OUTPUTS]
-    question = [name.removeprefix(PREFIX) for name in PART_OF_THE_QUESTION if name in off]
+def _named(on, question):
+    on, question = ([name.removeprefix(PREFIX) for name in names] for names in (on, question))
     return (f"On in the scene: {words.listed(on) or 'nothing'}. " + (
         f"Not tried: {words.listed(question)}, because what is installed, broken or driven is part of the question and not of the "
         "accuracy of the answer. " if question else "") +

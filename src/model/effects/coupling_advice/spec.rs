@@ -1,7 +1,7 @@
 //! Declaration of the effect: its parameters and readings.
 
 use crate::declaration::prelude::*;
-use crate::model::effect_kinds::{Declare, Effect, Reading, readings};
+use crate::model::effect_kinds::{Class, Declare, Effect, Reading, readings};
 
 choices! {
     /// Meaning of the advised step.
@@ -29,6 +29,7 @@ parameters! {
 impl Declare for CouplingAdviceSpec {
     const DESCRIPTION: &'static str =
         "Advice about the communication step, from the energy error of the cut; co-simulation only";
+    const CLASS: Class = Class::Outputs;
     const READINGS: &'static [Reading] = readings! {
         /// Energy that the cut between host and unit has created (+) or destroyed (-) at a carrier driven by torque
         /// since the start; 0 in model exchange

@@ -17,8 +17,8 @@ use self::mesh::Mesh;
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{
-    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Declare, Effect, Heat, InputField, Instant, Loss, Reading,
-    RubbingSurface, Setting, Slopes, StaticLoads, readings,
+    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Class, Declare, Effect, Heat, InputField, Instant, Loss,
+    Reading, Refinement, RubbingSurface, Setting, Slopes, StaticLoads, readings,
 };
 use crate::model::scene::{
     AttachedBody, Base, CARRIER, CarrierDrive, InertiaSpec, MAX_SPEED, MAX_TORQUE, PINION, Plan, Requests, RubbingKind,
@@ -118,6 +118,21 @@ const FASTER: f64 = 10.0;
 
 impl Declare for FinalDriveSpec {
     const DESCRIPTION: &'static str = "Final drive: a pinion drives the ring gear on the carrier";
+    const CLASS: Class = Class::Machine;
+    const REFINEMENTS: &'static [Refinement] = &[
+        Refinement { name: "final_drive.elastic_mesh", plain: &[("final_drive.elastic_mesh", 0.0)] },
+        Refinement { name: "final_drive.backlash", plain: &[("final_drive.backlash", 0.0)] },
+        Refinement {
+            name: "final_drive errors",
+            plain: &[
+                ("final_drive.error_1", 0.0),
+                ("final_drive.error_2", 0.0),
+                ("final_drive.error_3", 0.0),
+                ("final_drive.pinion_runout", 0.0),
+                ("final_drive.ring_runout", 0.0),
+            ],
+        },
+    ];
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.final_drive",
         description: "Heat of friction and damping in the final drive since the start",

@@ -19,7 +19,7 @@ mod slip_torque;
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
-    BodyEffect, ByLoad, Declare, Effect, Element, Heat, Part, Ramps, Reading, RubbingSurface, Setting, Slides,
+    BodyEffect, ByLoad, Class, Declare, Effect, Element, Heat, Part, Ramps, Reading, RubbingSurface, Setting, Slides,
     SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::{CARRIER, GearContact, Plan, RubbingKind};
@@ -78,6 +78,7 @@ pub const CLUTCH_HEAT: Heat = Heat {
 impl Declare for LimitedSlipSpec {
     const DESCRIPTION: &'static str =
         "Clutch packs on the side gears: preload, ramps, viscous torque, or a measured curve; with stiction";
+    const CLASS: Class = Class::Machine;
     const BIASES_TORQUE: bool = true;
     const PV_LIMIT: Option<&'static str> = Some("limited_slip.pv_limit");
     const HEAT: Option<Heat> = Some(CLUTCH_HEAT);

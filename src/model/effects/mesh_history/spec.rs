@@ -1,7 +1,7 @@
 //! Declaration of the effect: its readings. It has no parameters.
 
 use crate::declaration::prelude::*;
-use crate::model::effect_kinds::{Declare, Effect, Needs, Reading, readings};
+use crate::model::effect_kinds::{Class, Declare, Effect, Needs, Reading, readings};
 use crate::model::scene::GearContact;
 
 parameters! {
@@ -12,6 +12,7 @@ parameters! {
 impl Declare for MeshHistorySpec {
     const DESCRIPTION: &'static str =
         "Peak-to-peak side speeds and transmission errors over the last whole mesh cycle; co-simulation only";
+    const CLASS: Class = Class::Outputs;
     const RECORDS_STEPS: bool = true;
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],

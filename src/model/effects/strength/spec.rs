@@ -2,7 +2,7 @@
 
 use crate::declaration::prelude::*;
 use crate::friction::ToothFrictionSpec;
-use crate::model::effect_kinds::{Declare, Effect, Needs, Reading, readings};
+use crate::model::effect_kinds::{Class, Declare, Effect, Needs, Reading, readings};
 use crate::model::effects::warm_up::WarmUpSpec;
 use crate::model::scene::GearContact;
 use crate::strength::{SnCurve, ToothStrength};
@@ -53,6 +53,7 @@ impl StrengthSpec {
 
 impl Declare for StrengthSpec {
     const DESCRIPTION: &'static str = "Hertz pressure, root stress by ISO 10300, Miner damage, and flash temperature";
+    const CLASS: Class = Class::Outputs;
     const RECORDS_STEPS: bool = true;
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth, GearContact::Solid],
