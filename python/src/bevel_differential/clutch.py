@@ -24,14 +24,14 @@ class Clutch:
 
     @classmethod
     def from_plates(cls, faces: Value, friction: Value, inner: Value, outer: Value, ramp_drive: Value, ramp_coast: Value,
-                    ramp_radius: Value, spring_force: Value = 0.0, *, fmu: FileName | Fmu | None = None) -> Self:
+                    ramp_radius: Value, spring_force: Value = 0.0, gear_thrust: bool = False, *, fmu: FileName | Fmu | None = None) -> Self:
         """Clutch packs from the dimensions of their plates and of the ramps that press them.
 
         `faces`: number n of rubbing faces of each pack. `friction`: their coefficient of friction μ. `inner`, `outer`: radii r_i and r_o
         of the faces [m]. `ramp_drive`, `ramp_coast`: angles β between the ramps and the plane of rotation, above 0 and up to 90° [rad].
         The drive ramps bear while the carrier drives the wheels forward, the coast ramps in overrun and in reverse. A ramp of 90° is
         parallel to the axis and presses nothing. `ramp_radius`: radius r at which the cross-shaft pushes on the ramps [m].
-        `spring_force`: axial force of the springs on each pack [N]. Numbers are in SI; texts such as "52 mm" and "45 deg" and pairs
+        `spring_force`: axial force of the springs on each pack [N]. `gear_thrust`: true if the side gears press the plates. Numbers are in SI; texts such as "52 mm" and "45 deg" and pairs
         (number, unit) are converted. `fmu`: the FMU whose units and ranges are used.
 
         With uniform wear, the mean radius is r_m = (r_i + r_o)/2, and the axial force F gives a pack the torque n μ r_m F. The meshes
@@ -41,6 +41,7 @@ class Clutch:
 
             torque_coefficient  κ = n μ r_m/(r tan β_drive)       pressed_by  both_sides
             coast_ratio  tan β_drive/tan β_coast                  preload  n μ r_m × spring_force
+            thrust_arm  n μ r_m, with gear_thrust
 
         While the clutches slip, the torques of the wheels differ by κ T plus twice the preload. Raises `DifferentialError`."""
         of = _Arguments("Clutch.from_plates", Fmu.of(fmu))
@@ -51,6 +52,7 @@ class Clutch:
             **{name: of.length(name, radius) for name, radius in lengths.items()},
             **{name: of.angle(name, angle) for name, angle in angles.items()},
             "spring_force": of.number("spring_force", spring_force, "planet[1].thrust_force", least=0.0),
+            **({"gear_thrust": True} if gear_thrust else {}),
         }
         try:
             return cls(ask({"ask": "clutch", "of": dimensions})["set"])

@@ -36,7 +36,9 @@ pub use loss::Loss;
 pub use memory::{Memory, Remembered};
 pub use pv_limit::PvLimit;
 pub use ramps::Ramps;
-pub use rubbing_surface::{ActingSurface, ByLoad, Command, RubbingSurface, Slip, SurfaceLoad, SurfaceTemperature};
+pub use rubbing_surface::{
+    ActingSurface, ByLoad, Command, RubbingSurface, Slip, SurfaceLoad, SurfaceTemperature, ThrustPart,
+};
 pub use slip_law::SlipLaw;
 pub(super) use slip_spec::check_slip;
 pub use slip_spec::{Slides, SlipSpec, depends_on_temperature};

@@ -80,6 +80,17 @@ pub enum SurfaceTemperature {
     Given(f64),
 }
 
+/// Part of a surface in carrying the thrust of its gear.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ThrustPart {
+    /// None.
+    None,
+    /// Washer behind the gear.
+    Washer,
+    /// Plates that the gear presses. They take the place of its washer.
+    Plates,
+}
+
 /// Surface on which pairs of one kind rub.
 #[derive(Clone, Copy, Debug)]
 pub struct RubbingSurface {
@@ -105,6 +116,8 @@ pub struct RubbingSurface {
     pub radius: f64,
     /// Pressure times radius [N/m].
     pub pressed: ByLoad,
+    /// Part in carrying the thrust of the gear.
+    pub thrust_part: ThrustPart,
     /// Parameters of sliding.
     pub sliding: SlipSpec,
     /// Origin of its temperature.
@@ -128,10 +141,22 @@ impl RubbingSurface {
             damping_time: [DAMPING_TIME; 2],
             radius: 0.0,
             pressed: ByLoad::NONE,
+            thrust_part: ThrustPart::None,
             sliding: SlipSpec::default(),
             temperature: SurfaceTemperature::Node(OIL),
             command: Command::None,
         }
+    }
+
+    /// True if `other` takes the place of this washer.
+    fn yields_to(&self, other: &Self) -> bool {
+        self.kind == other.kind && self.thrust_part == ThrustPart::Washer && other.thrust_part == ThrustPart::Plates
+    }
+
+    /// Removes washers whose place is taken by plates that the gear presses.
+    pub fn remove_replaced(surfaces: &mut Vec<Self>) {
+        let all = surfaces.clone();
+        surfaces.retain(|surface| !all.iter().any(|other| surface.yields_to(other)));
     }
 
     /// Friction at the `temperatures` of all nodes [K], relative to the friction at the reference temperature.

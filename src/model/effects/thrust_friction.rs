@@ -11,11 +11,12 @@
 //! uniform wear, p r = constant (J. E. Shigley, Mechanical Engineering Design, on disc clutches). For the study's
 //! gears, this rule gives 8.0, 13.5 and 22.8 mm; the start values are 8, 14 and 22 mm.
 
+use super::limited_slip::washers_bear;
 use crate::declaration::prelude::*;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
     ByLoad, Declare, Effect, Heat, Needs, Reading, RubbingSurface, Setting, Slides, SlipSpec, SurfaceTemperature,
-    check_slip, depends_on_temperature, readings,
+    ThrustPart, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::{GearContact, RubbingKind};
 use crate::model::thermal::WASHERS;
@@ -46,13 +47,14 @@ parameters! {
         /// Mean radius of the planet washers
         planet_washer_radius: f64 = 14e-3, METRE | MM, 0.0..=1.0, when(is!(Self.radii_from_geometry, false));
         /// Mean radius of the side gear washers
-        side_washer_radius: f64 = 22e-3, METRE | MM, 0.0..=1.0, when(is!(Self.radii_from_geometry, false));
+        side_washer_radius: f64 = 22e-3, METRE | MM, 0.0..=1.0,
+            when(all([is!(Self.radii_from_geometry, false), washers_bear()]));
         /// Stiffness of a sticking side gear washer; scaled by the square of the gear ratio for planets
         stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9;
         /// Area of a planet washer
         planet_washer_area: f64 = 1e-3, SQUARE_METRE | CM2, 1e-8..=10.0;
         /// Area of a side gear washer
-        side_washer_area: f64 = 2e-3, SQUARE_METRE | CM2, 1e-8..=10.0;
+        side_washer_area: f64 = 2e-3, SQUARE_METRE | CM2, 1e-8..=10.0, when(washers_bear());
         /// Projected contact area of a pin in its planet
         pin_area: f64 = 3e-4, SQUARE_METRE | CM2, 1e-8..=10.0;
         ..sliding: SlipSpec;
@@ -204,7 +206,7 @@ impl Effect for ThrustFrictionSpec {
         let pin =
             surface(RubbingKind::Planet, pin, [by_load(self.pin_coefficient * pin), by_load(pin / self.pin_area)]);
         surfaces.extend([
-            RubbingSurface { stiffness: self.stiffness, ..on_side },
+            RubbingSurface { stiffness: self.stiffness, thrust_part: ThrustPart::Washer, ..on_side },
             RubbingSurface { place: " on its pin", stiffness: self.stiffness * ratio * ratio, ..pin },
             RubbingSurface { place: " on its washer", ..on_planet },
         ]);

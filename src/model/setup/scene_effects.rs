@@ -120,6 +120,7 @@ impl<'a> SceneEffects<'a> {
             effect.add_surfaces(&setting, surfaces);
             surfaces[before..].iter_mut().for_each(|surface| surface.effect = entry.name);
         }
+        RubbingSurface::remove_replaced(surfaces);
     }
 }
 

@@ -10,12 +10,14 @@
 //! ramp_coast = "60 deg"
 //! ramp_radius = "40 mm"
 //! spring_force = "800 N"  # without springs, this line may be left out
+//! gear_thrust = true      # the side gears press the plates; otherwise, this line may be left out
 //! ```
 //!
 //! With uniform wear, the mean radius of n faces is r_m = (r_i + r_o)/2, and the axial force F gives a pack the torque
 //! n μ r_m F. The carrier's torque T pushes the cross-shaft on the ramps with the force T/r. Each of the two pressure
 //! rings bears half of it and converts it to the axial force T/(2 r tan β). The torque of a pack is then κ times the
-//! mean T/2 of both mesh torques, with κ = n μ r_m/(r tan β).
+//! mean T/2 of both mesh torques, with κ = n μ r_m/(r tan β). A side gear that presses the plates adds n μ r_m times its
+//! thrust.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -41,11 +43,13 @@ const KEYS: [(&str, &str); 8] = [
     ("ramp_radius", "limited_slip.mean_radius"),
     ("spring_force", "planet[1].thrust_force"),
 ];
+/// Key that says if the side gears press the plates.
+const GEAR_THRUST: &str = "gear_thrust";
 
 /// Settings of the packs with the dimensions in `table`. Fails with all problems of the dimensions.
 pub fn settings(table: &Table) -> Result<Vec<Setting>, Problems> {
     let mut problems = Problems::default();
-    let known = || KEYS.map(|(key, _)| key).into_iter();
+    let known = || KEYS.map(|(key, _)| key).into_iter().chain([GEAR_THRUST]);
     for key in table.keys().filter(|key| !known().any(|known| known == key.as_str())) {
         let all = known().collect::<Vec<_>>().join(", ");
         problems.push(format!("there is no dimension {key}{}; known: {all}", near::hint(key, known())));
@@ -59,8 +63,21 @@ pub fn settings(table: &Table) -> Result<Vec<Setting>, Problems> {
         Some(value) => dimension(key, value, like).map_err(|problem| problems.push(problem)).unwrap_or(f64::NAN),
         None => 0.0,
     });
+    let gear_thrust = match table.get(GEAR_THRUST) {
+        None | Some(Value::Boolean(false)) => false,
+        Some(Value::Boolean(true)) => true,
+        Some(other) => {
+            let text = written(other);
+            problems.push(Problem::of(
+                GEAR_THRUST,
+                text.clone(),
+                format!("{GEAR_THRUST} = {text}: it must be true or false"),
+            ));
+            false
+        }
+    };
     problems.or(())?;
-    packs(values)
+    packs(values, gear_thrust)
 }
 
 /// SI value of the dimension `key`, in the unit of the variable `like`.
@@ -82,8 +99,11 @@ fn dimension(key: &str, value: &Value, like: &str) -> Result<f64, Problem> {
     if number.is_finite() && is_allowed { Ok(number) } else { Err(problem(format!("it must be {allowed}"))) }
 }
 
-/// Settings of the packs from all dimensions, in SI and in the order of `KEYS`.
-fn packs([faces, friction, inner, outer, drive, coast, lever, spring]: [f64; 8]) -> Result<Vec<Setting>, Problems> {
+/// Settings of the packs from all dimensions, in SI and in the order of `KEYS`, and whether the side gears press them.
+fn packs(
+    [faces, friction, inner, outer, drive, coast, lever, spring]: [f64; 8],
+    gear_thrust: bool,
+) -> Result<Vec<Setting>, Problems> {
     if inner >= outer {
         let [inner, outer] = [inner, outer].map(|radius| units::six_digits(1e3 * radius));
         return Err(Problem::from(format!(
@@ -128,7 +148,8 @@ fn packs([faces, friction, inner, outer, drive, coast, lever, spring]: [f64; 8])
         "" => problem,
         causes => Problem { message: format!("{}; it is calculated from {causes}", problem.message), ..problem },
     };
-    let set = values.iter().filter_map(|(name, value, causes)| {
+    let thrust = gear_thrust.then(|| ("limited_slip.thrust_arm", per_force.into(), "faces, friction, inner and outer"));
+    let set = values.iter().chain(thrust.iter()).filter_map(|(name, value, causes)| {
         Setting::new(name, value).map_err(|problem| problems.push(from(problem, causes))).ok()
     });
     let set = set.collect();

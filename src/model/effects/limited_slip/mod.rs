@@ -2,9 +2,13 @@
 //!
 //! ```text
 //! dry        T_max = preload + κ L     L: mesh torque that presses the pack (`effect_kinds::ramps`)
+//! thrust     T_max = a F_a             F_a: thrust of the pack's own side gear, a = n μ r_m of its n faces
 //! viscous    T = T_v |s/s_v|ⁿ sgn(s)   s: slip relative to the carrier (`slip_torque`)
 //! measured   T = C(|s|) sgn(s)         C: curve through points (`curve`); C(0) is held like dry friction
 //! ```
+//!
+//! A side gear that presses the plates has no washer of its own. Its thrust is F_a = Q tan α/R under the mesh torque Q,
+//! with the cone distance R of the resultant, so packs that slip under equal torques move S = κ + a tan α/R of Q.
 //!
 //! A factor for the slip speed multiplies T_max (`effect_kinds::slip_law`). Friction that falls with speed causes
 //! judder. Static ratio, slip speed, temperature and p·v change only the dry torque, because a measured curve contains
@@ -16,14 +20,18 @@
 mod curve;
 mod slip_torque;
 
+use crate::contact::ContactLaw;
 use crate::declaration::prelude::*;
+use crate::model::assembly::face::centroid;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
     BodyEffect, ByLoad, Class, Declare, Effect, Element, Heat, Part, Ramps, Reading, RubbingSurface, Setting, Slides,
-    SlipSpec, SurfaceTemperature, TorqueCurve, check_slip, depends_on_temperature, readings,
+    SlipSpec, SurfaceTemperature, ThrustPart, TorqueCurve, check_slip, depends_on_temperature, readings,
 };
+use crate::model::run::six_digits;
 use crate::model::scene::{CARRIER, GearContact, Plan, RubbingKind};
 use crate::model::thermal::CLUTCH;
+use crate::numeric::{cos, sin};
 use crate::problem::Problem;
 use curve::CurvePoint;
 use slip_torque::{SlipTorque, Viscous};
@@ -47,6 +55,9 @@ parameters! {
         pressed_by: PressedBy = PressedBy::OwnSide, when(by_torque());
         /// Torque coefficient under negative mesh torque, relative to torque_coefficient; 0 = one-way
         coast_ratio: f64 = 1.0, ONE, 0.0..=10.0, TUNABLE, when(by_torque());
+        /// Clutch torque on each side per thrust of its side gear on the plates: number of faces x coefficient of
+        /// friction x mean radius; 0 = the gear presses a washer instead
+        thrust_arm: f64 = 0.0, METRE | MM, 0.0..=10.0;
         /// Viscous torque of each clutch at the slip viscous_speed
         viscous_torque: f64 = 0.0, NEWTON_METRE, 0.0..=1e6;
         /// Slip relative to the carrier at which viscous_torque applies
@@ -93,6 +104,11 @@ impl Declare for LimitedSlipSpec {
     }
 }
 
+/// Condition that side gears have washers, because they do not press the packs.
+pub fn washers_bear() -> Condition {
+    any([off!(LimitedSlipSpec), is!(LimitedSlipSpec.thrust_arm, 0.0)])
+}
+
 /// Condition that ramps press the packs.
 fn by_torque() -> Condition {
     above!(LimitedSlipSpec.torque_coefficient, 0.0)
@@ -100,12 +116,12 @@ fn by_torque() -> Condition {
 
 /// Condition that dry plates slide.
 fn pressed() -> Condition {
-    any([above!(LimitedSlipSpec.preload, 0.0), by_torque()])
+    any([above!(LimitedSlipSpec.preload, 0.0), by_torque(), above!(LimitedSlipSpec.thrust_arm, 0.0)])
 }
 
 /// Condition that the packs hold.
 fn holds() -> Condition {
-    any([above!(LimitedSlipSpec.preload, 0.0), by_torque(), curve::holds()])
+    any([pressed(), curve::holds()])
 }
 
 impl Slides for LimitedSlipSpec {
@@ -115,9 +131,9 @@ impl Slides for LimitedSlipSpec {
 }
 
 impl LimitedSlipSpec {
-    /// True if preload or mesh torque presses the plates.
+    /// True if preload, mesh torque or thrust presses the plates.
     fn is_pressed(&self) -> bool {
-        self.preload > 0.0 || self.torque_coefficient > 0.0
+        self.preload.max(self.torque_coefficient).max(self.thrust_arm) > 0.0
     }
 
     /// Measured curve if it has a breakaway torque, which dry friction holds.
@@ -133,19 +149,29 @@ impl LimitedSlipSpec {
         (viscous.is_some() || curve.is_some()).then_some(SlipTorque { viscous, curve })
     }
 
+    /// Share of the mesh torque that the thrust of the side gear moves, a tan α/R.
+    fn by_thrust(&self, setting: &Setting) -> f64 {
+        let (pair, angle) = (setting.pair, setting.geometry.pressure_angle);
+        let at_mean = setting.scene.gear_contact == GearContact::Tooth && setting.contact.law == ContactLaw::Impact;
+        let cone = if at_mean { pair.mean_cone } else { centroid(pair) };
+        self.thrust_arm * sin(angle) / cos(angle) / cone
+    }
+
     /// Warning about clutches that lock themselves.
-    fn self_locking(&self) -> Option<Problem> {
-        let coast = self.torque_coefficient * self.coast_ratio;
-        let [largest, which] = if coast > self.torque_coefficient {
-            [coast.to_string(), " with coast_ratio".into()]
-        } else {
-            [self.torque_coefficient.to_string(), String::new()]
-        };
-        (self.torque_coefficient.max(coast) >= 1.0).then(|| {
+    fn self_locking(&self, setting: &Setting) -> Option<Problem> {
+        let (drive, thrust) = (self.torque_coefficient, self.by_thrust(setting));
+        let coast = drive * self.coast_ratio;
+        let value = drive.max(coast) + thrust;
+        let with = [(coast > drive, "coast_ratio"), (thrust > 0.0, "thrust_arm")];
+        let with: Vec<&str> = with.iter().filter_map(|&(is, name)| is.then_some(name)).collect();
+        let which = if with.is_empty() { String::new() } else { format!(" with {}", with.join(" and ")) };
+        let name = if drive > 0.0 { "limited_slip.torque_coefficient" } else { "limited_slip.thrust_arm" };
+        (value >= 1.0).then(|| {
             problem!(
-                "limited_slip.torque_coefficient",
-                "{largest}{which} is 1 or more, so the clutches lock themselves: as soon as torque flows, no difference of \
-                 the wheels' torques makes them slip"
+                name,
+                "{}{which} is 1 or more, so the clutches lock themselves: as soon as torque flows, no difference of \
+                 the wheels' torques makes them slip",
+                six_digits(value)
             )
         })
     }
@@ -155,30 +181,38 @@ impl Effect for LimitedSlipSpec {
     fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
         check_slip!("limited_slip", self.sliding, found);
         found.extend(curve::problem(&self.curve));
-        if self.torque_coefficient == 0.0 {
-            return;
-        }
+        let pressing = [
+            (
+                "limited_slip.torque_coefficient",
+                self.torque_coefficient,
+                "",
+                "a torque-proportional clutch",
+                "coefficient",
+            ),
+            ("limited_slip.thrust_arm", self.thrust_arm, " m", "a clutch that the side gears press", "arm"),
+        ];
         let contact = match setting.scene.gear_contact {
             GearContact::Ideal => "ideal",
             GearContact::Solid => "solid",
             GearContact::Lumped | GearContact::Tooth => return,
         };
-        found.push(problem!(
-            "limited_slip.torque_coefficient",
-            "{}: a torque-proportional clutch needs the forces of the meshes, which scene.gear_contact = {contact} \
-             does not provide to it; set the coefficient to 0 (preload only), or choose lumped or tooth",
-            self.torque_coefficient
-        ));
+        for (name, value, unit, clutch, what) in pressing.into_iter().filter(|(_, value, ..)| *value > 0.0) {
+            found.push(problem!(
+                name,
+                "{value}{unit}: {clutch} needs the forces of the meshes, which scene.gear_contact = {contact} does not \
+                 provide to it; set the {what} to 0 (preload only), or choose lumped or tooth"
+            ));
+        }
     }
 
-    fn warnings(&self, _: &Setting) -> Vec<Problem> {
+    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
         let acts = self.is_pressed() || self.slip_torque().is_some() || self.curve_that_holds().is_some();
         if !acts {
-            let said = "the clutches have no torque: set limited_slip.preload, torque_coefficient, viscous_torque or the \
-                        points of curve, or switch the effect off";
+            let said = "the clutches have no torque: set limited_slip.preload, torque_coefficient, thrust_arm, \
+                        viscous_torque or the points of curve, or switch the effect off";
             return vec![Problem::new("effects.limited_slip", said)];
         }
-        self.self_locking().into_iter().collect()
+        self.self_locking(setting).into_iter().collect()
     }
 
     fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
@@ -193,9 +227,10 @@ impl Effect for LimitedSlipSpec {
             return;
         }
         let none = RubbingSurface::new(RubbingKind::Side, setting.heat_index);
-        let limit = ByLoad { constant: self.preload, per_load: self.torque_coefficient, ..ByLoad::NONE };
+        let limit = ByLoad { constant: self.preload, per_thrust: self.thrust_arm, per_load: self.torque_coefficient };
         surfaces.push(RubbingSurface {
             limit,
+            thrust_part: if self.thrust_arm > 0.0 { ThrustPart::Plates } else { ThrustPart::None },
             ramps: Ramps { coast_ratio: self.coast_ratio, both_sides: self.pressed_by == PressedBy::BothSides },
             stiffness: self.stiffness,
             radius: self.mean_radius,
