@@ -25,9 +25,9 @@ FRICTION = {"left": 0.15, "right": 0.9}
 LOAD = {"front": 3300.0, "rear": 3834.0}
 # `inertia.carrier` of the centre contains the inertia of the motor
 MOTOR, BODY = Motor(ratio=2.2), Body(mass=1455.0)
-# torque of the motor over time: s, N.m
-PEDAL = ([0.0, 0.3], [0.0, 100.0])
-STOP, STEP = 1.0, 2.5e-4
+# torque of the motor over time (s, N.m): the driver releases the pedal
+PEDAL = ([0.0, 0.2, 0.8, 0.9], [0.0, 100.0, 100.0, 0.0])
+STOP, STEP = 1.5, 2.5e-4
 
 CENTRE_PORT = (["carrier.torque_command", *(f"{side}.speed_command" for side in SIDES)],
                ["carrier.speed", *(f"{side}.shaft_torque" for side in SIDES)])
