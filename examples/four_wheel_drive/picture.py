@@ -8,13 +8,13 @@ from car import NAMES, STEP
 
 # rpm for 1 rad/s
 RPM = 30.0 / pi
-# every dot of the coupled units, in points of the record
+# distance of the dots, in points of the record
 DOT = 25
 PANELS = {
-    "wheel speed, rpm": {"front left, on ice": ("front_left.speed", RPM), "rear left, on ice": ("rear_left.speed", RPM),
-                         "front right, on dry road": ("front_right.speed", RPM), "rear right, on dry road": ("rear_right.speed", RPM)},
-    "torque, N·m": {"front propeller shaft": ("front.propeller_torque", 1.0), "rear propeller shaft": ("rear.propeller_torque", 1.0),
-                    "each front half-shaft": ("front_left.shaft_torque", 1.0), "each rear half-shaft": ("rear_left.shaft_torque", 1.0)},
+    "wheel speed, rpm": {"front left wheel, on ice": ("front_left.speed", RPM), "rear left wheel, on ice": ("rear_left.speed", RPM),
+                         "each right wheel, on dry road": ("rear_right.speed", RPM)},
+    "torque, N·m": {"each propeller shaft": ("rear.propeller_torque", 1.0), "each front half-shaft": ("front_left.shaft_torque", 1.0),
+                    "each rear half-shaft": ("rear_left.shaft_torque", 1.0)},
     "speed of the car, m/s": {"car": ("body.speed", 1.0)},
 }
 
@@ -33,8 +33,8 @@ def draw(times, units, right, file):
             axis.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     axes[0].set_title("Launch with four-wheel drive: left wheels on ice, right wheels on dry road")
     axes[-1].set(xlabel="time, s", xlim=(0.0, times[-1]))
-    style.caption(figure, "All three differentials are open, so every shaft transmits only what the left wheels can: both propeller shafts "
-                  "transmit the same torque, and so do all half-shafts. The left wheels spin, and the right ones roll with the car. After 0.8 s, the driver "
-                  "releases the pedal. Lines: one integration of all equations. Dots: three coupled units in steps of "
-                  f"{1e3 * STEP:g} ms; they agree with the lines. Ideal gears.")
+    style.caption(figure, "All three differentials are open, so the ice under the left wheels limits the torque of every shaft, and front and rear "
+                  "half-shafts transmit the same torque. The left wheels spin, and the right ones roll with the car. After 0.8 s, the driver "
+                  "releases the pedal. Around 1.1 s and 1.3 s, a left wheel grips again, and the shafts swing. Lines: one integration of all "
+                  f"equations. Dots: three coupled units in steps of {1e3 * STEP:g} ms. Ideal gears.")
     style.save(figure, file)
