@@ -31,6 +31,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Prints the longest stable step and writes files. If no step is stable, this is a finding. Raises `DifferentialError`."""
     from ..scene import Scene
+    from ..scene_file import find, find_beside
     from ..text import aligned
     from . import Host, coupling, other_unit
     from .picture import draw
@@ -40,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     for text in arguments.host:
         port, _, rest = text.partition(":")
         if rest.endswith(".toml"):
-            with Scene.load(rest, arguments.fmu) as other:
+            with Scene.load(find_beside(find(arguments.scene), rest), arguments.fmu) as other:
                 hosts.append(other_unit(port, other, time))
         else:
             hosts.append(Host.parse(text))
