@@ -5,7 +5,6 @@ import math
 
 from ..command import DONE, FINDING
 from ..command.arguments import add_file, add_fmu, add_set, once
-from ..points import duration
 
 # masters of the command; rollback needs a master that saves states, which Python offers
 MASTERS, INPUTS = ("jacobi", "gauss-seidel"), ("held", "lines")
@@ -36,18 +35,17 @@ def run(arguments: argparse.Namespace) -> int:
     from . import Host, coupling, other_unit
     from .picture import draw
 
-    time = duration("--at", arguments.at)
     hosts = []
     for text in arguments.host:
         port, _, rest = text.partition(":")
         if rest.endswith(".toml"):
             with Scene.load(find_beside(find(arguments.scene), rest), arguments.fmu) as other:
-                hosts.append(other_unit(port, other, time))
+                hosts.append(other_unit(port, other, arguments.at))
         else:
             hosts.append(Host.parse(text))
     with Scene.load(arguments.scene, arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
-        result = coupling(scene, hosts, arguments.master, arguments.input, at=time)
+        result = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)
     for host in hosts:
         print(f"{host.port}: {host.words}")
     print(f"longest stable step: {step(result.limit)} ({arguments.master}, inputs {'on lines' if arguments.input == 'lines' else 'held'})")

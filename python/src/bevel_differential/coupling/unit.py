@@ -7,6 +7,7 @@ import numpy as np
 
 from ..drive_port import PORT
 from ..instance import Instance
+from ..points import TimeValue, duration
 from ..scene import Scene
 from ..values import DifferentialError
 from ..warned import warn
@@ -36,16 +37,17 @@ def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]
     return Linear(slopes[:n, :n], slopes[:n, n:], slopes[n:, :n], slopes[n:, n:]).reduced()
 
 
-def other_unit(port: str, scene: Scene, at: float = 0.0) -> Host:
-    """Host that is another unit, at the time `at` [s] of its scene. The half-shaft at `port`, which is driven by speed, is its propeller
+def other_unit(port: str, scene: Scene, at: TimeValue = 0.0) -> Host:
+    """Host that is another unit, at the time `at` (s, or text such as "10 ms") of its scene. The half-shaft at `port`, which is driven by speed, is its propeller
     shaft: it exerts its torque on the drive of the other unit, and returns the speed there. Loads in the scene are constant."""
     if scene.value("scene.carrier_drive") != scene.fmu.variable("scene.carrier_drive").number("torque"):
         raise DifferentialError(f"{port}: the drive of the other unit, {scene.name}, receives a torque; set scene.carrier_drive = torque in it")
     # a spring that reads the speed has the inputs and outputs of this exchange
-    unit, loaded = at_ports(scene, [Host.spring("carrier", 0.0, 0.0)], at)
+    time = duration("at", at)
+    unit, loaded = at_ports(scene, [Host.spring("carrier", 0.0, 0.0)], time)
     warn(scene.warnings)
     if not loaded:
-        warn([f"{scene.name}: {UNLOADED.format(time=at)}"])
+        warn([f"{scene.name}: {UNLOADED.format(time=time)}"])
     # the spring's torque resists, and that of the propeller shaft drives
     return Host(port, TORQUE, Linear(unit.a, -unit.b, unit.c, -unit.d), f"the unit of {scene.name}")
 
