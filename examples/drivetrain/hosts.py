@@ -7,19 +7,21 @@ from fmpy import read_model_description
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import ParameterSet, read_ssd
 
-from parameters import PARTS
+import content
 
 NANO = 1_000_000_000
 
 
 def fmpy(ssp, signals, size, times):
     """Outputs at `times` from FMPy's SSP simulator. It needs one set of parameters for the whole system."""
-    parameters = []
+    parameters, truth = [], {"true": 1.0, "false": 0.0}
     for component in read_ssd(ssp).system.elements:
         for binding in component.parameterBindings:
             for values in binding.parameterValues:
                 for parameter in values.parameters:
                     parameter.name = f"{component.name}.{parameter.name}"
+                    # FMPy compares Booleans with 0
+                    parameter.value = truth.get(parameter.value, parameter.value)
                     parameters.append(parameter)
     rows = simulate_ssp(str(ssp), stop_time=times[-1], step_size=size, parameter_set=ParameterSet(parameters=parameters))
     # a row has the time at which its step began
@@ -49,7 +51,8 @@ def libcosim(ssp, signals, size, times):
 
 def reference(ssp, part, output):
     """Value reference of a part's output."""
-    with zipfile.ZipFile(ssp) as archive, archive.open(f"resources/{PARTS[part]}.fmu") as fmu:
+    _, source, _ = content.read(ssp)["components"][part]
+    with zipfile.ZipFile(ssp) as archive, archive.open(source) as fmu:
         variables = read_model_description(fmu).modelVariables
     return next(variable.valueReference for variable in variables if variable.name == output)
 

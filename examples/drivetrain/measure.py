@@ -59,7 +59,7 @@ def hosts(folder, fmus, quick):
         rows = {}
         for name, (run, version) in HOSTS.items():
             progress(0.02, f"{contact}: {name}")
-            rows[name] = run(archive_file(folder, contact, version), signals, STEP, times)
+            rows[name] = run(archive_file(folder, f"drivetrain_{contact}", version), signals, STEP, times)
         rows["this example's Jacobi"] = own
         first = rows["FMPy"]
         found[contact] = {name: max(difference(signals, values, first).values()) for name, values in rows.items()}

@@ -1,5 +1,7 @@
 """Numbers of the drivetrain that are set from outside, shared by the system and its reference. SI units."""
 
+from structure import Structure
+
 # end of the launch [s]
 END = 0.6
 # communication step in the SSP [s]
@@ -62,3 +64,8 @@ def settings(contact):
     for side, friction in FRICTION.items():
         values[f"{side}_wheel", "friction"] = friction
     return values
+
+
+def structure(contact):
+    """The drivetrain with this gear contact, as the archive contains it."""
+    return Structure("drivetrain", "Launch of a car with a differential on split friction", PARTS, CONNECTIONS, settings(contact), END)

@@ -24,6 +24,7 @@ import validation  # noqa: E402
 from fmus import make_parts  # noqa: E402
 from library import Library  # noqa: E402
 from measure import progress  # noqa: E402
+from parameters import structure  # noqa: E402
 from system import VERSIONS, archive_file, write_ssp  # noqa: E402
 
 
@@ -46,9 +47,10 @@ def everything(fmu, library_path, folder, quick):
     fmus = make_parts(fmu, folder / "parts")
     wrong = []
     for contact in ("ideal", "tooth"):
+        name = f"drivetrain_{contact}"
         for version in VERSIONS:
-            write_ssp(archive_file(folder, contact, version), fmus, contact, version)
-        wrong += validation.wrong(folder, contact)
+            write_ssp(archive_file(folder, name, version), fmus, structure(contact), version)
+        wrong += validation.wrong(folder, name)
     hosts = measure.hosts(folder, fmus, quick)
     progress(0.1, "the whole as one set of equations")
     references = {contact: measure.references(library_path, fmus, contact) for contact in contacts}

@@ -14,9 +14,9 @@ from system import VERSIONS, archive_file
 FAULTS = {".ssd": (b'kind="input"', b'kind="inward"'), ".ssv": (b" value=", b" amount=")}
 
 
-def wrong(folder, contact):
-    """Messages if an archive does not conform to its version of the standard, or if the archives of both versions differ."""
-    files = [archive_file(folder, contact, version) for version in VERSIONS]
+def wrong(folder, name):
+    """Messages if an archive `name` does not conform to its version of the standard, or if the archives of both versions differ."""
+    files = [archive_file(folder, name, version) for version in VERSIONS]
     contents = [content.read(file) for file in files]
     problems = [f"{file.name}: {problem}" for file in files for problem in [*faults(file), *overlooked(file)]]
     problems += [f"{file.name}: states the versions {sorted(found['versions'])}, expected {version} everywhere"
@@ -26,7 +26,7 @@ def wrong(folder, contact):
 
 def faults(file):
     """Messages about files that violate the schema of the version that they state. If there are none, messages about connections that
-    the standard forbids, and about inputs without a source, because every input of this drivetrain has one."""
+    the standard forbids, and about inputs without a source, because every input of these systems has one."""
     with SSP(file, mode="r") as archive:
         description = archive.system_structure
         problems = [f"{each.file_path.name}: {fault}" for each in (description, *archive.ssv) for fault in violations(each)]

@@ -61,7 +61,8 @@ def reader(fmu_file, tmp_path, monkeypatch):
     docs/your-car.md and the files on the page."""
 
     def prepared(page):
-        shutil.copytree(ROOT / "examples" / "design", tmp_path / "examples" / "design")
+        for name in ("design", "four_wheel_drive"):
+            shutil.copytree(ROOT / "examples" / name, tmp_path / "examples" / name)
         (tmp_path / "target").mkdir()
         (tmp_path / "target" / "fmu").symlink_to(Path(fmu_file).resolve().parent)
         for name, text in (saved("docs/your-car.md") | saved(page)).items():

@@ -26,10 +26,10 @@ def archives(fmu_file, tmp_path_factory):
     for file in fmus.values():
         file.touch()
     fmus["BevelDifferential"] = Path(fmu_file)
-    files = {(contact, version): system.archive_file(folder, contact, version) for contact in parameters.CONTACT
+    files = {(contact, version): system.archive_file(folder, f"drivetrain_{contact}", version) for contact in parameters.CONTACT
              for version in system.VERSIONS}
     for (contact, version), file in files.items():
-        system.write_ssp(file, fmus, contact, version)
+        system.write_ssp(file, fmus, parameters.structure(contact), version)
     return files
 
 

@@ -246,7 +246,7 @@ def test_the_examples_run_and_each_case_beats_the_one_before(fmu_file, tmp_path,
 
 def test_the_command_copies_all_examples_and_never_overwrites_files(tmp_path, capsys):
     assert main(["examples", "--out", str(tmp_path)]) == 0
-    assert {file.parent.name for file in tmp_path.rglob("*.*")} == {"design", "vehicle"}
+    assert {file.parent.name for file in tmp_path.rglob("*.*")} == {"design", "four_wheel_drive", "vehicle"}
     assert (tmp_path / "vehicle" / "launch.py").is_file() and (tmp_path / "design" / "study_gears.toml").is_file()
     assert main(["examples", "--out", str(tmp_path)]) != 0
     assert "are there already" in capsys.readouterr().err

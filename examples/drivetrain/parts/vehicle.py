@@ -17,7 +17,7 @@ class Vehicle(Part):
     outputs = (("speed", "Speed, m/s"),)
 
     def rates(self, t, x, u):
-        return [(u[0] + u[1] - resistance(self, x[0])) / self.mass]
+        return [(sum(u) - resistance(self, x[0])) / self.mass]
 
     def output_values(self, x, u):
         return {"speed": x[0]}

@@ -71,6 +71,14 @@ def drivetrain(work):
              pictures=True)
 
 
+@command()
+def four_wheel_drive(work):
+    """Runs the car with four-wheel drive as an SSP archive and compares it with its script (a minute).
+
+    Fails if they differ by 1 %."""
+    work.run("examples/four_wheel_drive/ssp/compare.py", packaged, work.folder("four_wheel_drive"), environment=DRIVETRAIN, doing="coupling")
+
+
 @command(write("docs/geometry.md and its figures"))
 def patterns(work):
     """Shows the contact patterns of docs/geometry.md: aligned teeth, and one deviation at a time."""

@@ -8,7 +8,7 @@ from ..values import DifferentialError
 from ..writing import in_folder, write_whole
 
 # folders of examples, and the files of each
-FOLDERS = {"design": ("*.toml", "*.csv"), "vehicle": ("*.py",)}
+FOLDERS = {"design": ("*.toml", "*.csv"), "four_wheel_drive": ("*.py", "*.toml"), "vehicle": ("*.py",)}
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:

@@ -1,7 +1,8 @@
 """Longest stable communication step of this differential, coupled to hosts at its ports.
 
 `coupling(scene, [Host.spring("left", 9000.0, 12.0, 1.0)]).limit`. The differential is linearised at the operating point by its own
-Jacobian. One communication step of differential, hosts and master is then a matrix, and its eigenvalues decide.
+Jacobian. One communication step of differential, hosts and master is then a matrix, and its eigenvalues decide. With `other_unit`, a host is
+another differential, such as a driven axle behind the centre differential.
 """
 
 import math
@@ -16,10 +17,10 @@ from .host import TORQUE, Host
 from .limit import Mode, departure, growth, limit, longest, mode
 from .linear import Linear
 from .masters import GAUSS_SEIDEL, HELD, HOST, INPUTS, JACOBI, LINES, MASTERS, ROLLBACK, UNIT, Exchange
-from .unit import at_ports, linearised
+from .unit import UNLOADED, at_ports, linearised, other_unit
 
 __all__ = ["GAUSS_SEIDEL", "HELD", "HOST", "JACOBI", "LINES", "ROLLBACK", "UNIT", "Apparent", "Coupling", "Exchange", "Host", "Linear", "Mode",
-           "coupling", "growth", "linearised", "longest", "stability"]
+           "coupling", "growth", "linearised", "longest", "other_unit", "stability"]
 
 # step at which the port's answer is given if no step is too long [s]
 USUAL = 1e-3
@@ -108,8 +109,7 @@ def coupling(scene: Scene | FileName, hosts: Sequence[Host], master: str = JACOB
     unit, loaded = at_ports(scene, hosts, time)
     warn(scene.warnings)
     if not loaded:
-        warn([f"the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name "
-              "another time"])
+        warn([UNLOADED.format(time=time)])
     return stability(unit, hosts, master, inputs, first, bool(scene.value("solver.input_ramp")))
 
 

@@ -17,7 +17,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--host", metavar="HOST", action="append", required=True,
                         help="PORT:k=9000,c=12,J=1,reads=speed: spring, damper and the inertia behind them at the port carrier, left or "
                              "right, in SI; without J a wall; reads is speed, angle or both. At a port driven by speed: PORT:J=1,c=30, "
-                             "an inertia and a damper to the ground. May be repeated")
+                             "an inertia and a damper to the ground; or PORT:FILE.toml, the scene of an axle that this half-shaft drives. May be "
+                             "repeated")
     parser.add_argument("--master", choices=MASTERS, default=MASTERS[0],
                         help="jacobi: both sides step at the same time; gauss-seidel: the unit steps first (default: jacobi)")
     parser.add_argument("--input", choices=INPUTS, default=INPUTS[0], help="inputs held over a step, or on lines (default: held)")
@@ -29,11 +30,19 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Prints the longest stable step and writes files. If no step is stable, this is a finding. Raises `DifferentialError`."""
     from ..scene import Scene
+    from ..scene_file import find, find_beside
     from ..text import aligned
-    from . import Host, coupling
+    from . import Host, coupling, other_unit
     from .picture import draw
 
-    hosts = [Host.parse(text) for text in arguments.host]
+    hosts = []
+    for text in arguments.host:
+        port, _, rest = text.partition(":")
+        if rest.endswith(".toml"):
+            with Scene.load(find_beside(find(arguments.scene), rest), arguments.fmu) as other:
+                hosts.append(other_unit(port, other, arguments.at))
+        else:
+            hosts.append(Host.parse(text))
     with Scene.load(arguments.scene, arguments.fmu) as scene:
         scene.set(once("--set", arguments.set))
         result = coupling(scene, hosts, arguments.master, arguments.input, at=arguments.at)

@@ -1,4 +1,5 @@
-"""The unit, linearised at an operating point: its own directional derivatives, all degrees of freedom and all ports together."""
+"""The unit, linearised at an operating point: its own directional derivatives, all degrees of freedom and all ports together. Another
+unit, such as a driven axle, can be its host."""
 
 from collections.abc import Sequence
 
@@ -6,11 +7,16 @@ import numpy as np
 
 from ..drive_port import PORT
 from ..instance import Instance
+from ..points import TimeValue, duration
 from ..scene import Scene
 from ..values import DifferentialError
+from ..warned import warn
 from .host import TORQUE, Host
 from .linear import Linear
 
+# warning about an operating point
+UNLOADED = ("the teeth are not loaded at {time:g} s, so the ports turn freely in the backlash; set scene.start = equilibrium, or name "
+            "another time")
 # input of each port by drive, with the sign of the host's resisting torque or of its speed
 INPUTS = {("carrier", "torque"): ("carrier.torque_command", -1.0), ("carrier", "speed"): ("carrier.speed_command", 1.0),
           **{(side, drive): (f"{side}.{name}", 1.0) for side in ("left", "right")
@@ -29,6 +35,21 @@ def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]
     slopes = np.array([instance.raw.getDirectionalDerivative(unknown, [each], [1.0]) for each in known]).T
     n = len(rates)
     return Linear(slopes[:n, :n], slopes[:n, n:], slopes[n:, :n], slopes[n:, n:]).reduced()
+
+
+def other_unit(port: str, scene: Scene, at: TimeValue = 0.0) -> Host:
+    """Host that is another unit, at the time `at` (s, or text such as "10 ms") of its scene. The half-shaft at `port`, which is driven by speed, is its propeller
+    shaft: it exerts its torque on the drive of the other unit, and returns the speed there. Loads in the scene are constant."""
+    if scene.value("scene.carrier_drive") != scene.fmu.variable("scene.carrier_drive").number("torque"):
+        raise DifferentialError(f"{port}: the drive of the other unit, {scene.name}, receives a torque; set scene.carrier_drive = torque in it")
+    # a spring that reads the speed has the inputs and outputs of this exchange
+    time = duration("at", at)
+    unit, loaded = at_ports(scene, [Host.spring("carrier", 0.0, 0.0)], time)
+    warn(scene.warnings)
+    if not loaded:
+        warn([f"{scene.name}: {UNLOADED.format(time=time)}"])
+    # the spring's torque resists, and that of the propeller shaft drives
+    return Host(port, TORQUE, Linear(unit.a, -unit.b, unit.c, -unit.d), f"the unit of {scene.name}")
 
 
 def at_ports(scene: Scene, hosts: Sequence[Host], at: float) -> tuple[Linear, bool]:
