@@ -5,7 +5,7 @@ use std::ffi::CStr;
 use std::sync::OnceLock;
 
 use crate::instance::EVENT_INDICATORS;
-use crate::model::{Happening, MAX_PLANETS, Parameters};
+use crate::model::{HELD, Happening, MAX_PLANETS, Parameters};
 use crate::static_memory::{store_all, store_text};
 use crate::variables::{Access, index_of, table};
 
@@ -71,11 +71,11 @@ pub fn planet_count() -> u32 {
     *INDEX.get_or_init(|| known_index("geometry.planet_count") as u32)
 }
 
-/// If row `index` is one of the three `held.*` outputs, its index among them (sides, planets, wheels). These outputs
+/// If row `index` is one of the `held.*` outputs, its index among them (sides, planets, wheels, clutches). These outputs
 /// change only at events.
 pub fn held(index: usize) -> Option<usize> {
-    static HELD: OnceLock<[usize; 3]> = OnceLock::new();
-    let held = HELD.get_or_init(|| ["held.sides", "held.planets", "held.wheels"].map(known_index));
+    static INDICES: OnceLock<[usize; HELD]> = OnceLock::new();
+    let held = INDICES.get_or_init(|| ["held.sides", "held.planets", "held.wheels", "held.clutches"].map(known_index));
     held.iter().position(|&one| one == index)
 }
 

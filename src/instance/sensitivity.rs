@@ -120,7 +120,7 @@ impl Columns<'_> {
             changes |= change != 0.0;
         }
         if changes {
-            let braked = simulation.with_brakes_applied(&inputs);
+            let braked = simulation.with_friction_applied(&inputs);
             let simulation = braked.as_ref().unwrap_or(simulation);
             let direction = simulation.direction(&states, &inputs);
             let mut along = Slopes::new(simulation, &direction);

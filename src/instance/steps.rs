@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::{CallError, CallResult, Instance, Kind, Phase};
-use crate::model::{AdvanceOptions, Event, StepFailure, Update, six_digits};
+use crate::model::{AdvanceOptions, Event, HELD, StepFailure, Update, six_digits};
 use crate::numeric::finite;
 
 /// Features that the host of a co-simulation allows.
@@ -23,8 +23,8 @@ pub struct Allowed {
 pub struct Discrete {
     /// The last event that was reported to the host.
     pub event: Event,
-    /// Numbers of bodies that dry friction holds: side gears, groups of planets, wheels.
-    pub held: [f64; 3],
+    /// Numbers of bodies that dry friction holds: side gears, groups of planets, wheels, clutches.
+    pub held: [f64; HELD],
 }
 
 finite!(Discrete { event, held });

@@ -37,7 +37,7 @@ pub use effects::{EFFECTS, EffectParameters, Effects, FinalDriveSpec, Hand, Memo
 pub use exchange::{BODIES, Body, Direction, INDICATORS, STATES, StencilReadings, Update};
 pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};
-pub use outputs::ledger_readings::LedgerReadings;
+pub use outputs::ledger_readings::{HELD, LedgerReadings};
 pub use outputs::motion::Motion;
 pub use outputs::pairs::{PAIRS, PairLine, PairLines};
 pub use readings::{CostClass, Reported};

@@ -167,6 +167,8 @@ fn own() -> Vec<Row<OutputSource>> {
         "held.planets": ONE, Ledger(|l, _| l.held[1]);
         /// Number of wheels that their brakes hold
         "held.wheels": ONE, Ledger(|l, _| l.held[2]);
+        /// Number of clutches on command that hold
+        "held.clutches": ONE, Ledger(|l, _| l.held[3]);
         /// Number of accepted steps
         "solver.steps": ONE, Ledger(|l, _| l.steps);
         /// Number of rejected steps

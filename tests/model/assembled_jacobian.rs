@@ -79,6 +79,16 @@ fn slip_torques(p: &mut Parameters, breakaway: f64) {
     }
 }
 
+/// Clutches on command, whose shafts turn faster and slower than the carrier, by `more`.
+fn clutches((mut p, mut inputs): (Parameters, Inputs), more: f64) -> (Parameters, Inputs) {
+    p.effects.clutches = true;
+    (p.specs.clutches.ratio, p.specs.clutches.torque) = ([1.0 + more, 1.0 - more], 200.0);
+    let sliding = &mut p.specs.clutches.sliding;
+    (sliding.static_ratio, sliding.stribeck_speed, sliding.slip_slope) = (1.2, 0.3, -0.01);
+    inputs.clutch_command = [0.3, 0.6];
+    (p, inputs)
+}
+
 /// Final drive with all its losses, and with an error of its mesh if this is elastic.
 fn final_drive(p: &mut Parameters, elastic: bool) {
     let drive = &mut p.specs.final_drive;
@@ -150,6 +160,11 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
             "final drive, propeller shaft, ideal",
             turn(|p| (final_drive(p, false), propeller(p), p.scene.gear_contact = GearContact::Ideal).0),
         ),
+        ("clutches", clutches(turn(|_| {}), 0.125)),
+        ("clutch and brake", clutches(turn(|p| p.effects.half_shaft = true), 1.0)),
+        ("clutches, ideal", clutches(turn(|p| p.scene.gear_contact = GearContact::Ideal), 0.3)),
+        ("clutches that hold", clutches(turn(|p| (by_speed(p), p.specs.clutches.torque = 1e4).0), 0.0)),
+        ("gears press the packs", turn(|p| (by_speed(p), p.specs.limited_slip.thrust_arm = 5e-3).0)),
         ("ramps", turn(|p| (ramps(p, 1), p.scene.gear_contact = GearContact::Lumped).0)),
         ("ramps of both sides", turn(|p| ramps(p, 2))),
         ("ramps in coast", backward(turn(|p| ramps(p, 2)))),

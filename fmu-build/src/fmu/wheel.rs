@@ -23,7 +23,8 @@ const TIME: &str = "315532800";
 /// Extensions of scenes and of their input files.
 const SCENE_FILES: &[&str] = &["toml", "csv"];
 /// Folders of examples in the package, with the extensions of their files.
-const EXAMPLES: [(&str, &[&str]); 3] = [("design", &["toml", "csv"]), ("four_wheel_drive", &["py", "toml"]), ("vehicle", &["py"])];
+const EXAMPLES: [(&str, &[&str]); 3] =
+    [("design", &["toml", "csv"]), ("four_wheel_drive", &["py", "toml"]), ("vehicle", &["py"])];
 /// Licences of the project. Those of linked parts are in the FMU.
 const LICENCES: [&str; 2] = ["LICENSE-APACHE", "LICENSE-MIT"];
 

@@ -26,8 +26,8 @@ pub struct BodyEffects {
     pub loss: Option<Loss>,
     /// True if anything other than a commanded lock acts in addition to plain gears.
     pub has_effects: bool,
-    /// True if wheels have brakes.
-    pub has_brakes: bool,
+    /// True if inputs command limit torques of friction.
+    pub has_commanded: bool,
     /// True if there is dry friction other than that of a lock.
     pub has_friction: bool,
     /// Oil, if an effect needs its viscosity.
@@ -41,7 +41,7 @@ impl BodyEffects {
         effects.set_surfaces(&mut surfaces);
         let has_friction = surfaces.iter().any(|surface| !surface.is_lock());
         Self {
-            has_brakes: surfaces.iter().any(|surface| surface.kind == RubbingKind::Wheel),
+            has_commanded: surfaces.iter().any(|surface| surface.kind.is_commanded()),
             has_effects: !forces.is_empty() || has_friction,
             loss: forces.iter().find_map(|effect| effect.loss()),
             forces: Arc::new(forces),
@@ -62,6 +62,11 @@ impl BodyEffects {
     pub fn tune(&mut self, effects: &SceneEffects) {
         effects.set_surfaces(&mut self.surfaces);
         self.has_friction = self.surfaces.iter().any(|surface| !surface.is_lock());
+    }
+
+    /// True if pairs of this `kind` have friction.
+    pub fn rubs(&self, kind: RubbingKind) -> bool {
+        self.surfaces.iter().any(|surface| surface.kind == kind)
     }
 
     /// Speed of the pinion over the speed of the drive at the start.

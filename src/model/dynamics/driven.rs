@@ -48,8 +48,8 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     pub(super) fn driven_terms(&self, derivatives: &InputDerivatives) -> Driven<N> {
         let [first, second] = &derivatives.rates;
         let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
-        let brakes_change = || [first, second].iter().any(|rates| rates.brake_torque != [0.0; 2]);
-        if S::MAY_ACT && (brakes_change() || self.sliding_pinion().is_some()) {
+        let friction_changes = || [first, second].iter().any(|rates| rates.friction_commands() != [[0.0; 2]; 2]);
+        if S::MAY_ACT && (friction_changes() || self.sliding_pinion().is_some()) {
             return Driven::SCALES;
         }
         let mut by_order = [[0.0; N]; 3];

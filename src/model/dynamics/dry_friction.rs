@@ -74,12 +74,16 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         }
     }
 
-    /// Adds the torques of sliding brakes, which depend only on inputs and speeds.
-    pub(super) fn add_brakes(&self, at: &Point<N>, sum: &mut [f64; N]) {
+    /// Adds the torques of sliding brakes and clutches, which depend only on inputs and speeds.
+    pub(super) fn add_commanded(&self, at: &Point<N>, sum: &mut [f64; N]) {
         let surface_loads = self.applied.friction().commanded_loads(&self.applied.inputs);
-        for number in RubbingKind::Wheel.numbers() {
+        for number in (0..PAIRS).filter(|&number| RubbingKind::of(number).0.is_commanded()) {
             if let (Some(pair), Some((friction, direction, speed))) = (self.pair(number), self.sliding(at, number)) {
-                sum[pair.body] -= direction * friction.sliding_limit(speed, &surface_loads[number])[0];
+                let torque = direction * friction.sliding_limit(speed, &surface_loads[number])[0];
+                sum[pair.body] -= torque;
+                if let Some(base) = pair.base {
+                    sum[base] += pair.ratio * torque;
+                }
             }
         }
     }

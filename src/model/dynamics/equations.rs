@@ -453,7 +453,7 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
 
     fn acceleration_by_inputs(&self, at: &Point<N>) -> [f64; N] {
         let (mut sum, mut ledger_rates) = ([0.0; N], LedgerRates::default());
-        self.add_brakes(at, &mut sum);
+        self.add_commanded(at, &mut sum);
         self.act_on_bodies(at, &mut sum, &mut ledger_rates);
         self.finish(at, &mut sum, &mut ledger_rates);
         sum

@@ -100,10 +100,10 @@ impl InputsAndFriction {
     }
 }
 
-/// Speed of the body of a pair relative to its base [rad/s].
+/// Speed of the body of a pair relative to the surface on which it rubs [rad/s].
 #[inline]
 pub fn slip_speed<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> f64 {
-    at.v[pair.body] - pair.base.map_or(0.0, |base| at.v[base])
+    at.v[pair.body] - pair.base.map_or(0.0, |base| pair.ratio * at.v[base])
 }
 
 /// Angle of the body of a pair relative to its base [rad].
@@ -325,7 +325,7 @@ pub trait FrictionEquations<const N: usize> {
             ledger_rates.limit[i] = torque * state.mode.direction();
             sum[pair.body] -= torque;
             if let Some(base) = pair.base {
-                sum[base] += torque;
+                sum[base] += pair.ratio * torque;
             }
         }
     }
@@ -343,7 +343,8 @@ pub trait FrictionEquations<const N: usize> {
             if k == 0.0 && c == 0.0 {
                 continue;
             }
-            for (row, sign) in [Some((pair.body, -1.0)), pair.base.map(|base| (base, 1.0))].into_iter().flatten() {
+            for (row, sign) in [Some((pair.body, -1.0)), pair.base.map(|base| (base, pair.ratio))].into_iter().flatten()
+            {
                 for &(i, factor) in pair.position() {
                     j.by_position[row][i] += sign * factor * k;
                 }
@@ -377,11 +378,11 @@ pub trait FrictionEquations<const N: usize> {
         }
     }
 
-    /// Torques of the friction on the wheels [N·m].
-    fn brake_torques(&self, at: &Point<N>) -> [f64; 2] {
+    /// Torques of commanded friction against the motion of the pairs of this `kind`, left and right [N·m].
+    fn commanded_torques(&self, kind: RubbingKind, at: &Point<N>) -> [f64; 2] {
         let loads = self.applied().friction().commanded_loads(&self.applied().inputs);
         [0, 1].map(|s| {
-            let Some(pair) = self.pair(RubbingKind::Wheel.number(s)) else { return 0.0 };
+            let Some(pair) = self.pair(kind.number(s)) else { return 0.0 };
             let (friction, state) = self.friction_on(pair);
             if friction.is_on() { friction.torque(state, &slip(at, pair), &loads[pair.number]) } else { 0.0 }
         })
@@ -481,12 +482,11 @@ pub trait FrictionEquations<const N: usize> {
         }
     }
 
-    /// Switches friction that is due at `at`, `time` [s] after the inputs were set: of all pairs, or only of `kind`.
-    /// Energy that its springs lose becomes heat.
-    fn settle_friction(&mut self, at: &Point<N>, time: f64, kind: Option<RubbingKind>, heat: &mut [f64]) {
+    /// Switches friction that is due at `at`, `time` [s] after the inputs were set: of all pairs, or only of those that
+    /// inputs command. Energy that its springs lose becomes heat.
+    fn settle_friction(&mut self, at: &Point<N>, time: f64, only_commanded: bool, heat: &mut [f64]) {
         let surface_loads = self.surface_loads(at, time);
-        let numbers = kind.map_or(0..PAIRS, RubbingKind::numbers);
-        for i in numbers {
+        for i in (0..PAIRS).filter(|&i| !only_commanded || RubbingKind::of(i).0.is_commanded()) {
             let Some(&pair) = self.pair(i) else { continue };
             let (friction, &(mut state)) = self.friction_on(&pair);
             if friction.is_on() {

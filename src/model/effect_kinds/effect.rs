@@ -174,6 +174,8 @@ pub struct Instant<'a> {
     pub pinion_torque: f64,
     /// Torque of the drive at the port [N·m].
     pub port_torque: f64,
+    /// Torques of the clutches on the side gears, left and right [N·m].
+    pub clutch_torque: [f64; 2],
 }
 
 /// Declaration of an effect. It is implemented by the struct of the effect's parameters.

@@ -23,6 +23,16 @@ const FRICTION_OF: [usize; PAIRS] = {
 /// Number of different frictions.
 const FRICTIONS: usize = FRICTION_OF[PAIRS - 1] + 1;
 
+/// Number of kinds of pairs whose limit torques are commanded.
+const COMMANDED: usize = {
+    let (mut count, mut k) = (0, 0);
+    while k < RubbingKind::ALL.len() {
+        count += RubbingKind::ALL[k].is_commanded() as usize;
+        k += 1;
+    }
+    count
+};
+
 /// Friction on all pairs.
 #[derive(Clone, Copy, Debug)]
 pub struct Friction {
@@ -31,14 +41,18 @@ pub struct Friction {
     pub mask: u32,
     /// Parts that convert the mesh torques on the side gears to pressure.
     pub ramps: Ramps,
-    /// Pairs on a left and a right side whose limit torques are commanded, and the function that returns these.
-    commanded: Option<(RubbingKind, SideLimits)>,
+    /// Kinds of pairs on a left and a right side whose limit torques are commanded, with the function that returns these.
+    commanded: [Option<(RubbingKind, SideLimits)>; COMMANDED],
 }
 
 impl Friction {
     /// No friction.
-    pub const NONE: Self =
-        Self { frictions: [BodyFriction::NONE; FRICTIONS], mask: 0, ramps: Ramps::OWN_SIDE, commanded: None };
+    pub const NONE: Self = Self {
+        frictions: [BodyFriction::NONE; FRICTIONS],
+        mask: 0,
+        ramps: Ramps::OWN_SIDE,
+        commanded: [None; COMMANDED],
+    };
 
     /// Friction of `surfaces` with the lock at `lock` and all nodes at `temperatures` [K], under `inputs` and their
     /// derivatives. A brake whose torque and its derivatives are 0 adds no friction.
@@ -92,7 +106,9 @@ impl Friction {
                 friction.push((index, surface), [1.0, factor, damping_time]);
             }
         }
-        self.commanded = Some((surface.kind, limits));
+        if let Some(free) = self.commanded.iter_mut().find(|of| of.is_none()) {
+            *free = Some((surface.kind, limits));
+        }
     }
 
     /// Fails if there are too many surfaces on one kind of pair.
@@ -125,9 +141,10 @@ impl Friction {
     /// Adds the commanded limit torques under `inputs` to the loads on the surfaces.
     #[inline]
     pub fn add_commands(&self, inputs: &Inputs, loads: &mut [SurfaceLoad; PAIRS]) {
-        let Some((kind, limits)) = self.commanded else { return };
-        for (s, load) in limits(inputs).into_iter().enumerate() {
-            loads[kind.number(s)].load = load;
+        for (kind, limits) in self.commanded.iter().flatten() {
+            for (s, load) in limits(inputs).into_iter().enumerate() {
+                loads[kind.number(s)].load = load;
+            }
         }
     }
 

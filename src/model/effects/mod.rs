@@ -4,6 +4,7 @@
 
 mod bearing_drag;
 mod body_compliance;
+mod clutches;
 pub mod coupling_advice;
 mod final_drive;
 pub mod half_shaft;
@@ -277,6 +278,7 @@ effects! {
         tooth_friction: ToothFrictionSpec,
         thrust_friction: thrust_friction::ThrustFrictionSpec,
         limited_slip: limited_slip::LimitedSlipSpec,
+        clutches: clutches::ClutchesSpec,
         half_shaft: half_shaft::HalfShaftSpec,
         pin_compliance: pin_compliance::PinComplianceSpec,
         bearing_drag: bearing_drag::BearingDragSpec,

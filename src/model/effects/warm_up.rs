@@ -4,6 +4,7 @@
 //! Friction that depends on temperature (`effect_kinds::slip_spec`) uses the temperature of its node. Without this
 //! effect, all nodes have the temperature `oil.temperature`.
 
+use super::clutches::COMMANDED_HEAT;
 use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::prelude::*;
 use crate::declaration::{Range, Row, row};
@@ -162,7 +163,7 @@ impl WarmUpSpec {
             "heat.thrust" => WASHERS,
             "heat.support" => CASE,
             "heat.drag" => OIL,
-            name if name == CLUTCH_HEAT.output => CLUTCH,
+            name if [CLUTCH_HEAT.output, COMMANDED_HEAT.output].contains(&name) => CLUTCH,
             _ => return shares,
         };
         let direct = if matches!(node, GEARS | WASHERS | CLUTCH) { self.oil_share } else { 0.0 };

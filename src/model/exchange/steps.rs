@@ -8,7 +8,7 @@ use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::run::events::{
-    apply_changes, break_tooth, breaks_tooth, energy, have_brakes_changed, next_change, record_holds,
+    apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, next_change, record_holds,
 };
 use crate::model::run::progress::complete;
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
@@ -132,7 +132,7 @@ impl Simulation {
             state.wrap(&model.periods, &model.body_effects().pairs);
         }
         let jumps = imposed::is_impulse(model, &from.followed_commands, inputs);
-        let commanded = inputs.lock != state.lock || have_brakes_changed(model, inputs, state);
+        let commanded = inputs.lock != state.lock || has_commanded_changed(model, inputs, state);
         let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
         self.accept(from.followed_commands);
         Ok(due)
@@ -174,7 +174,7 @@ impl Simulation {
         let friction = state.friction;
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
-                equations.settle_friction(&state.point(), 0.0, None, &mut state.heat);
+                equations.settle_friction(&state.point(), 0.0, false, &mut state.heat);
                 state.friction = equations.applied().friction_state;
             }
         });

@@ -11,7 +11,7 @@ use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, La
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
 use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, GearStrength, MeshLoad};
-use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan};
+use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan, RubbingKind};
 use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
 use crate::model::setup::{HEATS, scene_effects};
 use crate::model::thermal::GEARS;
@@ -178,7 +178,12 @@ fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
 
 /// Sets the torque on the carrier, and the readings of the effects that follow from the motion. `held` is the torque with
 /// which dry friction holds the pinion back [N·m].
-fn read_effects(out: &mut Forces, model: &Model, (inputs, state): (&Inputs, &State), held: f64) {
+fn read_effects(
+    out: &mut Forces,
+    model: &Model,
+    (inputs, state): (&Inputs, &State),
+    (held, clutches): (f64, [f64; 2]),
+) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
@@ -194,6 +199,8 @@ fn read_effects(out: &mut Forces, model: &Model, (inputs, state): (&Inputs, &Sta
         carrier_torque: out.carrier_torque,
         pinion_torque: on_pinion / ratio,
         port_torque: out.drive_torque / ratio,
+        // the clutch drives its side gear forward against the friction of their slip
+        clutch_torque: clutches.map(|torque| -torque),
     };
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
     // without a computed flash temperature, flanks are as warm as their gears
@@ -231,7 +238,7 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         ..Forces::default()
     };
     (out.drive_torque, out.spin_torque) = (drive_torque, spin_torque);
-    let brakes = equations.brake_torques(point);
+    let brakes = equations.commanded_torques(RubbingKind::Wheel, point);
     for s in 0..2 {
         out.shaft_torque[s] = if plan.shafts[s] {
             equations.shaft_torque(point, s)
@@ -240,7 +247,8 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         };
         out.side_tangential[s] = on_sides[s] / (0.5 * pair.outer_pitch_diameter(1));
     }
-    read_effects(&mut out, model, (inputs, state), equations.pinion_friction(point));
+    let clutches = equations.commanded_torques(RubbingKind::Clutch, point);
+    read_effects(&mut out, model, (inputs, state), (equations.pinion_friction(point), clutches));
     read_pv(&mut out, equations, point);
     if extent == Extent::Bodies {
         add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
@@ -355,13 +363,14 @@ fn pitch_point_meshes(out: &mut Forces, pair: &Pair, planets: usize, torque: [f6
 }
 
 /// Forces of gears without teeth, from torques and the accelerations of carrier and sides. `held` is the torque
-/// with which dry friction holds the pinion back [N·m].
+/// with which dry friction holds the pinion back, and `clutches` are those with which clutches hold the side gears back
+/// [N·m].
 fn without_teeth(
     model: &Model,
     (inputs, state): (&Inputs, &State),
     (carrier_acceleration, side_acceleration): (f64, [f64; 2]),
     (torques, shaft_torque): (&IdealTorques, [f64; 2]),
-    (held, heat): (f64, f64),
+    (held, clutches, heat): (f64, [f64; 2], f64),
 ) -> Forces {
     let plan = &model.ideal.plan;
     let (drive_torque, spin_torque) = (torques.drive, torques.spin);
@@ -374,7 +383,7 @@ fn without_teeth(
         has_components: true,
         ..Forces::default()
     };
-    read_effects(&mut out, model, (inputs, state), held);
+    read_effects(&mut out, model, (inputs, state), (held, clutches));
     pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
     add_powers(&mut out, plan, state, end_speeds(plan, state), heat);
     out
@@ -387,7 +396,7 @@ pub fn ideal_forces(model: &Model, inputs: &Inputs, state: &State) -> Forces {
     let a = ideal.side_accelerations(&motion);
     let with = |inertia: &[f64; 2]| [0, 1].map(|s| inputs.load_torque[s] + inertia[s] * a[s]);
     let torques = IdealTorques { drive: motion.carrier_torque, spin: motion.spin_torque, gears: with(&inertia.side) };
-    without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), (0.0, 0.0))
+    without_teeth(model, (inputs, state), (motion.carrier, a), (&torques, with(&inertia.end)), (0.0, [0.0; 2], 0.0))
 }
 
 /// Forces of the ideal differential with effects on bodies.
@@ -399,14 +408,15 @@ pub fn ideal_forces_with_effects(
 ) -> Forces {
     let (plan, point) = (&model.ideal.plan, &state.point());
     let (a, ledger_rates) = equations.evaluate(point);
-    let brakes = equations.brake_torques(point);
+    let brakes = equations.commanded_torques(RubbingKind::Wheel, point);
     let by_rigid = |s: usize| inputs.load_torque[s] + brakes[s] + equations.ideal.rigid_end[s] * a[s];
     let shafts = [0, 1].map(|s| if plan.shafts[s] { ledger_rates.shaft[s] } else { by_rigid(s) });
     let heat = lost(&ledger_rates.heat);
     let torques = equations.torques(point);
     let accelerations = (a[CARRIER], [a[0], a[1]]);
     let held = equations.pinion_friction(point);
-    let mut out = without_teeth(model, (inputs, state), accelerations, (&torques, shafts), (held, heat));
+    let clutches = equations.commanded_torques(RubbingKind::Clutch, point);
+    let mut out = without_teeth(model, (inputs, state), accelerations, (&torques, shafts), (held, clutches, heat));
     read_pv(&mut out, equations, point);
     out
 }

@@ -2,6 +2,9 @@
 
 use crate::model::setup::{HEATS, STEP_READINGS};
 
+/// Number of kinds of bodies that dry friction holds.
+pub const HELD: usize = 4;
+
 /// Ledger and solver statistics.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LedgerReadings {
@@ -9,8 +12,8 @@ pub struct LedgerReadings {
     pub heat: [f64; HEATS],
     /// Readings of the effects that change with accepted steps.
     pub readings: [f64; STEP_READINGS],
-    /// Numbers of side gears, planet groups and wheels that dry friction holds.
-    pub held: [f64; 3],
+    /// Numbers of side gears, planet groups, wheels and clutches on command that dry friction holds.
+    pub held: [f64; HELD],
     /// Energy balance: stored energy − work of the inputs + heat [J]; 0 for an exact solution.
     pub energy_residual: f64,
     /// Accepted steps.

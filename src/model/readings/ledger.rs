@@ -39,7 +39,7 @@ impl Simulation {
         LedgerReadings {
             heat: state.heat,
             readings,
-            held: [RubbingKind::Side, RubbingKind::Planet, RubbingKind::Wheel].map(held),
+            held: [RubbingKind::Side, RubbingKind::Planet, RubbingKind::Wheel, RubbingKind::Clutch].map(held),
             energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
             rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,

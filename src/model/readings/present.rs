@@ -1,7 +1,7 @@
 //! Simulation as its outputs show it: under the present inputs, which the next step will apply.
 
 use crate::model::dynamics::State;
-use crate::model::run::events::{has_brakes, with_brakes};
+use crate::model::run::events::{has_commanded, with_commanded};
 use crate::model::run::progress::complete;
 use crate::model::run::{Simulation, imposed};
 use crate::model::scene::Inputs;
@@ -13,7 +13,7 @@ impl Simulation {
     pub fn with_inputs_applied(&self) -> Option<Self> {
         let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
         // with a solver of the host, friction changes only at events
-        let may_brake = !self.is_model_exchange() && has_brakes(&self.model);
+        let may_brake = !self.is_model_exchange() && has_commanded(&self.model);
         if is_met && !may_brake {
             return None;
         }
@@ -21,27 +21,28 @@ impl Simulation {
         if !is_met {
             imposed::follow_commands(&self.model, &self.inputs, &mut state);
         }
-        let braked = if may_brake { with_brakes(&self.model, &self.inputs, &state) } else { None };
+        let braked = if may_brake { with_commanded(&self.model, &self.inputs, &state) } else { None };
         if is_met && braked.is_none() {
             return None;
         }
         Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
     }
 
-    /// Returns the simulation with the brakes applied whose inputs change from 0 in the direction `change`, or `None`
-    /// if there are none. The torque of these brakes is the smallest positive number. With a solver of the host, brakes
-    /// are applied only at events.
-    pub fn with_brakes_applied(&self, change: &Inputs) -> Option<Self> {
+    /// Returns the simulation with the brakes and clutches applied whose inputs change from 0 in the direction `change`,
+    /// or `None` if there are none. Their inputs are the smallest positive number. With a solver of the host, they are
+    /// applied only at events.
+    pub fn with_friction_applied(&self, change: &Inputs) -> Option<Self> {
         let mut inputs = self.inputs;
-        for (torque, change) in inputs.brake_torque.iter_mut().zip(change.brake_torque) {
-            if *torque == 0.0 && change != 0.0 {
-                *torque = f64::MIN_POSITIVE;
+        let changes = change.friction_commands().into_iter().flatten();
+        for (command, change) in inputs.friction_commands_mut().into_iter().flatten().zip(changes) {
+            if *command == 0.0 && change != 0.0 {
+                *command = f64::MIN_POSITIVE;
             }
         }
-        if inputs == self.inputs || self.is_model_exchange() || !has_brakes(&self.model) {
+        if inputs == self.inputs || self.is_model_exchange() || !has_commanded(&self.model) {
             return None;
         }
-        let state = with_brakes(&self.model, &inputs, &self.state)?;
+        let state = with_commanded(&self.model, &inputs, &self.state)?;
         Some(Self { state, inputs, forces: None, ..self.clone() })
     }
 

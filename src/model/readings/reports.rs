@@ -5,11 +5,12 @@ use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
 use crate::model::assembly::Gears;
 use crate::model::dynamics::{FrictionEquations, Largest, with_equations};
+use crate::model::effect_kinds::FrictionState;
 use crate::model::effects::EFFECTS;
 use crate::model::effects::strength::{Stressed, Tally};
 use crate::model::effects::warm_up::{AMBIENT_CHANGE, SUMP_CHANGE};
 use crate::model::run::{Simulation, effort, six_digits};
-use crate::model::scene::{MAX_PLANETS, Method};
+use crate::model::scene::{MAX_PLANETS, Method, RubbingKind};
 use crate::numeric::PI;
 use crate::problem::{Problem, distinct_texts};
 
@@ -36,6 +37,7 @@ pub struct Reported {
     rattle: bool,
     coupling: bool,
     speed: bool,
+    blocked: bool,
 }
 
 impl Simulation {
@@ -60,6 +62,12 @@ impl Simulation {
             && let Some(problem) = self.too_fast()
         {
             reported.speed = true;
+            found.push(problem);
+        }
+        if !reported.blocked
+            && let Some(problem) = self.blocked_by_clutches()
+        {
+            reported.blocked = true;
             found.push(problem);
         }
         if !reported.coupling
@@ -92,6 +100,21 @@ impl Simulation {
             }
         }
         found
+    }
+
+    /// Warning about two clutches that both hold and thereby stop all rotation.
+    fn blocked_by_clutches(&self) -> Option<Problem> {
+        let [left, right] = self.model.ideal.plan.clutch_ratio;
+        let (left, right) = (left?, right?);
+        let mut clutches = self.state.friction[RubbingKind::Clutch.numbers()].iter();
+        // Willis: the speeds of both sides add up to twice that of the carrier
+        (left + right != 2.0 && clutches.all(FrictionState::holds)).then(|| {
+            problem!(
+                "left.clutch_command",
+                "both clutches hold, and the ratios {left} and {right} of their shafts do not add up to 2, so that nothing \
+                 can turn: open one of them; reported once"
+            )
+        })
     }
 
     /// Warning about the cut between host and unit if it is unstable, or if it changes much of the transmitted energy.

@@ -8,7 +8,7 @@
 use super::events::may_break_tooth;
 use crate::model::assembly::Model;
 use crate::model::dynamics::{Clock, State};
-use crate::model::scene::Inputs;
+use crate::model::scene::{Inputs, RubbingKind};
 
 /// Returns the change of the accelerations [rad/s²] if `inputs` change only torques within the pending step. Returns
 /// `None` if the integration must restart.
@@ -38,6 +38,7 @@ fn change_of_accelerations(model: &Model, before: &Inputs, inputs: &Inputs) -> O
 fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
     let plan = &model.ideal.plan;
     let given = |acts: bool, value: f64| if acts { value } else { 0.0 };
+    let rubs = |kind: RubbingKind| model.body_effects().rubs(kind);
     let around = model.thermal.as_ref().map(|network| network.around);
     Inputs {
         drive_speed: given(plan.drive_imposed, inputs.drive_speed),
@@ -46,7 +47,8 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
         side_speed: [0, 1].map(|s| given(plan.side_imposed[s], inputs.side_speed[s])),
         planet_spin: given(plan.spin_imposed, inputs.planet_spin),
         lock: inputs.lock,
-        brake_torque: inputs.brake_torque.map(|torque| given(model.body_effects().has_brakes, torque)),
+        brake_torque: inputs.brake_torque.map(|torque| given(rubs(RubbingKind::Wheel), torque)),
+        clutch_command: inputs.clutch_command.map(|command| given(rubs(RubbingKind::Clutch), command)),
         fault: given(may_break_tooth(model), inputs.fault),
         ambient_change: given(around.is_some(), inputs.ambient_change),
         sump_change: given(around.is_some_and(|around| around.sump.is_some()), inputs.sump_change),

@@ -72,25 +72,26 @@ pub fn record_holds(before: &[FrictionState; PAIRS], state: &mut State) {
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
         equations.adapt_friction(&state.point(), &mut state.heat);
-        equations.settle_friction(&state.point(), 0.0, Some(RubbingKind::Wheel), &mut state.heat);
+        equations.settle_friction(&state.point(), 0.0, true, &mut state.heat);
         state.friction = equations.applied().friction_state;
     });
 }
 
-/// True if brakes were applied or released since friction last switched.
-pub fn have_brakes_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
+/// True if brakes or clutches were applied or released since friction last switched.
+pub fn has_commanded_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
-    RubbingKind::Wheel.numbers().any(|i| friction.on(i).stiffness != state.friction[i].stiffness)
+    let mut commanded = (0..PAIRS).filter(|&i| RubbingKind::of(i).0.is_commanded());
+    commanded.any(|i| friction.on(i).stiffness != state.friction[i].stiffness)
 }
 
-/// True if wheels have brakes.
+/// True if inputs command the limit torques of brakes or clutches.
 #[inline]
-pub fn has_brakes(model: &Model) -> bool {
-    model.body_effects().has_brakes
+pub fn has_commanded(model: &Model) -> bool {
+    model.body_effects().has_commanded
 }
 
-/// Returns `state` with the brakes that `inputs` command, or `None` if no friction changes.
-pub fn with_brakes(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
+/// Returns `state` with the brakes and clutches that `inputs` command, or `None` if no friction changes.
+pub fn with_commanded(model: &Model, inputs: &Inputs, state: &State) -> Option<State> {
     let mut braked = *state;
     switch_friction(model, inputs, &mut braked);
     (braked.friction != state.friction).then_some(braked)

@@ -283,7 +283,7 @@ fn switch_friction<const N: usize, E: LedgerEquations<N> + ?Sized>(
     begin: f64,
 ) -> bool {
     let before = equations.applied().friction_state;
-    equations.settle_friction(&trajectory.point, trajectory.time, None, &mut state.heat);
+    equations.settle_friction(&trajectory.point, trajectory.time, false, &mut state.heat);
     let friction = [&before, &equations.applied().friction_state];
     state.events.record_friction(friction, begin + trajectory.time)
 }

@@ -145,6 +145,8 @@ inputs! {
     lock: f64 = 0.0, COMMAND;
     /// Brake torques at left and right wheel, 0 or more [N·m].
     brake_torque: [f64; 2] = [0.0; 2], RESISTING;
+    /// Commands of the clutches, left and right, from 0 (open) to 1 (full torque).
+    clutch_command: [f64; 2] = [0.0; 2], COMMAND;
     /// Triggers the tooth fault when it rises above one half.
     fault: f64 = 0.0, COMMAND;
     /// Change of the ambient temperature from its parameter [K].
@@ -158,6 +160,16 @@ impl Inputs {
     pub fn torques_since(&self, before: &Self) -> [f64; 3] {
         let [left, right] = [0, 1].map(|s| self.load_torque[s] - before.load_torque[s]);
         [left, right, self.drive_torque - before.drive_torque]
+    }
+
+    /// Values that limit commanded friction: brake torques and clutch commands.
+    pub fn friction_commands(&self) -> [[f64; 2]; 2] {
+        [self.brake_torque, self.clutch_command]
+    }
+
+    /// Values that limit commanded friction, to be changed.
+    pub fn friction_commands_mut(&mut self) -> [&mut [f64; 2]; 2] {
+        [&mut self.brake_torque, &mut self.clutch_command]
     }
 
     /// Changes of the outside temperatures: ambient and a given sump [K].

@@ -38,6 +38,8 @@ pub struct Plan {
     pub on_carrier: f64,
     /// Turns of the carrier after which all forces repeat.
     pub turns: u32,
+    /// Ratio of the speeds of each clutch's shaft and the carrier, left and right, if there are clutches.
+    pub clutch_ratio: [Option<f64>; 2],
     /// True if the planet spin is imposed.
     pub spin_imposed: bool,
     /// True for each wheel-side end whose speed is imposed, left and right.
@@ -69,6 +71,8 @@ pub struct Requests {
     pub on_carrier: f64,
     /// Turns of the carrier after which all forces repeat; 0 if it makes no demand.
     pub turns: u32,
+    /// Ratio of the speeds of each clutch's shaft and the carrier, left and right, if there are clutches.
+    pub clutch_ratio: [Option<f64>; 2],
 }
 
 /// Body that turns relative to another body.
@@ -113,6 +117,7 @@ impl Plan {
             drive_ratio: requests.drive_ratio,
             on_carrier: requests.on_carrier,
             turns: requests.turns.max(1),
+            clutch_ratio: requests.clutch_ratio,
             spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
             side_imposed,
             shafts,

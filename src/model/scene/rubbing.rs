@@ -1,8 +1,9 @@
 //! Pairs of bodies that rub on each other: side gears on the carrier, planets on their pins, wheels in their brakes, the pinion
-//! in its bearings.
+//! in its bearings, side gears on shafts that the carrier drives through a gearing.
 //!
-//! The slip of a pair is a sum of positions. Its rate is the speed of the body minus the speed of its base, so friction
-//! pushes the body back and the base forward. A new kind of pair is a line in each function of [`RubbingKind`], and its
+//! The slip of a pair is a sum of positions. Its rate is the speed of the body minus the speed of its base times a
+//! ratio σ. Friction with the torque T pushes the body back with T and the base forward with σ T; the housing of the
+//! gearing supports the rest. A new kind of pair is a line in each function of [`RubbingKind`], and its
 //! bodies in [`Plan::rubbing`].
 
 use std::ops::Range;
@@ -21,6 +22,8 @@ pub enum RubbingKind {
     Wheel,
     /// Pinion of the final drive in its bearings, at the carrier's speed.
     Pinion,
+    /// Side gear on a shaft at a multiple of the carrier's speed, by a clutch.
+    Clutch,
 }
 
 /// Largest number of pairs.
@@ -31,12 +34,12 @@ pub const PINION_PAIR: usize = RubbingKind::Pinion.number(0);
 
 impl RubbingKind {
     /// All kinds, in the order of their numbers.
-    pub const ALL: [Self; 4] = [Self::Side, Self::Planet, Self::Wheel, Self::Pinion];
+    pub const ALL: [Self; 5] = [Self::Side, Self::Planet, Self::Wheel, Self::Pinion, Self::Clutch];
 
     /// Largest number of pairs of this kind.
     const fn count(self) -> usize {
         match self {
-            Self::Side | Self::Wheel => 2,
+            Self::Side | Self::Wheel | Self::Clutch => 2,
             Self::Planet => MAX_GROUPS,
             Self::Pinion => 1,
         }
@@ -46,8 +49,13 @@ impl RubbingKind {
     pub const fn is_alike(self) -> bool {
         match self {
             Self::Side | Self::Planet | Self::Pinion => true,
-            Self::Wheel => false,
+            Self::Wheel | Self::Clutch => false,
         }
+    }
+
+    /// True if inputs command the limit torques.
+    pub const fn is_commanded(self) -> bool {
+        matches!(self, Self::Wheel | Self::Clutch)
     }
 
     /// Numbers of the pairs of this kind.
@@ -84,6 +92,8 @@ pub struct RubbingPair {
     pub body: usize,
     /// Degree of freedom of the base. `None` for the housing; also for planets, whose speed is relative to the carrier.
     pub base: Option<usize>,
+    /// Ratio σ of the speed of the surface on which the body rubs to the speed of the base.
+    pub ratio: f64,
     /// Number of identical pairs.
     pub count: f64,
     position: [(usize, f64); 3],
@@ -95,7 +105,7 @@ impl RubbingPair {
     /// `position`, at most three. There are `count` identical pairs.
     pub fn new(number: usize, (body, base): (usize, Option<usize>), position: &[(usize, f64)], count: f64) -> Self {
         let terms = std::array::from_fn(|k| position.get(k).copied().unwrap_or((body, 0.0)));
-        Self { number, body, base, count, position: terms, terms: position.len() }
+        Self { number, body, base, ratio: 1.0, count, position: terms, terms: position.len() }
     }
 
     /// Degrees of freedom whose positions, times a factor, add up to the slip.
@@ -118,6 +128,13 @@ impl Plan {
             let (body, angle) = if self.shafts[s] { (end, &angle[..]) } else { (s, &angle[..2]) };
             add(RubbingPair::new(RubbingKind::Wheel.number(s), (body, None), angle, 1.0));
         }
+        for (s, ratio) in self.clutch_ratio.into_iter().enumerate() {
+            let Some(ratio) = ratio else { continue };
+            // angle of the side gear = angle of the carrier + relative angle of the side gear
+            let angle = [(s, 1.0), (CARRIER, 1.0 - ratio)];
+            let pair = RubbingPair::new(RubbingKind::Clutch.number(s), (s, Some(CARRIER)), &angle, 1.0);
+            add(RubbingPair { ratio, ..pair });
+        }
         let pinion = layout.pinion();
         let angle: Vec<(usize, f64)> = layout.angle(pinion).collect();
         add(RubbingPair::new(PINION_PAIR, (pinion, None), &angle, 1.0));
@@ -135,6 +152,7 @@ impl Plan {
             (RubbingKind::Planet, g) => format!("planet[{}]", self.group(g).planet + 1),
             (RubbingKind::Pinion, _) => "the pinion".into(),
             (RubbingKind::Wheel, s) => format!("the {} wheel", SIDES[s]),
+            (RubbingKind::Clutch, s) => format!("the {} clutch", SIDES[s]),
         }
     }
 }

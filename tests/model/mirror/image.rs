@@ -14,6 +14,8 @@ use super::teeth::{self, View};
 const PLANETS: usize = 2;
 /// Index of the first wheel among the pairs that rub.
 const WHEELS: usize = 6;
+/// Index of the first clutch on command among the pairs that rub; the pinion comes before it.
+const CLUTCHES: usize = 9;
 
 /// Output in an image: `factor` times the value in the scene plus `added`.
 #[derive(Clone, Copy)]
@@ -111,6 +113,7 @@ impl Scene {
         }
         image.friction.swap(0, 1);
         image.friction.swap(WHEELS, WHEELS + 1);
+        image.friction.swap(CLUTCHES, CLUTCHES + 1);
         for g in 0..layout.groups {
             let (i, friction) = (layout.planet(g), &mut image.friction[PLANETS + g]);
             (image.q[i], image.v[i]) = (added_angles[0] - image.q[i], -image.v[i]);
@@ -120,6 +123,7 @@ impl Scene {
             image.q[s] += added_angles[1 + s];
             image.friction[s].anchor += added_angles[1 + s];
             image.friction[WHEELS + s].anchor += added_angles[1 + s];
+            image.friction[CLUTCHES + s].anchor += added_angles[1 + s];
         }
         Some(image)
     }

@@ -21,6 +21,8 @@ const MODULE: f64 = 4.5e-3;
 
 /// Bit of the seed for the separate generator of [`later`].
 const LATER: u64 = 1 << 40;
+/// Bit of the seed for the separate generator of [`commanded`].
+const COMMANDED: u64 = 1 << 43;
 /// Bit of the seed for the separate generator of [`rolling`].
 const ROLLING: u64 = 1 << 41;
 /// Bit of the seed for the separate generator of [`warm`].
@@ -35,11 +37,16 @@ pub fn scene(index: u64) -> Option<Scene> {
     drives(d, &mut p);
     effects(d, &mut p);
     bodies(&mut Rng::with_seed(!index), &mut p);
+    let commands = commanded(&mut Rng::with_seed(index ^ COMMANDED), &mut p);
     later(&mut Rng::with_seed(index ^ LATER), &mut p);
     solver(d, &mut p);
     let inputs = inputs(d, &p);
     let duration = d.between(3e-3, 8e-3);
-    let steps = steps(d, &p, inputs, duration);
+    let mut steps = steps(d, &p, inputs, duration);
+    let inputs = Inputs { clutch_command: commands[0], ..inputs };
+    for (k, step) in steps.iter_mut().enumerate() {
+        step.inputs.clutch_command = commands[2 * k / STEPS];
+    }
     Scene::new(p, inputs, steps).ok()
 }
 
@@ -182,6 +189,21 @@ fn later(d: &mut Rng, p: &mut Parameters) {
     p.effects.mesh_history = p.scene.gear_contact != GearContact::Ideal && d.share(0.5);
     clutches(d, p);
     final_drive(d, p);
+}
+
+/// Sets clutches on command and the thrust of the gears on their packs, drawn with a separate generator. Returns the
+/// commands of both halves of the scene.
+fn commanded(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 2] {
+    p.effects.clutches = d.share(0.25);
+    let clutches = &mut p.specs.clutches;
+    clutches.torque = d.about(200.0, 3.0) * (p.geometry.module / MODULE).powi(3);
+    clutches.ratio = d.pick(&[[1.0, 1.0], [1.125, 0.875], [0.0, 1.0], [1.2, 1.1], [-0.5, 2.0]]);
+    clutches.damping_time = d.pick(&[0.0, 1e-4, 1e-3]);
+    (clutches.sliding.static_ratio, clutches.sliding.stribeck_speed) = (d.between(1.0, 1.4), d.between(0.0, 0.3));
+    let has_thrust = matches!(p.scene.gear_contact, GearContact::Lumped | GearContact::Tooth);
+    p.specs.limited_slip.thrust_arm = if has_thrust && d.share(0.3) { d.between(1e-3, 2e-2) } else { 0.0 };
+    let mut command = || [d.f64(), d.f64()].map(|u| if u < 0.3 { 0.0 } else { u });
+    [command(), command()]
 }
 
 /// Sets mesh, error, losses and shaft of the final drive.
