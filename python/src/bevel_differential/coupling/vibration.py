@@ -82,6 +82,6 @@ def _shape(names, vector):
     # planets of a group move equally or in turn: the fastest one counts
     of_body = {body: max(several, key=abs) for body, several in speeds.items()}
     largest = max(map(abs, of_body.values()))
-    # bodies that move equally except for rounding keep their order
-    bodies = sorted(of_body, key=lambda body: -round(abs(of_body[body]) / largest, 6))
+    # bodies that move nearly equally keep their order
+    bodies = sorted(of_body, key=lambda body: -round(abs(of_body[body]) / largest, 2))
     return {body: float((of_body[body] / of_body[bodies[0]]).real) for body in bodies}

@@ -31,10 +31,10 @@ def lash(run: Simulated) -> Block:
     rows = [(source.source, *((words.number(1e3 * source.length), words.number(1e3 * source.radius)) if source.length else ("none", "")),
              *([] if at_carrier else [_degrees(source.angle / ratio)]), _degrees(source.angle)) for source in sources]
     rows.append(("total", "", "", *([] if at_carrier else [_degrees(total / ratio)]), _degrees(total)))
-    head = ("source of lash", "lash j_t, mm", "at radius, mm", "at the carrier, °", *([] if at_carrier else [f"at the {port}, °"]))
+    head = ("source of lash", "lash, mm", "at radius, mm", "at the carrier, °", *([] if at_carrier else [f"at the {port}, °"]))
     times = "" if at_carrier else f", times the ratio {words.number(ratio)} at the {port}"
-    return Table(head, rows, f"Lash while both side gears are held: j_t over the radius{times}. The gears of the differential have it at the outer "
-                             "pitch radius of the side gears.")
+    return Table(head, rows, f"Angles through which the {port} turns freely while both side gears are held: lash over radius{times}. The gears of "
+                             "the differential have their lash at the outer pitch radius of the side gears.")
 
 
 def _degrees(angle):
@@ -49,8 +49,8 @@ def natural_frequencies(run: Simulated) -> list[Block]:
         return [Text(f"There are no natural frequencies, because the scene has no equilibrium at the start: {reason_of(reason)}.")]
     found: list[Block] = []
     if result.found:
-        rows = [(words.number(one.frequency), words.number(one.damping, 3), _text(run, one)) for one in result.found]
-        found.append(Table(("natural frequency, Hz", "damping ratio", "bodies that move most"), rows, _caption(run, result), left=2))
+        rows = [(_text(run, one), words.number(one.frequency), words.number(one.damping, 3)) for one in result.found]
+        found.append(Table(("bodies that move most", "natural frequency, Hz", "damping ratio"), rows, _caption(run, result)))
     else:
         why = _singly(result) or "no elastic part is between bodies that are free to turn"
         found.append(Text(f"Nothing vibrates at the start of the scene: {why}."))
