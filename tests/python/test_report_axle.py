@@ -65,7 +65,8 @@ def test_a_scene_without_lash_says_so(scene, values):
     assert block.text.startswith("There is no lash between the ") and block.text.endswith(" and the side gears.")
 
 
-@pytest.mark.parametrize("values", [ELASTIC, ELASTIC | {"geometry.backlash": "0.17 mm", "geometry.side_teeth": 18, "geometry.module": "5 mm"},
+@pytest.mark.parametrize("values", [ELASTIC, ELASTIC | {"geometry.backlash": "0.17 mm", "geometry.side_teeth": 18,
+                                                        "geometry.module": "5 mm"},
                                     {"effects.final_drive": True, "geometry.planet_count": 4},
                                     ELASTIC | {"final_drive.backlash": "0.21 mm", "effects.backlash": False}])
 def test_the_lash_is_that_of_the_simulated_play(scene, values):
@@ -142,7 +143,8 @@ def test_bodies_are_named_with_those_that_are_rigid_with_them(scene):
 @pytest.mark.parametrize("elastic, shaft", [(False, False), (True, True)])
 def test_a_report_of_a_driven_pinion_has_its_lash_and_its_frequencies(scene, tmp_path, contact, elastic, shaft):
     driven = scene({"scene.gear_contact": contact, "contact.law": "line", "effects.final_drive": True, "final_drive.elastic_mesh": elastic,
-                    "effects.propeller_shaft": shaft, "propeller_shaft.joint_angle": "8 deg" if shaft else 0.0, "pinion.speed_command": 170.0})
+                    "effects.propeller_shaft": shaft, "propeller_shaft.joint_angle": "8 deg" if shaft else 0.0,
+                    "pinion.speed_command": 170.0})
     text = write(driven, tmp_path / "page.html", quick=True).read_text(encoding="utf-8")
     section = ReportPage(text).sections["axle"]
     assert ("lash, mm" in section) == (contact != "ideal" or elastic)
@@ -161,6 +163,6 @@ def test_orders_of_the_final_drive_have_names(scene):
 
 
 def test_labels_of_orders_do_not_overlap():
-    expected = {**{f"mesh {k} × 10": 10.0 * k for k in range(1, 7)}, "ring gear 41 per carrier turn": 205.0, "joint 8.2 per carrier turn": 41.0}
+    expected = {f"mesh {k} × 10": 10.0 * k for k in range(1, 7)} | {"ring gear 41 per carrier turn": 205.0, "joint 8.2 per carrier turn": 41.0}
     assert _labels(expected, 10.0, 12.0) == ["1 × 10", "", "", "", "", "6 × 10", "ring", "joint"]
     assert "" not in _labels(expected, 10.0, 0.5)

@@ -56,17 +56,17 @@ def at_port(scene: Scene) -> Scene:
     """Scene whose commands of the carrier act at its port instead, unless the scene commands the port itself."""
     value, contents = scene.value, scene.__getstate__()
     driven = {name for name, *_ in scene.tables} | {name for _, changed in scene.changes for name in changed} | scene.values.keys()
-    moved = {name for name in PORT if port_command(value, name) not in driven}
-    if not value("effects.final_drive") or not moved & driven:
+    moved = {name for name in PORT if name in driven and port_command(value, name) not in driven}
+    if not value("effects.final_drive") or not moved:
         return scene
 
-    def at(name, given):
-        return port_value(value, name, scene.fmu.variable(name).number(given))
+    def moved_to(name, given):
+        """Name and value at the port."""
+        return (PORT[name], port_value(value, name, scene.fmu.variable(name).number(given))) if name in moved else (name, given)
 
-    def port(values):
-        return {PORT.get(name, name) if name in moved else name: at(name, given) if name in moved else given for name, given in values.items()}
+    def at(values):
+        return dict(moved_to(name, given) for name, given in values.items())
 
-    contents |= {"set": port(scene.values), "changes": [(time, port(values)) for time, values in scene.changes],
-                 "tables": [(PORT[name], times, [at(name, each) for each in values], period) if name in moved else (name, times, values, period)
-                            for name, times, values, period in scene.tables]}
-    return Scene(**contents)
+    tables = [(moved_to(name, values[0])[0], times, [moved_to(name, each)[1] for each in values], period)
+              for name, times, values, period in scene.tables]
+    return Scene(**contents | {"set": at(scene.values), "changes": [(time, at(values)) for time, values in scene.changes], "tables": tables})

@@ -22,8 +22,8 @@ class Lash:
 
 
 def lash_by_source(value: Callable[[str], Number], has_teeth: bool) -> list[Lash]:
-    """Lash of the final drive, if it is on, and of the differential's gears. Rigid meshes and gears without teeth have none. `value` returns
-    the value of a parameter, SI."""
+    """Lash of the final drive, if it is on, and of the differential's gears. Rigid meshes and gears without teeth have none. `value`
+    returns the value of a parameter, SI."""
     length = float(value("geometry.backlash")) if has_teeth and value("effects.backlash") else 0.0
     radius = 0.5 * float(value("geometry.module")) * float(value("geometry.side_teeth"))
     found = [("gears of the differential", length, radius)]

@@ -1,7 +1,7 @@
 """Natural frequencies of a scene: it is linearised at the equilibrium of its start, by the FMU's own Jacobian.
 
-A pair of complex eigenvalues λ of ẋ = A x is a vibration with the undamped natural frequency |λ|/2π and the damping ratio −Re λ/|λ|. Real
-eigenvalues are motions that decay without swinging, and zeros are rigid rotation."""
+A pair of complex eigenvalues λ of ẋ = A x is a vibration with the undamped natural frequency |λ|/2π and the damping ratio −Re λ/|λ|.
+Real eigenvalues are motions that decay without swinging, and zeros are rigid rotation."""
 
 import re
 from collections.abc import Sequence
@@ -18,19 +18,21 @@ from .unit import all_states
 SHAFT = "propeller shaft"
 BODIES = {"propeller.carrier_speed": SHAFT, "pinion.carrier_speed": "pinion", "carrier.speed": "carrier",
           **{f"{side}.{speed}": f"{side} {body}" for side in ("left", "right")
-             for speed, body in (("speed", "side gear"), ("end_speed", "wheel end"), ("seat_speed", "seat of the side gear"))}}
+             for speed, body in (("speed", "side gear"), ("end_speed", "wheel end"))}}
 PLANET = re.compile(r"planet\[\d\]\.(spin|pin)_speed")
 PLANETS = {"spin": "planets", "pin": "pins"}
 # forces of gears that are loaded
 LOADS = {"differential": ("left.normal_force", "right.normal_force"), "final drive": ("carrier.torque",)}
+# begin of the FMU's warning about a start without equilibrium
+NO_EQUILIBRIUM = "scene.start: no equilibrium"
 # rounding of an eigenvalue that is 0, over the largest eigenvalue, and of a damping ratio that is 0
 ROUNDING, UNDAMPED = 1e-7, 1e-9
 
 
 @dataclass(frozen=True)
 class Vibration:
-    """Vibration with a natural `frequency` [Hz] and a `damping` ratio, negative if it grows. `shape`: speed of each body over the speed of the
-    body that moves most, the latter first; negative if it moves against this body."""
+    """Vibration with a natural `frequency` [Hz] and a `damping` ratio, negative if it grows. `shape`: speed of each body over the speed of
+    the body that moves most, the latter first; negative if it moves against this body."""
 
     frequency: float
     damping: float
@@ -39,13 +41,14 @@ class Vibration:
 
 @dataclass(frozen=True)
 class Vibrations:
-    """Vibrations of a scene, the slowest first. `decaying`, `growing`: number of motions that decay, or grow, without swinging. `unloaded`:
-    gears whose teeth are not loaded, and therefore have no stiffness."""
+    """Vibrations of a scene, the slowest first. `decaying`, `growing`: number of motions that decay, or grow, without swinging.
+    `unloaded`: gears whose teeth are not loaded, and therefore have no stiffness. `rests`: true if the start is an equilibrium."""
 
     found: list[Vibration]
     decaying: int
     growing: int
     unloaded: list[str]
+    rests: bool
 
 
 def vibrations(scene: Scene) -> Vibrations:
@@ -55,8 +58,8 @@ def vibrations(scene: Scene) -> Vibrations:
         system = all_states(instance)
         names = [unknown.variable.derivative.name for unknown in instance.fmu.description.derivatives]
         unloaded = [gears for gears, forces in LOADS.items() if not all(instance.read(forces))]
-    found, decaying, growing = vibrations_of(system.a, names)
-    return Vibrations(found, decaying, growing, unloaded)
+        rests = not any(text.startswith(NO_EQUILIBRIUM) for text in instance.messages)
+    return Vibrations(*vibrations_of(system.a, names), unloaded, rests)
 
 
 def vibrations_of(a: np.ndarray, names: Sequence[str]) -> tuple[list[Vibration], int, int]:
@@ -66,8 +69,8 @@ def vibrations_of(a: np.ndarray, names: Sequence[str]) -> tuple[list[Vibration],
     found = []
     for value, vector in zip(values, vectors.T):
         if value.imag > 0.0 and abs(value) >= rigid:
-            damping = -value.real / abs(value)
-            found.append(Vibration(float(abs(value)) / (2.0 * np.pi), float(damping) if abs(damping) > UNDAMPED else 0.0, _shape(names, vector)))
+            damping = -float(value.real) / abs(value)
+            found.append(Vibration(float(abs(value)) / (2.0 * np.pi), damping if abs(damping) > UNDAMPED else 0.0, _shape(names, vector)))
     single = values.real[(values.imag == 0.0) & (abs(values) >= rigid)]
     return sorted(found, key=lambda one: one.frequency), int(np.sum(single < 0.0)), int(np.sum(single > 0.0))
 

@@ -33,8 +33,8 @@ def lash(run: Simulated) -> Block:
     rows.append(("total", "", "", *([] if at_carrier else [_degrees(total / ratio)]), _degrees(total)))
     head = ("source of lash", "lash, mm", "at radius, mm", "at the carrier, °", *([] if at_carrier else [f"at the {port}, °"]))
     times = "" if at_carrier else f", times the ratio {words.number(ratio)} at the {port}"
-    return Table(head, rows, f"Angles through which the {port} turns freely while both side gears are held: lash over radius{times}. The gears of "
-                             "the differential have their lash at the outer pitch radius of the side gears.")
+    return Table(head, rows, f"Angles through which the {port} turns freely while both side gears are held: lash over radius{times}. "
+                             "The gears of the differential have their lash at the outer pitch radius of the side gears.")
 
 
 def _degrees(angle):
@@ -46,7 +46,7 @@ def natural_frequencies(run: Simulated) -> list[Block]:
     try:
         result = vibrations(run.scene)
     except DifferentialError as reason:
-        return [Text(f"There are no natural frequencies, because the scene has no equilibrium at the start: {reason_of(reason)}.")]
+        return [Text(f"There are no natural frequencies, because the FMU does not start the scene in equilibrium: {reason_of(reason)}.")]
     found: list[Block] = []
     if result.found:
         rows = [(_text(run, one), words.number(one.frequency), words.number(one.damping, 3)) for one in result.found]
@@ -54,6 +54,8 @@ def natural_frequencies(run: Simulated) -> list[Block]:
     else:
         why = _singly(result) or "no elastic part is between bodies that are free to turn"
         found.append(Text(f"Nothing vibrates at the start of the scene: {why}."))
+    if not result.rests:
+        found.append(Text("The scene has no equilibrium at the start, so that these numbers are those of a state near it."))
     unloaded = [name for name in result.unloaded if _has_teeth(run, name)]
     if unloaded:
         found.append(Text(f"The teeth of the {words.listed(unloaded)} have no stiffness here, because they are not loaded at the start."))
@@ -65,8 +67,8 @@ def _has_teeth(run, name):
 
 
 def _caption(run, result):
-    said = ["Small vibrations about the equilibrium at the start, the slowest first, with undamped frequencies. Behind each body is its speed "
-            "relative to the body that moves most; a minus sign means opposite motion."]
+    said = ["Small vibrations about the equilibrium at the start, the slowest first, with undamped frequencies. Behind each body is its "
+            "speed relative to the body that moves most; a minus sign means opposite motion."]
     bodies = {body for one in result.found for body, _ in _moving(one)}
     if "planets" in bodies:
         said.append("Planets spin relative to the carrier.")
