@@ -64,7 +64,8 @@ def test_the_bench_draws_the_same_conclusion_at_the_port(fmu_file, tmp_path, nam
 
 
 @pytest.mark.parametrize("values", [NOTHING, ELASTIC])
-@pytest.mark.parametrize("drive, lines", [("speed", CYCLE), ("torque", CYCLE), ("speed", ["name,count,history", "swing,2,history.csv"])])
+@pytest.mark.parametrize("drive", ["speed", "torque"])
+@pytest.mark.parametrize("lines", [CYCLE, ["name,count,history", "swing,2,history.csv"]])
 def test_a_duty_cycle_damages_the_gears_equally_behind_a_final_drive(fmu_file, tmp_path, values, drive, lines):
     (tmp_path / "history.csv").write_text("time [s],speed [km/h],torque [N.m]\n0,20,1200\n0.2,21,1500\n0.4,20,1200\n", encoding="utf-8")
     given = LUMPED | {"scene.carrier_drive": drive}

@@ -185,7 +185,8 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
     speed = vehicle["speed"] / wheel_radius(vehicle, "speed") if "speed" in vehicle else None
     # with two speed-driven sides the carrier's speed follows from both
     if speed is not None and len(by_speed) < len(SIDES):
-        found[SPEED] = speed
+        # a torque-driven carrier only starts at this speed
+        found[SPEED] = speed if drives["scene.carrier_drive"] == "speed" else np.ravel(speed)[0].item()
     difference = _difference(vehicle)
     if by_speed and speed is not None:
         found.update({f"{side}.speed_command": speed + 0.5 * SIDES[side] * (0.0 if difference is None else difference)
