@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from ..drive_port import at_port
 from ..fmu import Fmu
 from ..scene import Scene
 from ..values import FileName, Value
@@ -31,5 +32,5 @@ def bench(name: str, folder: FileName, scene: FileName | None = None, values: Ma
     `scene`: replaces the test's scene; `values`: changes of the scene; `display_units`: units of the figure and the text; `farm`:
     arguments of `designs.Farm`."""
     test, _ = TESTS[name]
-    with Scene.load(scene or scene_file(name), fmu=fmu, display_units=display_units) as loaded:
-        return test(loaded.set(values), Path(folder) / name, farm)
+    with Scene.load(scene or scene_file(name), fmu=fmu, display_units=display_units) as loaded, at_port(loaded.set(values)) as driven:
+        return test(driven, Path(folder) / name, farm)

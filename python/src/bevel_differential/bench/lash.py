@@ -11,7 +11,9 @@ from typing import Any
 import numpy as np
 
 from ..drive_port import PORT_TORQUE, SPEED, TORQUE, drive_ratio, port_command
+from ..lash import lash_by_source
 from ..panel import Axis, Panel, curve
+from ..report import words
 from ..scene import Scene
 from .steady import largest_torque, written
 
@@ -28,11 +30,17 @@ def lash(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
         drive, coast = (np.degrees(angle_at(scene, sign * torque)) for sign in (1.0, -1.0))
         rows.append((float(torque), float(drive), float(coast), float(drive - coast)))
     play = np.degrees(play_of(scene))
-    conclusion = (f"the play at no torque is {play:.5f} deg at the port of the drive; at {largest:g} N.m in both directions it is "
-                  f"{rows[-1][3]:.4g} deg, so that teeth and shafts wind up by {rows[-1][3] - play:.4g} deg")
+    sources = words.listed(f"{np.degrees(one.angle):.5f} deg of the {one.source}" for one in _sources(scene))
+    conclusion = (f"the play at no torque is {play:.5f} deg at the port of the drive, by the closed form {sources}; at {largest:g} N.m in "
+                  f"both directions it is {rows[-1][3]:.4g} deg, so that teeth and shafts wind up by {rows[-1][3] - play:.4g} deg")
     curves = [curve([row[0] for row in rows], [row[k] for row in rows], name, form="o-") for k, name in ((1, "drive"), (2, "coast"))]
     panel = Panel(Axis("torque of the drive, N·m"), "angle of the port, deg", curves)
     return written(scene, out, conclusion, [[panel]], 4.0, "lash", HEAD, rows)
+
+
+def _sources(scene):
+    ideal = scene.fmu.variable("scene.gear_contact").number("ideal")
+    return lash_by_source(scene.value, scene.value("scene.gear_contact") != ideal)
 
 
 def play_of(scene: Scene) -> float:

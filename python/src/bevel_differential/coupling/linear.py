@@ -122,6 +122,13 @@ def poles(a: np.ndarray) -> np.ndarray:
     return np.linalg.eigvals(a / scale[:, None] * scale)
 
 
+def motions(a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Eigenvalues of ẋ = A x [1/s], and their vectors, shape (states, eigenvalues)."""
+    scale = balancing(a)
+    values, vectors = np.linalg.eig(a / scale[:, None] * scale)
+    return values, scale[:, None] * vectors
+
+
 def rigid_count(a: np.ndarray) -> int:
     """Number of motions of ẋ = A x that neither swing nor decay, as rigid rotation."""
     return int(np.sum(np.abs(poles(a)) < RIGID))

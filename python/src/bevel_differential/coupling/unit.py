@@ -27,14 +27,19 @@ SIGNS = {"carrier.torque": -1.0, "propeller.torque": -1.0}
 AT_PORT = {**PORT, **{f"carrier.{name}": f"propeller.{name}" for name in ("angle", "speed", "torque")}}
 
 
-def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]) -> Linear:
-    """An instance at its present state, with respect to these inputs and outputs. States that do not matter to them are left out."""
+def all_states(instance: Instance, inputs: Sequence[str] = (), outputs: Sequence[str] = ()) -> Linear:
+    """An instance at its present state with all states, in the order of the FMU, and with respect to these inputs and outputs."""
     rates = [unknown.variable for unknown in instance.fmu.description.derivatives]
     known = [*(rate.derivative.valueReference for rate in rates), *(variable.reference for variable in instance.fmu.named(inputs))]
     unknown = [*(rate.valueReference for rate in rates), *(variable.reference for variable in instance.fmu.named(outputs))]
     slopes = np.array([instance.raw.getDirectionalDerivative(unknown, [each], [1.0]) for each in known]).T
     n = len(rates)
-    return Linear(slopes[:n, :n], slopes[:n, n:], slopes[n:, :n], slopes[n:, n:]).reduced()
+    return Linear(slopes[:n, :n], slopes[:n, n:], slopes[n:, :n], slopes[n:, n:])
+
+
+def linearised(instance: Instance, inputs: Sequence[str], outputs: Sequence[str]) -> Linear:
+    """An instance at its present state, with respect to these inputs and outputs. States that do not matter to them are left out."""
+    return all_states(instance, inputs, outputs).reduced()
 
 
 def other_unit(port: str, scene: Scene, at: TimeValue = 0.0) -> Host:

@@ -95,12 +95,12 @@ def _axes(scene, arguments):
 
 def _reached(scene):
     """Largest magnitudes of the torque of the drive and of its speed in the scene, both referred to the carrier."""
-    from ..drive_port import PORT_SPEED, PORT_TORQUE, drive_ratio
+    from ..drive_port import PORT_SPEED, PORT_TORQUE, at_port, drive_ratio
     from ..warned import silenced
 
     # the runs of the map pass on the warnings of the FMU
     with silenced():
-        record = scene.run([PORT_TORQUE, PORT_SPEED])
+        record = at_port(scene).run([PORT_TORQUE, PORT_SPEED])
     torque, speed = (float(abs(record[name]).max()) for name in (PORT_TORQUE, PORT_SPEED))
     return [torque * drive_ratio(scene.value), speed / drive_ratio(scene.value)]
 

@@ -34,7 +34,7 @@ PER_TURN, PER_ORDER = 256, 6.0
 # if a scene has none of this damping, nothing dies out
 DAMPING = ("contact.damping", "half_shaft.left_damping", "half_shaft.right_damping")
 # number of multiples of the mesh order, and prefixes of the names of the other orders
-MULTIPLES, RING, PINION = 6, "ring gear", "pinion"
+MULTIPLES, RING, PINION, RUNOUT, JOINT = 6, "ring gear", "pinion", "runout", "joint"
 SIGNAL = "planet[1].left_transmission_error"
 ANGLE = "planet[1].spin_angle"
 SHAFTS = ("left.shaft_torque", "right.shaft_torque")
@@ -159,7 +159,7 @@ def _values(run, commands, imposed, loads):
         drive, literal, _ = DRIVES[name]
         values[drive] = literal
     changed = []
-    undamped = [name for name in (*DAMPING, *(["final_drive.damping"] if has_errors(run) else [])) if run.value(name) == 0.0]
+    undamped = [name for name in (*DAMPING, *_damping_of_drive(run)) if run.value(name) == 0.0]
     if undamped:
         values.update({name: run.scene.fmu.variable(name).start for name in undamped})
         changed.append(f"{' and '.join(undamped)} {'has its' if len(undamped) == 1 else 'have their'} start value"
@@ -178,12 +178,27 @@ def theory(run: Simulated, ratio: float) -> dict[str, float]:
     """Orders per turn of a planet that theory predicts, by name."""
     teeth = int(run.value("geometry.planet_teeth"))
     found = {f"mesh {k} × {teeth}": float(k * teeth) for k in range(1, MULTIPLES + 1)}
+    return found | {f"{name} {words.number(order)} per carrier turn": order / abs(ratio) for name, order in _of_drive(run).items()}
+
+
+def _of_drive(run):
+    """Orders per turn of the carrier that the final drive and its propeller shaft excite. A joint excites twice per turn."""
+    ring, pinion = (float(run.value(f"final_drive.{name}_teeth")) for name in ("ring", "pinion"))
+    found = {}
     if has_errors(run):
-        ring, pinion = (int(run.value(f"final_drive.{name}_teeth")) for name in ("ring", "pinion"))
-        found[f"{RING} {ring} per carrier turn"] = ring / abs(ratio)
+        found[RING] = ring
         if run.value("final_drive.pinion_runout") > 0.0:
-            found[f"{PINION} {words.number(ring / pinion)} per carrier turn"] = ring / pinion / abs(ratio)
+            found[PINION] = ring / pinion
+        if run.value("final_drive.ring_runout") > 0.0:
+            found[RUNOUT] = 1.0
+    if run.value("effects.propeller_shaft") and run.value("propeller_shaft.joint_angle") > 0.0:
+        found[JOINT] = 2.0 * ring / pinion
     return found
+
+
+def _damping_of_drive(run):
+    mesh = ["final_drive.damping"] if has_errors(run) else []
+    return [*mesh, "propeller_shaft.damping"] if run.value("effects.propeller_shaft") else mesh
 
 
 def has_errors(run: Simulated) -> bool:

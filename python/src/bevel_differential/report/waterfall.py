@@ -12,7 +12,7 @@ from ..progress import silent
 from ..values import DifferentialError
 from . import words
 from .blocks import Section, Table
-from .runup import ANGLE, FASTEST, MULTIPLES, PINION, RING, SIGNAL, SLOWEST, RunUp, has_errors, run_up, theory
+from .runup import ANGLE, FASTEST, JOINT, MULTIPLES, PINION, RING, RUNOUT, SIGNAL, SLOWEST, RunUp, run_up, theory
 from .simulated import Simulated, reason_of
 from .svg_style import BLUE, GREEN, RED, picture
 
@@ -27,8 +27,12 @@ TURN = 2.0 * np.pi
 # points in a period of the highest order: minimum of a record, and of the signal over the angle. The second number is large, so
 # that content above the orders of interest is not aliased to them
 PER_PERIOD, FINER = 4, 16
-# prefixes of the orders of the final drive
-FINAL = (RING, PINION)
+# prefixes of the orders of the final drive, and their meaning in the caption
+MEANINGS = {RING: "teeth of the ring gear", PINION: "turns of the pinion", RUNOUT: "turns of the ring gear",
+            JOINT: "half turns of the joint"}
+FINAL = tuple(MEANINGS)
+# smallest distance of two labels above the picture, relative to its width
+APART = 0.06
 # overlap of neighbouring windows
 OVERLAP = 0.75
 
@@ -82,7 +86,7 @@ def section(run: Simulated, progress: Progress = silent) -> Section:
         found.say(f"The run-up failed: {reason_of(reason)}.")
         return found
     found.say(_how(up))
-    found.add(picture("waterfall", [[panel] for panel in _panels(run, spectra, expected)], _caption(run, up, spectra, expected), 5.2,
+    found.add(picture("waterfall", [[panel] for panel in _panels(run, spectra, expected)], _caption(up, spectra, expected), 5.2,
                       height_ratios=[2.4, 1]))
     found.add(_table(run, spectra, expected))
     return found
@@ -111,7 +115,7 @@ def _panels(run, spectra: Waterfall, expected):
     orders, teeth = spectra.orders, float(run.value("geometry.planet_teeth"))
     top, highest = UM * float(spectra.amplitudes.max()), UM * spectra.mean.max()
     edges = np.append(orders, orders[-1] + spectra.resolution) - 0.5 * spectra.resolution
-    names = [name.partition(" ")[0] if name.startswith(FINAL) else f"{order / teeth:.0f} × {teeth:.0f}" for name, order in expected.items()]
+    names = _labels(expected, teeth, APART * orders[-1])
     axis = Axis("order: periods per turn of a planet")
     yield Panel(axis, Axis("carrier speed, rpm", lambda speed: speed * RPM), [
         Mark("pcolormesh", edges, _edges(spectra.speeds), np.maximum(UM * spectra.amplitudes, 1e-12), cmap="magma_r",
@@ -123,21 +127,30 @@ def _panels(run, spectra: Waterfall, expected):
         yscale="log", xlim=(0.0, orders[-1]), ylim=(10.0 ** -(DECADES + 0.5) * highest, 2.0 * highest))
 
 
+def _labels(expected, teeth, apart):
+    """Labels of the orders of theory; empty for an order that is less than `apart` from a labelled one. The final drive comes first."""
+    labels, placed = dict.fromkeys(expected, ""), list[float]()
+    for name, order in sorted(expected.items(), key=lambda pair: not pair[0].startswith(FINAL)):
+        if all(abs(order - other) >= apart for other in placed):
+            labels[name] = name.partition(" ")[0] if name.startswith(FINAL) else f"{order / teeth:.0f} × {teeth:.0f}"
+            placed.append(order)
+    return list(labels.values())
+
+
 def _edges(centres):
     middles = 0.5 * (centres[1:] + centres[:-1])
     return np.concatenate([[2.0 * centres[0] - middles[0]], middles, [2.0 * centres[-1] - middles[-1]]])
 
 
-def _caption(run, up, spectra, expected):
+def _caption(up, spectra, expected):
     order, size = spectra.strongest(1, FLOOR)[0]
     nearest, theirs = min(expected.items(), key=lambda pair: abs(pair[1] - order))
     named = f" ({nearest})" if abs(order - theirs) <= spectra.resolution else ""
     at = int(np.argmin(np.abs(spectra.orders - order)))
     course = UM * spectra.amplitudes[:, at]
     k = int(np.argmax(course))
-    marks = "on top and red, multiples of the mesh order" + (
-        "" if not has_errors(run) else "; green, the teeth of the ring gear and turns of the pinion"
-        if any(name.startswith(PINION) for name in expected) else "; green, the teeth of the ring gear")
+    green = words.listed(meaning for prefix, meaning in MEANINGS.items() if any(name.startswith(prefix) for name in expected))
+    marks = f"on top and red, multiples of the mesh order{f'; green, {green}' if green else ''}"
     return (f"{len(spectra.speeds)} spectra (Hann) of {WINDOW} turns of the planet each, out of {words.number(up.turns)}; "
             f"lines are {words.number(spectra.resolution)} apart. The strongest line is order {words.number(order)}{named}, "
             f"{words.quantity(UM * size, 'µm', 3)} in the mean square over all speeds: from {words.number(course.min(), 3)} to "

@@ -9,12 +9,12 @@ from ..progress import part, silent
 from ..scene import Scene
 from ..values import FileName
 from ..writing import write_whole
-from . import energy, forces, gears, head, pattern, strength, traces, waterfall, worth
+from . import axle, energy, forces, gears, head, pattern, strength, traces, waterfall, worth
 from .blocks import Picture, Section, Table, Text
 from .simulated import Simulated
 
 # sections that need no further run, before and after those that do
-FIRST = (head.section, head.setup, gears.section, traces.key_figures, traces.section, forces.section, forces.transmission_error)
+FIRST = (head.section, head.setup, gears.section, axle.section, traces.key_figures, traces.section, forces.section, forces.transmission_error)
 LAST = (pattern.section, strength.section, energy.section)
 # fractions of the work at which pictures of the scene, the run-up, further pictures and the other effects begin
 PICTURES, RUN_UP, REST, EFFECTS = 0.05, 0.3, 0.5, 0.65

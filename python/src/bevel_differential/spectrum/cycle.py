@@ -10,21 +10,23 @@ load torques          = T/2 on each side         T torque of the ring gear; an o
 ```
 
 A torque-driven carrier has the command T and starts at v/r. Speed-driven sides have the speeds v/r ± (ω_left − ω_right)/2, and the
-planets' spin is free.
+planets' spin is free. With a final drive, speed and torque of the carrier become those of its port, times i and over i.
 
 In a turn to the left, the left wheel is the inner one, on the radius R − w/2. No wheel slips (Ackermann). The torque is positive if
 the engine drives forward, the speed is positive if the vehicle goes forward."""
 
 from collections.abc import Container, Mapping
 from math import nan, pi
+from typing import Any
 
 import numpy as np
 
 from ..csv_table import CsvTable, Text
+from ..drive_port import SPEED, TORQUE, drive_ratio, port_command, port_value
 from ..fmu import Fmu
 from ..values import DifferentialError, FileName, Quantity, Variable, suggestion
 from .damage import Event
-from .driven import LOADS, drives_of, missing, wanted
+from .driven import ALL_LOADS, drives_of, missing, wanted
 
 # quantities of the vehicle, with their SI units
 QUANTITIES = {name: Quantity(name, unit) for name, unit in {
@@ -45,9 +47,9 @@ LONGEST, SHORTEST = 0.01, 1e-4
 
 
 def read_cycle(file: FileName, fmu: Fmu, vehicle: Mapping[str, float], teeth: tuple[int, int],
-               drives: Mapping[str, int], given: Container[str] = ()) -> list[Event]:
+               drives: Mapping[str, Any], given: Container[str] = ()) -> list[Event]:
     """Events of the duty cycle in `file`. `vehicle`: quantities for all events, {name: number}, SI; `teeth` of planet and side gear;
-    `drives`: values of `driven.DRIVES` for events that do not set them; `given`: names of variables that the scene or the parameters
+    `drives`: values for `driven.drives_of` that events do not set; `given`: names of variables that the scene or the parameters
     set. Raises `DifferentialError` with file, line, column and value."""
     def known(name: str) -> Variable | Text:
         return OWN.get(name) or _variable(name, fmu, ("input", "parameter"), OWN)
@@ -69,13 +71,13 @@ def _event(table, line, row, fmu, vehicle, gears, given):
         known["speed_difference"] = 0.0
     try:
         driven = _driven(known, {**row, **history}, gears)
-        duration, distance = _length(table, line, row, known)
+        duration, distance = _length(table, line, row, known, gears[1])
     except DifferentialError as failure:
         if str(failure).startswith(str(table.file)):
             raise
         raise table.problem(line, text=str(failure)) from None
     known_elsewhere = {*OWN, *QUANTITIES, *row, *driven}
-    blank = [name for name in table.columns if name not in known_elsewhere and name not in LOADS.values()]
+    blank = [name for name in table.columns if name not in known_elsewhere and name not in ALL_LOADS]
     if blank:
         raise table.problem_at(line, blank[0], "write a value", "")
     for command, column in missing(driven, gears[1], given).items():
@@ -103,12 +105,12 @@ def _driven(vehicle, given, gears):
     return values
 
 
-def _length(table, line, row, known):
+def _length(table, line, row, known, drives):
     """Duration [s] and distance [m] of one occurrence."""
     for name in ("duration", "distance"):
         if name in row and row[name] <= 0.0:
             raise table.problem_at(line, name, "it must be more than 0, or empty", f"{row[name]:g}")
-    speed = np.abs(_speed(known, row))
+    speed = np.abs(_speed(known, row, drives))
     if "time" in known:
         if "duration" in row:
             raise table.problem_at(line, "duration", "leave it empty: the history has its own", f"{row['duration']:g}")
@@ -124,12 +126,13 @@ def _length(table, line, row, known):
     return float(row["distance"] / speed), row["distance"]
 
 
-def _speed(known, row):
+def _speed(known, row, drives):
     """Speed of the vehicle [m/s], NaN if not known."""
-    carrier = known.get("carrier.speed_command", row.get("carrier.speed_command"))
-    if "speed" in known or carrier is None or not known.keys() & {"wheel_radius", "tyre_circumference"}:
+    command = port_command(drives.__getitem__, SPEED)
+    port = known.get(command, row.get(command))
+    if "speed" in known or port is None or not known.keys() & {"wheel_radius", "tyre_circumference"}:
         return known.get("speed", nan)
-    return carrier * wheel_radius(known, "distance")
+    return port / drive_ratio(drives.__getitem__) * wheel_radius(known, "distance")
 
 
 def _history(table, line, row, fmu):
@@ -170,20 +173,20 @@ def _variable(name, fmu, causalities, own):
 
 
 def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
-              drives: Mapping[str, str]) -> dict[str, float | str | np.ndarray]:
+              drives: Mapping[str, Any]) -> dict[str, float | str | np.ndarray]:
     """Inputs and parameters of the FMU in SI. `vehicle`: quantities in SI, {name: number or array of shape (points,)}; `teeth`:
-    numbers of teeth of planet and side gear; `drives`: literals of `driven.DRIVES` by name. Raises `DifferentialError` if a quantity is
-    missing."""
+    numbers of teeth of planet and side gear; `drives`: see `driven.drives_of`. Raises `DifferentialError` if a quantity is missing."""
     found: dict[str, float | str | np.ndarray] = {}
     by_speed = [side for side in SIDES if drives[f"scene.{side}_drive"] == "speed"]
     if "torque" in vehicle:
         found.update({f"{side}.load_torque": vehicle["torque"] / 2.0 for side in SIDES if side not in by_speed})
         if drives["scene.carrier_drive"] == "torque":
-            found["carrier.torque_command"] = vehicle["torque"]
+            found[TORQUE] = vehicle["torque"]
     speed = vehicle["speed"] / wheel_radius(vehicle, "speed") if "speed" in vehicle else None
     # with two speed-driven sides the carrier's speed follows from both
     if speed is not None and len(by_speed) < len(SIDES):
-        found["carrier.speed_command"] = speed
+        # a torque-driven carrier only starts at this speed
+        found[SPEED] = speed if drives["scene.carrier_drive"] == "speed" else np.ravel(speed)[0].item()
     difference = _difference(vehicle)
     if by_speed and speed is not None:
         found.update({f"{side}.speed_command": speed + 0.5 * SIDES[side] * (0.0 if difference is None else difference)
@@ -194,7 +197,8 @@ def inputs_of(vehicle: Mapping[str, float | np.ndarray], teeth: tuple[int, int],
     elif difference is not None and not by_speed:
         found["spin.command"] = difference / 2.0 * teeth[1] / teeth[0]
         found[SPIN] = "imposed"
-    return found
+    port = drives.__getitem__
+    return {port_command(port, name): port_value(port, name, value) for name, value in found.items()}
 
 
 def wheel_radius(vehicle: Mapping[str, float | np.ndarray], needed_by: str) -> float | np.ndarray:

@@ -8,43 +8,48 @@ from collections.abc import Container, Iterable, Mapping
 from typing import Any
 
 from ..differential import Differential
+from ..drive_port import PARAMETERS, PORT, SPEED, TORQUE, port_command
 from ..fmu import Fmu
 from ..values import DifferentialError
 from .damage import Event
 
 # parameters for the drive of each shaft
 DRIVES = ("scene.carrier_drive", "scene.left_drive", "scene.right_drive")
-# load of each torque-driven shaft, and speed of each speed-driven shaft
-LOADS = dict(zip(DRIVES, ("carrier.torque_command", "left.load_torque", "right.load_torque")))
-SPEEDS = dict(zip(DRIVES, ("carrier.speed_command", "left.speed_command", "right.speed_command")))
+# load of each torque-driven shaft, and speed of each speed-driven shaft; with a final drive, those of the carrier act at its port
+LOADS = dict(zip(DRIVES, (TORQUE, "left.load_torque", "right.load_torque")))
+SPEEDS = dict(zip(DRIVES, (SPEED, "left.speed_command", "right.speed_command")))
+ALL_LOADS = {*LOADS.values(), PORT[TORQUE]}
 
 
-def drives_of(values: Mapping[str, Any], usual: Mapping[str, Any], fmu: Fmu) -> dict[str, str]:
-    """Literals of `DRIVES` for an event with these `values`, {name: literal}; `usual`: values for drives that it does not set."""
-    return {name: fmu.variable(name).written(fmu.variable(name).number(values.get(name, usual[name]))) for name in DRIVES}
+def drives_of(values: Mapping[str, Any], usual: Mapping[str, Any], fmu: Fmu) -> dict[str, Any]:
+    """Literals of `DRIVES` and numbers of `drive_port.PARAMETERS` for an event with these `values`, by name; `usual`: values that it does
+    not set."""
+    numbers = {name: fmu.variable(name).number(values.get(name, usual[name])) for name in (*DRIVES, *PARAMETERS)}
+    return numbers | {name: fmu.variable(name).written(numbers[name]) for name in DRIVES}
 
 
-def needed(drives: Mapping[str, str]) -> dict[str, str]:
+def needed(drives: Mapping[str, Any]) -> dict[str, str]:
     """Commands that take effect with these `drives`, and the column of a duty cycle from which each follows."""
     by_speed = [name for name in DRIVES[1:] if drives[name] == "speed"]
     found = {LOADS[name]: "torque" for name in DRIVES if drives[name] == "torque"}
     # with two speed-driven sides the carrier's speed follows from both
     speed_driven = [name for name in DRIVES if drives[name] == "speed" and (name in by_speed or len(by_speed) < 2)]
-    return found | {SPEEDS[name]: "speed" for name in speed_driven}
+    found |= {SPEEDS[name]: "speed" for name in speed_driven}
+    return {port_command(drives.__getitem__, command): column for command, column in found.items()}
 
 
-def missing(values: Container[str], drives: Mapping[str, str], given: Container[str]) -> dict[str, str]:
+def missing(values: Container[str], drives: Mapping[str, Any], given: Container[str]) -> dict[str, str]:
     """Commands in `needed` that are neither in `values` of an event nor `given` for all events."""
     return {command: column for command, column in needed(drives).items() if command not in values and command not in given}
 
 
 def wanted(command: str) -> str:
     """Advice on a missing command."""
-    what = "a load" if command in LOADS.values() else "a speed"
+    what = "a load" if command in ALL_LOADS else "a speed"
     return f"write a value, or set {command} in the scene or by --set; {what} that nobody gives is not taken from the start values"
 
 
-def check_commands(event: Event, drives: Mapping[str, str], given: Container[str]) -> None:
+def check_commands(event: Event, drives: Mapping[str, Any], given: Container[str]) -> None:
     """Refuses an event that lacks a command."""
     for command in missing({*event.values, *event.signals}, drives, given):
         raise DifferentialError(f"{command}: event {event.name!r} does not give it; {wanted(command)}")

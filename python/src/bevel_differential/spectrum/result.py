@@ -10,6 +10,7 @@ import numpy as np
 
 from ..curve import expanded
 from ..differential import Differential
+from ..drive_port import PARAMETERS
 from ..extras import needed
 from ..fmu import Fmu
 from ..records import write
@@ -233,7 +234,7 @@ def spectrum(cycle: str | Path | Sequence[Event], parameters: Mapping[str, Value
     with Differential({**values, "effects.strength": True}, fmu=fmu) as differential:
         # no event has the loads of this run, so its warnings do not matter
         with silenced():
-            facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES], stop=1e-3)
+            facts = differential.final([*Strength.PARAMETERS, *TEETH, PLANETS, *DRIVES, *PARAMETERS], stop=1e-3)
         teeth = int(facts[TEETH[0]]), int(facts[TEETH[1]])
         read = isinstance(cycle, (str, Path))
         events = read_cycle(cycle, differential.fmu, vehicle, teeth, facts, values) if read else list(cycle)
