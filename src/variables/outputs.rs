@@ -87,10 +87,14 @@ fn own() -> Vec<Row<OutputSource>> {
         "pinion.angle": RADIAN | DEG, Motion(|m, _| m.drive_angle[0]);
         /// Pinion speed, positive if it drives forward; without effects.final_drive, the speed of the carrier
         "pinion.speed": RAD_PER_S | DEG_PER_S, Motion(|m, _| m.drive_speed[0]);
+        /// Torque that the shaft delivers to the pinion; without effects.final_drive, the torque on the carrier
+        "pinion.torque": NEWTON_METRE, Forces(|f, _| f.pinion_torque);
         /// Angle of the body that the drive turns: the driven end of the propeller shaft, otherwise the pinion
         "propeller.angle": RADIAN | DEG, Motion(|m, _| m.drive_angle[1]);
         /// Speed of the body that the drive turns: the driven end of the propeller shaft, otherwise the pinion
         "propeller.speed": RAD_PER_S | DEG_PER_S, Motion(|m, _| m.drive_speed[1]);
+        /// Torque of the drive on this body
+        "propeller.torque": NEWTON_METRE, Forces(|f, _| f.port_torque);
         /// Side gear angle, including lash and deflection; 0 if assembled with teeth in mid-gap; for a wheel behind a
         /// half-shaft read {side}.wheel_angle
         "{side}.angle": RADIAN | DEG, Motion(|m, s| m.side_angle[s]);

@@ -170,10 +170,6 @@ pub struct Instant<'a> {
     pub shaft_torque: [f64; 2],
     /// Torque on the carrier from its drive [N·m].
     pub carrier_torque: f64,
-    /// Torque that the shaft delivers to the pinion [N·m].
-    pub pinion_torque: f64,
-    /// Torque of the drive at the port [N·m].
-    pub port_torque: f64,
     /// Torques of the clutches on the side gears, left and right [N·m].
     pub clutch_torque: [f64; 2],
 }

@@ -15,8 +15,7 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, Attached, BodyEffect, BodyMotion, Class, Declare, Effect, Heat, Reading, Setting, Slopes, StaticLoads,
-    readings,
+    Action, Attached, BodyEffect, BodyMotion, Class, Declare, Effect, Heat, Setting, Slopes, StaticLoads,
 };
 use crate::model::scene::{AttachedBody, Base, CARRIER, PROPELLER, Plan, Requests};
 use crate::numeric::{Dual, Scalar, cos, sin};
@@ -46,10 +45,6 @@ impl Declare for PropellerShaftSpec {
         description: "Heat of damping in the propeller shaft since the start",
         at_wheels: false,
     });
-    const READINGS: &'static [Reading] = readings! {
-        /// Torque of the drive on the propeller shaft; without effects.propeller_shaft, the torque of the drive
-        "propeller.torque": NEWTON_METRE, Always(|_, at| at.port_torque);
-    };
     const BODIES: &'static [Attached] = &[Attached {
         name: "the driven end of the propeller shaft",
         of: "propeller",

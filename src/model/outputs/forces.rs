@@ -39,6 +39,10 @@ pub struct Forces {
     pub drive_torque: f64,
     /// Torque on the carrier [N·m]: of the drive, or of the ring gear that the drive turns.
     pub carrier_torque: f64,
+    /// Torque that the shaft delivers to the pinion [N·m].
+    pub pinion_torque: f64,
+    /// Torque of the drive at the port [N·m].
+    pub port_torque: f64,
     /// Torque that the half-shafts deliver to the wheels [N·m].
     pub shaft_torque: [f64; 2],
     /// Torque of all meshes on a side gear, referred to its outer pitch circle [N].
@@ -189,6 +193,7 @@ fn read_effects(
     let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
     let (ratio, effects) = (plan.drive_ratio.unwrap_or(1.0), &model.body_effects().forces);
     let on_pinion = effects.iter().find_map(|effect| effect.shaft_torque(&motion)).unwrap_or(out.drive_torque);
+    (out.pinion_torque, out.port_torque) = (on_pinion / ratio, out.drive_torque / ratio);
     let driven = on_pinion - held - plan.on_carrier * out.carrier_acceleration;
     out.carrier_torque = effects.iter().fold(driven, |torque, effect| effect.carrier_torque(&motion, torque));
     let at = Instant {
@@ -197,8 +202,6 @@ fn read_effects(
         motion: &motion,
         shaft_torque: out.shaft_torque,
         carrier_torque: out.carrier_torque,
-        pinion_torque: on_pinion / ratio,
-        port_torque: out.drive_torque / ratio,
         // the clutch drives its side gear forward against the friction of their slip
         clutch_torque: clutches.map(|torque| -torque),
     };

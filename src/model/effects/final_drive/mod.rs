@@ -139,8 +139,6 @@ impl Declare for FinalDriveSpec {
         at_wheels: false,
     });
     const READINGS: &'static [Reading] = readings! {
-        /// Torque that the shaft delivers to the pinion; without effects.final_drive, the torque on the carrier
-        "pinion.torque": NEWTON_METRE, Always(|_, at| at.pinion_torque);
         /// Force of the pinion on the ring gear along its circumference, positive if it drives forward; 0 without
         /// effects.final_drive
         "ring_gear.tangential_force": NEWTON, Always(|drive, at| drive.reaction(at).tangential);
