@@ -196,7 +196,7 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
     const MAY_ACT_UNSWITCHED: bool = false;
     /// True if it is friction that differs with the sense of rolling, and so biases the torque.
     const BIASES_TORQUE: bool = false;
-    /// Name of its limit of p·v, if it has one.
+    /// Name of its limit of p·v, if it has one. Its first reading that changes at any instant is then the p·v.
     const PV_LIMIT: Option<&'static str> = None;
     /// True if it records steps.
     const RECORDS_STEPS: bool = false;

@@ -73,6 +73,8 @@ impl Declare for ClutchesSpec {
     const PV_LIMIT: Option<&'static str> = Some("clutches.pv_limit");
     const HEAT: Option<Heat> = Some(COMMANDED_HEAT);
     const READINGS: &'static [Reading] = readings! {
+        /// Pressure times sliding speed of the clutches on command; larger of both
+        "pv.clutch_command": W_PER_M2 | W_PER_MM2, Always;
         /// Torque of the left clutch on its side gear, positive if it drives forward
         "left.clutch_torque": NEWTON_METRE, Always(|_, at| at.clutch_torque[0]);
         /// Torque of the right clutch on its side gear, positive if it drives forward
@@ -83,8 +85,6 @@ impl Declare for ClutchesSpec {
         "right.clutch_slip": RAD_PER_S | RPM, Always(|clutches, at| clutches.slip(1, at));
         /// Torque of the gearing of both clutches on the housing, positive if it would turn it forward
         "clutches.housing_torque": NEWTON_METRE, Always(|clutches, at| clutches.on_housing(at));
-        /// Pressure times sliding speed of the clutches on command; larger of both
-        "pv.clutch_command": W_PER_M2 | W_PER_MM2, Always;
     };
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.clutch_command", 0.1), ("right.clutch_command", 0.1)];
 
