@@ -30,6 +30,8 @@ PARKING_STEPS = {1e-2: 0.3, 0.1: 0.3, 1.0: 0.4}
 SHORT = 0.1
 # shares of speed-driven carriers, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
 BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
+# share of drives with clutches on command, and the ratios of their shafts: limited slip, superposition, brake of a side gear, blocking
+CLUTCHES, CLUTCH_RATIOS = 0.2, [(1.0, 1.0), (1.125, 0.875), (0.0, 0.0), (1.15, 1.1), (0.9, 1.0)]
 # shortest hold that is checked [s]
 SHORTEST_HOLD = 0.2
 # variables that change their sign in a mirrored drive
@@ -78,8 +80,27 @@ def drive(seed, index, levels):
         "start": start | beginning(random, course, by_speed, method), "inputs": inputs(course, by_speed),
         # inputs that are held through a step may be one step late
         "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
-    made = readable(at_port(made))
+    # drawn separately, so that all other values are unchanged
+    clutches, commands = commanded(np.random.default_rng([seed, index, 1]), driven, made["stop"])
+    made = readable(at_port(made | {"start": made["start"] | clutches, "inputs": made["inputs"] | commands}))
     return image(made) if mirrored else made
+
+
+def commanded(random, vehicle, stop):
+    """Start values and inputs of clutches on command; none in most drives. Commands ramp, jump and hold."""
+    if random.random() > CLUTCHES:
+        return {}, {}
+    left, right = CLUTCH_RATIOS[int(random.integers(len(CLUTCH_RATIOS)))]
+    values = {"effects.clutches": True, "clutches.torque": vehicle.peak * random.uniform(0.05, 0.5), "clutches.left_ratio": left,
+              "clutches.right_ratio": right, "clutches.static_ratio": random.uniform(1.0, 1.3), "clutches.stribeck_speed": 0.1}
+    commands = {}
+    for side in SIDES:
+        at = np.sort(np.append(0.0, random.uniform(0.0, stop, 4)))
+        to = np.where(random.random(5) < 0.4, 0.0, random.random(5))
+        # two points at one time are a jump
+        at[3] = at[2]
+        commands[f"{side}.clutch_command"] = [[float(time), float(value)] for time, value in zip(at, to)]
+    return values, commands
 
 
 def chosen(random, shares):
