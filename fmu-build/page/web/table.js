@@ -83,6 +83,10 @@ export function readable(value, digits = 5) {
 // Name of a variable as words.
 export const words = (name) => name.replaceAll("]", "").replaceAll(/[[._]/g, " ");
 
+// Force [N] for the texts of the picture: in kN from 1 kN on.
+export const forceText = (force, digits = 3) => (
+  Math.abs(force) < 1e3 ? `${readable(force, digits)} N` : `${readable(force / 1e3, digits)} kN`);
+
 // Unit for readers.
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
