@@ -192,8 +192,10 @@ export class Differential {
       azimuth: (i) => assembly.azimuth(i), metal, seat: this.drive?.seat,
     });
     this.arrows = this.planets.map(() => SIDES.map(() => new Arrow()));
+    this.driveArrow = new Arrow();
     this.glow.width.value = 0.11 * this.reach;
     this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat(), this.contactLines);
+    if (this.drive) this.drive.group.add(this.driveArrow);
     if (this.drive) this.group.add(this.drive.group);
     this.still.add(this.housing.shell);
     this.housing.show(this.withCase ?? true);
@@ -213,13 +215,18 @@ export class Differential {
     move(this.right, assembly.right(angle("right")));
     this.planets.forEach((planet, i) => move(planet, assembly.planet(i, angle("carrier"), read(`planet[${i + 1}].spin_angle`))));
     this.housing.turn(angle("carrier"), angle("left") - read("left.twist"), angle("right") - read("right.twist"));
-    this.drive?.turn({ carrier: angle("carrier"), pinion: angle("pinion"), propeller: angle("propeller") });
+    if (this.drive) {
+      this.drive.turn({ carrier: angle("carrier"), pinion: angle("pinion"), propeller: angle("propeller") });
+      const force = this.drive.place.force(read);
+      const share = largest > 0 ? force.length() / largest : 0;
+      this.load(this.driveArrow, this.drive.place.pitchPoint, force.normalize(), share);
+    }
     const lights = [];
     this.planets.forEach((_, i) => SIDES.forEach(([name, side], k) => {
       const share = largest > 0 ? read(`planet[${i + 1}].${name}_normal_force`) / largest : 0;
       const sense = read(`${name}.tangential_force`) < 0 ? -1 : 1;
       const mesh = assembly.mesh(i, side, angle("carrier"), sense);
-      this.load(this.arrows[i][k], mesh, share);
+      this.load(this.arrows[i][k], mesh.line.clone().multiplyScalar(assembly.cones.outer), mesh.force, share);
       if (i > 0 || side < 0 || !hasPairs(record)) lights.push({ line: mesh.line, ...colours.mesh(share) });
     }));
     const touching = pairs((name) => record.point(name))
@@ -266,10 +273,11 @@ export class Differential {
     if (this.drive) this.drive.group.visible = visible;
   }
 
-  load(pointer, { line, force }, share) {
+  // Draws an arrow at a position, as long as its share of the largest force.
+  load(pointer, position, force, share) {
     const length = this.arrowLength * this.reach * share;
     pointer.visible = share > 0.01;
-    pointer.position.copy(line).multiplyScalar(this.assembly.cones.outer);
+    pointer.position.copy(position);
     pointer.draw(force, Math.max(length, 0.01), 0.045 * this.arrowLength * this.reach);
   }
 }

@@ -1,5 +1,5 @@
 // Parts of the final drive in the scene: ring gear, pinion, and the propeller shaft in front of it.
-import { BoxGeometry, CylinderGeometry, Group, Mesh } from "three";
+import { BoxGeometry, CylinderGeometry, Group, Mesh, Vector3 } from "three";
 import { pair, Place } from "./final_drive.js";
 import { coupling, MARK, move, placed } from "./housing.js";
 import { PropellerShaft } from "./propeller.js";
@@ -87,11 +87,12 @@ export class FinalDrive {
 
   // Positions of names next to the parts.
   get labels() {
-    const { pinionCentre, ringCentre, radial, upward } = this.place;
-    const { ring, pinion } = this.pair;
+    const { pinionCentre, ringCentre, outward, radial } = this.place;
+    const { pinion } = this.pair;
+    const beside = 0.85 * this.outer;
     return {
-      pinion: pinionCentre.clone().addScaledVector(upward, 1.7 * pinion.radius),
-      ring: ringCentre.clone().addScaledVector(radial, -1.25 * ring.radius),
+      pinion: pinionCentre.clone().addScaledVector(radial, 1.6 * pinion.radius).addScaledVector(outward, -2.6 * pinion.radius),
+      ring: ringCentre.clone().addScaledVector(radial, -beside).add(new Vector3(0, beside, 0)),
     };
   }
 

@@ -22,12 +22,21 @@ const FACE = { module: 7, cone: 0.3, diameter: 0.6 }; // largest face width per 
 const SHIFT = 0.43; // profile shift of the pinion if the ratio is large
 const PRESSURE = [0.2, 0.5]; // range of the drawn transverse pressure angle
 
+const FORCES = ["tangential", "axial", "radial"].map((direction) => `ring_gear.${direction}_force`);
+
 export const hasFinalDrive = (setup) => setup.value(FINAL_DRIVE);
 
 // Outputs for the picture of a set-up.
 export function driveOutputs(setup) {
   if (!hasFinalDrive(setup)) return [];
-  return ["pinion.angle", "pinion.speed", ...(setup.value(PROPELLER_SHAFT) ? ["propeller.angle"] : [])];
+  return ["pinion.angle", "pinion.speed", ...FORCES, ...(setup.value(PROPELLER_SHAFT) ? ["propeller.angle"] : [])];
+}
+
+// Largest force on the ring gear in a record [N]; 0 if the record does not contain it.
+export function largestRingForce(record) {
+  if (!FORCES.every((name) => record.has(name))) return 0;
+  const [along, ...others] = FORCES.map((name) => record.column(name));
+  return along.reduce((most, value, i) => Math.max(most, Math.hypot(value, ...others.map((column) => column[i]))), 0);
 }
 
 // Values that determine the picture, by their names without the group. Null without a final drive, and if a value is out of
@@ -76,15 +85,23 @@ export class Place {
     this.side = drive.ring_side === LEFT ? 1 : -1;
     this.outward = new Vector3(this.side, 0, 0);
     this.radial = new Vector3(0, Math.sin(drive.azimuth), Math.cos(drive.azimuth));
-    this.upward = this.radial.clone().cross(new Vector3(1, 0, 0)); // opposite to the motion of the teeth in forward drive
+    this.motion = new Vector3(1, 0, 0).cross(this.radial); // direction of the teeth in forward drive
+    this.above = this.motion.clone().multiplyScalar(this.motion.y > 0 ? 1 : -1); // the same line, upward
     const along = (outward, radial) => this.outward.clone().multiplyScalar(outward).addScaledVector(this.radial, radial);
     this.ringCentre = new Vector3(this.side * MM * drive.ring_offset, 0, 0);
     this.pitchPoint = this.ringCentre.clone().addScaledVector(this.radial, ring.radius);
     // axis of the pinion toward its shaft, and direction from its axis to the mesh
     this.axis = along(Math.cos(between), Math.sin(between));
     this.toMesh = along(Math.sin(between), -Math.cos(between));
+    this.line = along(Math.cos(cone), Math.sin(cone)); // pitch line toward the heel
     this.pinionCentre = this.pitchPoint.clone().addScaledVector(this.toMesh, -pinion.radius);
     this.half = Math.PI / ring.teeth;
+  }
+
+  // Force of the pinion on the ring gear [N], from the outputs of the unit.
+  force(read) {
+    const [tangential, axial, radial] = FORCES.map(read);
+    return this.motion.clone().multiplyScalar(tangential).addScaledVector(this.outward, axial).addScaledVector(this.radial, -radial);
   }
 
   // The ring gear turns with the carrier. A gap is at the pitch point at the angle 0.

@@ -7,6 +7,7 @@ import { paint } from "./steel.js";
 const WALL = 5; // mm
 const AIR = 3; // mm between moving parts and the case
 const ROUND = 48;
+export const COUPLING = 0.4; // thickness of a coupling per radius of its shaft
 const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
 export const MARK = "#e0a030"; // colour of marks that make a rotation visible
 
@@ -184,7 +185,7 @@ export function coupling(place, radius, own, metal) {
   // discs are along x
   group.rotation.y = -Math.PI / 2;
   group.position.z = place;
-  group.add(disc(1.75 * radius, 0.4 * radius, 0, own), ...bolts(4, 0.22 * radius, 0.9 * radius, 6, 0, 1.35 * radius, metal));
+  group.add(disc(1.75 * radius, COUPLING * radius, 0, own), ...bolts(4, 0.22 * radius, 0.9 * radius, 6, 0, 1.35 * radius, metal));
   return group;
 }
 

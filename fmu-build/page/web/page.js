@@ -2,7 +2,7 @@
 import { largestPower, Legend, MODES, scaled } from "./colouring.js";
 import { hasPairs, hasTeeth, largestPressure } from "./contact.js";
 import { Controls } from "./controls.js";
-import { hasFinalDrive } from "./final_drive.js";
+import { hasFinalDrive, largestRingForce } from "./final_drive.js";
 import { Flank } from "./flank.js";
 import { $, Notice, Walk } from "./frame.js";
 import { bind } from "./operation.js";
@@ -149,10 +149,16 @@ class Page {
     this.mostPressure = hasPairs(this.record, true) ? largestPressure(this.record, this.setup) : 0;
     if (this.setup.colour === "heat") this.mostHeat = largestPower(this.record, this.table);
     $("scale").lastElementChild.textContent = this.most > 0
-      ? `force on a side gear, longest ${forceText(this.most)}` : "no force on the teeth";
+      ? `force on a side gear, longest ${forceText(this.most)}${this.onRing()}` : "no force on the teeth";
     this.tooth = toothTime(this.record, (name) => this.setup.value(name));
     this.player.limit(this.tooth);
     this.moved = true;
+  }
+
+  // Words about the force on the ring gear, if there is one.
+  onRing() {
+    const largest = largestRingForce(this.record);
+    return largest > 0 ? `; ring gear ${forceText(largest)}` : "";
   }
 
   trapped(text) {

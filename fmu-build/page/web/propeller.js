@@ -4,7 +4,7 @@
 // tube the angle θ₂ with tan θ₂ = cos(joint angle) tan θ₁. Lengths are in mm, angles in rad.
 import { BoxGeometry, CylinderGeometry, Group, Mesh, Quaternion, Vector3 } from "three";
 import { frame } from "./final_drive.js";
-import { coupling, MARK, move, placed } from "./housing.js";
+import { COUPLING, coupling, MARK, move, placed } from "./housing.js";
 import { paint } from "./steel.js";
 
 const OWN = "#767d88";
@@ -21,7 +21,8 @@ export class PropellerShaft {
   constructor(place, start, radius, drive, metal) {
     const size = { radius, length: LONG.tube * radius, fork: LONG.fork * radius, own: metal(OWN), metal };
     Object.assign(this, { place, axis: place.axis, own: size.own });
-    this.joint = start.clone().addScaledVector(this.axis, size.length + size.fork);
+    // the couplings of pinion and tube touch
+    this.joint = start.clone().addScaledVector(this.axis, COUPLING * radius + size.length + size.fork);
     // the driven end is inclined upward in the plane of the joint
     const across = this.axis.clone().cross(Math.abs(this.axis.y) < 0.9 ? Y : Z).normalize();
     this.driven = this.axis.clone().applyAxisAngle(across, drive.joint_angle);

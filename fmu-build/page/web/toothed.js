@@ -13,9 +13,8 @@ const FREE = 0.02; // fraction of half a tooth that is removed from each side, s
 const DEEPEST = 0.6; // maximum dedendum per radius of the virtual gear
 const SHARPEST = 0.05; // minimum thickness of a tooth per its pitch
 const FLATTEST = 1e-3; // minimum cosine of a pitch angle: a crown gear has no virtual gear
-const FINE = { flank: 6, strip: 8 }; // facets of a gear with few teeth
-const COARSE = { flank: 2, strip: 2 };
-const MOST = 3e4; // number of facets above which teeth are drawn coarser
+const FACETS = { flank: 6, strip: 5 }; // maximum number of facets of a flank from root to tip and along the tooth
+const MOST = 300; // number of teeth of which each flank has one facet; gears with fewer teeth are finer
 
 const involute = (angle) => Math.tan(angle) - angle;
 
@@ -73,10 +72,9 @@ export class Toothed {
 
   // Surface as a geometry with sharp edges.
   surface(before, after) {
-    const isFine = this.teeth * 2 * (FINE.flank + 1) * FINE.strip < MOST;
-    const { flank, strip } = isFine ? FINE : COARSE;
-    const profile = this.profile(flank);
-    const strips = this.twist === 0 ? 1 : strip;
+    const fitting = (most) => clamp(Math.round(MOST / this.teeth), 1, most);
+    const profile = this.profile(fitting(FACETS.flank));
+    const strips = this.twist === 0 ? 1 : fitting(FACETS.strip);
     const sections = Array.from({ length: strips + 1 }, (_, k) => this.width * (k / strips - 0.5));
     // a loop has one point for each point of the profile
     const loop = (turn, place) => profile.map(({ angle, height }) => {

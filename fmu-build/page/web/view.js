@@ -20,7 +20,7 @@ export const PRESETS = {
   mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35, alone: true },
   side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7, around: [1, 0.12, -0.1], far: 4.4 },
   flank: { from: [0.5, -0.7, 0.6], at: 0.8, distance: 1.8, hold: true, shell: false, arrows: 0, through: true, alone: true },
-  drive: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7, mesh: [0.55, -0.8, 0.65], far: 2.4 },
+  drive: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7, mesh: [1, 0.1, 0.6], far: 2.6 },
 };
 
 export class View {
@@ -96,8 +96,8 @@ export class View {
       return { target: line.clone().multiplyScalar(at * reach), direction: along([line, forward, apart], from), size: distance * reach };
     }
     if (drive && mesh) {
-      const { radial, outward, upward, pitchPoint, ringCentre } = drive.place;
-      return { target: pitchPoint, direction: along([radial, outward, upward], mesh), size: far * pitchPoint.distanceTo(ringCentre) };
+      const { line, toMesh, above, pitchPoint, ringCentre } = drive.place;
+      return { target: pitchPoint, direction: along([line, toMesh, above], mesh), size: far * pitchPoint.distanceTo(ringCentre) };
     }
     if (drive && around) {
       const [target, size] = drive.bounds;
