@@ -13,8 +13,10 @@ const COARSE = 5e4; // maximum number of pixels if the processor draws
 // Seen from the rear of a vehicle, with +x, its left, at the left.
 // `from` is the position of the eye in axes of the scene. With `at`, it is in axes of the left mesh of planet 1: along
 // its pitch line, forward, away from the planet. `at` is the target along the pitch line; lengths are relative to the
-// reach of the gears. With a final drive, `around` replaces `from`; lengths are then relative to the sphere around its gears.
-// Views of one mesh are `alone`, because the ring gear would cover it.
+// reach of the gears.
+// With a final drive, `around` replaces `from`, and the distance is `far` times the radius of the sphere around its gears.
+// With `mesh`, the eye is in axes of its mesh: along the pitch line, from the pinion to the ring gear, upward. The distance
+// is then `far` times the radius of the ring gear. Views of one mesh are `alone`, because the ring gear would cover it.
 export const PRESETS = {
   whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7, around: [-0.45, 0.8, -1], far: 4 },
   mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35, alone: true },
@@ -100,11 +102,11 @@ export class View {
       return { target: pitchPoint, direction: along([line, toMesh, above], mesh), size: far * pitchPoint.distanceTo(ringCentre) };
     }
     if (drive && around) {
-      const [target, size] = drive.bounds;
+      const [target, radius] = drive.bounds;
       const [x, y, z] = around;
       // the view of the whole is from the side of the planets, so that the ring gear does not cover them
       const beside = this.preset === "whole" ? x * drive.place.side : x;
-      return { target, direction: new Vector3(beside, y, z).normalize(), size: far * size };
+      return { target, direction: new Vector3(beside, y, z).normalize(), size: far * Math.max(radius, 1.5 * reach) };
     }
     return { target: new Vector3(), direction: new Vector3(...from).normalize(), size: distance * reach };
   }
