@@ -73,7 +73,9 @@ export function pair(drive) {
     ratio, module, cone,
     ring: { ...common, teeth: ringTeeth, radius, cone, shift: -shift, twist },
     // the pinion has the opposite hand, and its teeth meet the gaps at all cone distances
-    pinion: { ...common, teeth: pinionTeeth, radius: radius / ratio, cone: Math.asin(Math.min(sine / ratio, 1)), shift, twist: -ratio * twist },
+    pinion: {
+      ...common, teeth: pinionTeeth, radius: radius / ratio, cone: Math.asin(Math.min(sine / ratio, 1)), shift, twist: -ratio * twist,
+    },
   };
 }
 

@@ -18,7 +18,7 @@ const MOST = 300; // number of teeth of which each flank has one facet; gears wi
 
 const involute = (angle) => Math.tan(angle) - angle;
 
-// A gear: numbers of its pair and its own ones.
+// A gear, made of these numbers:
 //   teeth, radius  number of teeth, mean pitch radius
 //   cone           pitch angle, 0 for a cylinder
 //   width          face width along the pitch line
@@ -26,7 +26,6 @@ const involute = (angle) => Math.tan(angle) - angle;
 //   shift          profile shift per normal module
 //   pressureAngle  transverse pressure angle
 //   twist          angle by which a tooth turns about z per mm along the pitch line
-// `before` and `after` are outlines [[radius, z]] of the body from its start to the toe and from the heel to its end.
 export class Toothed {
   constructor(gear) {
     Object.assign(this, gear);
@@ -67,10 +66,12 @@ export class Toothed {
     const right = heights.map((height) => ({ angle: -this.halfAngle(height), height }));
     const left = right.map(({ angle, height }) => ({ angle: -angle, height })).reverse();
     const tooth = [...right, ...left];
-    return Array.from({ length: this.teeth }, (_, k) => tooth.map(({ angle, height }) => ({ angle: angle + k * this.pitch, height }))).flat();
+    const turned = (k) => tooth.map(({ angle, height }) => ({ angle: angle + k * this.pitch, height }));
+    return Array.from({ length: this.teeth }, (_, k) => turned(k)).flat();
   }
 
-  // Surface as a geometry with sharp edges.
+  // Surface as a geometry with sharp edges. `before` and `after` are outlines [[radius, z]] of the body: from its start to the
+  // toe, and from the heel to its end.
   surface(before, after) {
     const fitting = (most) => clamp(Math.round(MOST / this.teeth), 1, most);
     const profile = this.profile(fitting(FACETS.flank));
