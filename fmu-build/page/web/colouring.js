@@ -23,6 +23,7 @@ const PLACES = {
   "heat.thrust": ["washers", "washers and pins"], "heat.clutch": ["clutches", "clutches and lock"],
   "heat.half_shaft": ["shafts", "half-shafts"], "heat.support": ["pins", "pins and case"],
   "heat.drag": ["case", "bearings and oil"], "heat.brake": ["brakes", "wheel brakes"],
+  "heat.clutch_command": ["clutches", "clutches on command"],
   "heat.final_drive": ["drive", "final drive"], "heat.propeller_shaft": ["propeller", "propeller shaft"],
 };
 const FAINT = 1e-3; // W: lower powers are not shown
