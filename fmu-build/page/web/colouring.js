@@ -1,9 +1,8 @@
 // Meaning of the picture's colours: load, stress or heat, with a common colour scale and a legend.
 import { Color } from "three";
-import { FORCE } from "./contact.js";
 import { element } from "./frame.js";
 import { heats, planetNames } from "./record.js";
-import { clamp, grouped, readable } from "./table.js";
+import { clamp, forceText, grouped, readable } from "./table.js";
 
 // from dark blue through green to red; in greyscale the order is preserved, except for the last step
 const STOPS = ["#2b4f9e", "#2a8fb0", "#3fae6b", "#d9c431", "#ee7b22", "#d3202a"].map((colour) => new Color(colour));
@@ -17,12 +16,15 @@ const ROOTS = { planet: "stress.root_planet_max", side: "stress.root_side_max" }
 const RATED = "stress.contact_rated";
 const SAFETY = ["safety.root_min", "safety.flank_min"];
 
-// Heats with a location in the picture. `meshes` are the teeth, the other names are parts of the housing.
+// Heats with a location in the picture. `meshes` are the teeth, the other names are parts of the housing or of the final
+// drive.
 const PLACES = {
   "heat.contact": ["meshes", "damping of teeth"], "heat.tooth_friction": ["meshes", "friction of teeth"],
   "heat.thrust": ["washers", "washers and pins"], "heat.clutch": ["clutches", "clutches and lock"],
   "heat.half_shaft": ["shafts", "half-shafts"], "heat.support": ["pins", "pins and case"],
   "heat.drag": ["case", "bearings and oil"], "heat.brake": ["brakes", "wheel brakes"],
+  "heat.clutch_command": ["clutches", "clutches on command"],
+  "heat.final_drive": ["drive", "final drive"], "heat.propeller_shaft": ["propeller", "propeller shaft"],
 };
 const FAINT = 1e-3; // W: lower powers are not shown
 
@@ -31,7 +33,7 @@ const FAINT = 1e-3; // W: lower powers are not shown
 //   mesh(share)  light of a mesh with this share of the largest force: {share, colour}, share 0 for none
 //   pair(pair)   light of a tooth pair of planet 1 with the left side gear
 //   planet, side colours of the gears, if they have any
-//   parts        colours of washers, clutches, pins, shafts, case and brakes by name
+//   parts        colours of washers, clutches, pins, shafts, case, brakes, final drive and propeller shaft by name
 //   isGrey       true if gears without a colour are grey
 //   legend       {lines: [{text, colour}], scale: {least, most} or none, off: {text, name} or none}
 export const MODES = {
@@ -59,10 +61,10 @@ export const shade = (share) => palette[Math.round(255 * within(share))];
 export const gradient = () => `linear-gradient(to right, ${STOPS.map(css).join(", ")})`;
 
 // Meshes light up according to their force.
-function byLoad({ setup, most, hasPairs }) {
+function byLoad({ most, hasPairs }) {
   const what = hasPairs ? "each pair of planet 1 at the left by its own force" : "each mesh by its force";
   const line = most > 0
-    ? { text: `lit teeth: ${what}, brightest at ${setup.table.shown(FORCE, most, 3)}`, colour: LIGHT }
+    ? { text: `lit teeth: ${what}, brightest at ${forceText(most)}`, colour: LIGHT }
     : { text: "no force on the teeth" };
   return {
     mesh: (share) => ({ share, colour: LIGHT }),

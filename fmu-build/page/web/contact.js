@@ -3,7 +3,6 @@
 import { clamp } from "./table.js";
 
 export const CONTACT = "scene.gear_contact";
-export const FORCE = "planet[1].left_normal_force"; // on all pairs
 const TEETH = ["tooth", "solid"]; // literals of the gear contact with teeth
 const MOST = 3; // pairs
 const at = (k, part) => `mesh.pair[${k}].${part}`;

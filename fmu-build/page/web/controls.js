@@ -4,7 +4,7 @@ import { isThere } from "./record.js";
 import { inUnit, range, readable, readValue, unitText, words } from "./table.js";
 
 const EFFECTS = "effects";
-const FIRST = ["effects", "carrier", "left", "right", "planet", "lock", "geometry"];
+const FIRST = ["effects", "carrier", "pinion", "left", "right", "planet", "lock", "geometry"];
 
 export class Controls {
   // `changed()` is called after a value of the set-up was changed.

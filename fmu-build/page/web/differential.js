@@ -1,9 +1,11 @@
-// The differential in the scene: gears from the library's surfaces at their positions, arrows, and light at the meshes.
+// The differential in the scene: gears from the library's surfaces at their positions, the final drive, arrows, and light at
+// the meshes.
 import {
   BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3,
 } from "three";
 import { hasPairs, pairs } from "./contact.js";
-import { creased, Housing } from "./housing.js";
+import { FinalDrive } from "./drive_parts.js";
+import { creased, Housing, move, placed } from "./housing.js";
 import { Glow, paint } from "./steel.js";
 import { clamp } from "./table.js";
 
@@ -167,10 +169,12 @@ export class Differential {
     this.group.add(fixed(new BufferGeometry(), this.side), new Arrow());
   }
 
-  // Replaces the gears: surfaces of planet and side gear, and the geometry that determines their positions.
+  // Replaces the gears: surfaces of planet and side gear, and the geometry that determines their positions. Its `drive` is
+  // the final drive, or null.
   build([planet, side], geometry) {
     for (const gear of this.gears ?? []) gear.geometry.dispose();
-    for (const group of [...(this.housing?.groups ?? []), ...(this.arrows ?? []).flat()]) group.traverse(dispose);
+    const before = [...(this.housing?.groups ?? []), ...(this.arrows ?? []).flat(), this.drive?.group ?? []].flat();
+    for (const group of before) group.traverse(dispose);
     this.group.clear();
     this.still.clear();
     const assembly = new Assembly({ ...geometry, planet: planet.cones });
@@ -181,15 +185,21 @@ export class Differential {
     this.right = fixed(sideShape, this.side);
     this.planets = Array.from({ length: assembly.planets }, () => fixed(planetShape, this.planet));
     this.gears = [this.left, this.right, ...this.planets];
+    const metal = (colour, roughness) => this.glow.material(colour, roughness);
+    this.drive = geometry.drive ? new FinalDrive(geometry.drive, metal) : null;
     this.housing = new Housing({
       reach: this.reach, back: highest(side), planetBack: highest(planet), planets: assembly.planets,
-      azimuth: (i) => assembly.azimuth(i), metal: (colour, roughness) => this.glow.material(colour, roughness),
+      azimuth: (i) => assembly.azimuth(i), metal, seat: this.drive?.seat,
     });
     this.arrows = this.planets.map(() => SIDES.map(() => new Arrow()));
+    this.driveArrow = new Arrow();
     this.glow.width.value = 0.11 * this.reach;
     this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat(), this.contactLines);
+    if (this.drive) this.drive.group.add(this.driveArrow);
+    if (this.drive) this.group.add(this.drive.group);
     this.still.add(this.housing.shell);
     this.housing.show(this.withCase ?? true);
+    this.showDrive(this.withDrive ?? true);
     this.housing.showLeft(!this.isClear);
   }
 
@@ -201,16 +211,22 @@ export class Differential {
     const { assembly } = this;
     const read = (name) => record.value(name);
     const angle = (name) => read(`${name}.angle`);
-    place(this.left, assembly.left(angle("left")));
-    place(this.right, assembly.right(angle("right")));
-    this.planets.forEach((planet, i) => place(planet, assembly.planet(i, angle("carrier"), read(`planet[${i + 1}].spin_angle`))));
+    move(this.left, assembly.left(angle("left")));
+    move(this.right, assembly.right(angle("right")));
+    this.planets.forEach((planet, i) => move(planet, assembly.planet(i, angle("carrier"), read(`planet[${i + 1}].spin_angle`))));
     this.housing.turn(angle("carrier"), angle("left") - read("left.twist"), angle("right") - read("right.twist"));
+    if (this.drive) {
+      this.drive.turn({ carrier: angle("carrier"), pinion: angle("pinion"), propeller: angle("propeller") });
+      const force = this.drive.place.force(read);
+      const share = largest > 0 ? force.length() / largest : 0;
+      this.load(this.driveArrow, this.drive.place.pitchPoint, force.normalize(), share);
+    }
     const lights = [];
     this.planets.forEach((_, i) => SIDES.forEach(([name, side], k) => {
       const share = largest > 0 ? read(`planet[${i + 1}].${name}_normal_force`) / largest : 0;
       const sense = read(`${name}.tangential_force`) < 0 ? -1 : 1;
       const mesh = assembly.mesh(i, side, angle("carrier"), sense);
-      this.load(this.arrows[i][k], mesh, share);
+      this.load(this.arrows[i][k], mesh.line.clone().multiplyScalar(assembly.cones.outer), mesh.force, share);
       if (i > 0 || side < 0 || !hasPairs(record)) lights.push({ line: mesh.line, ...colours.mesh(share) });
     }));
     const touching = pairs((name) => record.point(name))
@@ -235,6 +251,7 @@ export class Differential {
     paint(this.planet, isGrey ? OWN.grey : OWN.planet, planet);
     for (const material of [this.side, this.clear]) paint(material, isGrey ? OWN.grey : OWN.side, side);
     this.housing.paint(parts);
+    this.drive?.paint(parts, isGrey);
   }
 
   // Shows the flanks of the planets through the left side gear.
@@ -250,24 +267,22 @@ export class Differential {
     this.housing?.show(visible);
   }
 
-  load(pointer, { line, force }, share) {
+  // Shows or hides the final drive, which would cover the gears in views of one mesh.
+  showDrive(visible) {
+    this.withDrive = visible;
+    if (this.drive) this.drive.group.visible = visible;
+  }
+
+  // Draws an arrow at a position, as long as its share of the largest force.
+  load(pointer, position, force, share) {
     const length = this.arrowLength * this.reach * share;
     pointer.visible = share > 0.01;
-    pointer.position.copy(line).multiplyScalar(this.assembly.cones.outer);
+    pointer.position.copy(position);
     pointer.draw(force, Math.max(length, 0.01), 0.045 * this.arrowLength * this.reach);
   }
 }
 
-function fixed(geometry, material) {
-  const mesh = new Mesh(geometry, material);
-  mesh.matrixAutoUpdate = false;
-  return mesh;
-}
-
-function place(mesh, matrix) {
-  mesh.matrix.copy(matrix);
-  mesh.matrixWorldNeedsUpdate = true;
-}
+const fixed = (geometry, material) => placed(new Mesh(geometry, material));
 
 function shape({ vertices, triangles }) {
   const geometry = new BufferGeometry();

@@ -1,10 +1,10 @@
 // Panel next to the view "flank": contact patterns of the flanks of planet 1 toward the left side gear.
 import { gradient, shade } from "./colouring.js";
 import {
-  along, COLUMNS, CONTACT, contactOf, FORCE, hasPairs, hasTeeth, isInSeam, pairColumns, pairs, Pattern, ROWS,
+  along, COLUMNS, CONTACT, contactOf, hasPairs, hasTeeth, isInSeam, pairColumns, pairs, Pattern, ROWS,
 } from "./contact.js";
 import { colour } from "./frame.js";
-import { readable } from "./table.js";
+import { forceText, readable } from "./table.js";
 
 const FLANKS = [[1, "drive flank"], [-1, "coast flank"]];
 const ROOM = { left: 38, right: 12, top: 16, bottom: 18 }; // pixels around a flank
@@ -80,7 +80,7 @@ export class Flank {
 
   describe(present) {
     const lines = present.map(({ tooth, force, height, pressures }) =>
-      `Tooth ${tooth}: ${this.table.shown(FORCE, Math.abs(force), 3)} at ${readable(1e3 * height, 2)} mm; `
+      `Tooth ${tooth}: ${forceText(Math.abs(force))} at ${readable(1e3 * height, 2)} mm; `
       + `${pressures.map(inMPa).join(", ")} MPa at toe, middle, heel`);
     if (lines.length === 0) lines.push("No pair is in contact now.");
     lines.push(`Largest so far, without the seam at the foot, ${inMPa(this.largest)} MPa`);

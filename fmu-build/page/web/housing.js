@@ -1,5 +1,5 @@
-// Parts around the gears, for orientation: half a case, cut open toward the eye, a flange, pins, washers, clutches,
-// half-shafts.
+// Parts around the gears, for orientation: half a case, cut open toward the eye, a flange for the ring gear, pins, washers,
+// clutches, half-shafts.
 import { BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2 } from "three";
 import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { paint } from "./steel.js";
@@ -7,16 +7,17 @@ import { paint } from "./steel.js";
 const WALL = 5; // mm
 const AIR = 3; // mm between moving parts and the case
 const ROUND = 48;
+export const COUPLING = 0.4; // thickness of a coupling per radius of its shaft
 const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
-const MARK = "#e0a030"; // colour of marks that make a rotation visible
+export const MARK = "#e0a030"; // colour of marks that make a rotation visible
 
 // Names of parts as in colouring.js, with the colours of their metal.
 const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
 
 export class Housing {
   // Reach of all gears from the apex, and backs of side gears and planets [mm]; `azimuth(i)` of planet i,
-  // `metal(colour, roughness)`.
-  constructor({ reach, back, planetBack, planets, azimuth, metal }) {
+  // `metal(colour, roughness)`, and the `seat` of a ring gear that is drawn.
+  constructor({ reach, back, planetBack, planets, azimuth, metal, seat }) {
     this.metals = Object.fromEntries(Object.entries(OWN).map(([name, colour]) => [name, metal(colour)]));
     const { metals } = this;
     this.shell = new Group();
@@ -27,7 +28,8 @@ export class Housing {
     metals.case.roughness = 0.6;
     const wall = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI).rotateZ(-Math.PI / 2), metals.case);
     this.shell.add(wall, ...cuts(profile, metal));
-    this.flange = flange(radius, half, metal);
+    this.flange = seat ? flange(seat, caseRadius(seat.place, radius, half, shaftRadius(reach) + 2), metal)
+      : flange(bareSeat(radius, half), 0.62 * radius, metal);
     this.carrier.add(this.flange);
     for (let i = 0; i < planets; i += 1) {
       const [length, inner] = [radius + WALL + 3, 0.16 * reach];
@@ -114,13 +116,29 @@ function cuts(profile, metal) {
   });
 }
 
-// Flange for the ring gear, with bolts that make the carrier's rotation visible.
-function flange(radius, half, metal) {
+// Outer radius of the case at a position along its axis.
+function caseRadius(place, radius, half, hub) {
+  const corner = 0.35 * radius;
+  const past = Math.abs(place) - (half - corner);
+  if (past <= 0) return radius + WALL;
+  if (past >= corner + WALL) return hub + WALL;
+  return radius - corner + Math.sqrt((corner + WALL) ** 2 - past ** 2);
+}
+
+// Seat on the left for a ring gear that is not drawn.
+const bareSeat = (radius, half) => ({ side: 1, outer: radius + WALL + 3, place: half + WALL + 3, thick: 6 });
+
+// Flange for the ring gear, with bolts that make the carrier's rotation visible. A seat is the outer radius of the flange, its
+// position along the axis toward `side`, and its thickness.
+function flange({ side, outer, place, thick }, inner, metal) {
   const group = new Group();
-  const [outer, place] = [radius + WALL + 3, half + WALL + 3];
-  const plate = ring(0.62 * radius, outer, place - 3, 6, metal("#78818d"), 2 * ROUND);
+  if (inner >= outer) return group; // the ring gear is on the case
+  const plate = ring(inner, outer, side * place - thick / 2, thick, metal("#78818d"), 2 * ROUND);
   plate.rotation.z = -Math.PI / 2;
-  group.add(plate, ...bolts(10, 2.6, 12, 6, place, outer - 5, metal));
+  group.add(plate);
+  // bolts need room between the case and the ring gear
+  const far = outer - 5;
+  if (far - 3 > inner) group.add(...bolts(10, 2.6, 2 * thick, 6, side * place, far, metal));
   return group;
 }
 
@@ -159,4 +177,25 @@ function shaft(side, reach, back, metals, metal) {
   stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
   group.add(bar, plate, ...bolts(5, 2, 14, 12, side * end, 1.25 * radius, metal), stripe);
   return group;
+}
+
+// Disc with bolts at the end of a shaft along z, one of them marked.
+export function coupling(place, radius, own, metal) {
+  const group = new Group();
+  // discs are along x
+  group.rotation.y = -Math.PI / 2;
+  group.position.z = place;
+  group.add(disc(1.75 * radius, COUPLING * radius, 0, own), ...bolts(4, 0.22 * radius, 0.9 * radius, 6, 0, 1.35 * radius, metal));
+  return group;
+}
+
+// Object whose position is a matrix.
+export function placed(object) {
+  object.matrixAutoUpdate = false;
+  return object;
+}
+
+export function move(part, matrix) {
+  part.matrix.copy(matrix);
+  part.matrixWorldNeedsUpdate = true;
 }

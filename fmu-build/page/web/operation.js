@@ -62,6 +62,7 @@ function listenToKeys(page) {
     2: () => page.choose("mesh"),
     3: () => page.choose("side"),
     4: () => page.choose("flank"),
+    5: () => page.choose("drive"),
     w: () => (page.walk.isOpen ? page.walk.close() : page.walk.show(0)),
     Escape: () => page.walk.close(),
   };

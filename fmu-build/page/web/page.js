@@ -2,6 +2,7 @@
 import { largestPower, Legend, MODES, scaled } from "./colouring.js";
 import { hasPairs, hasTeeth, largestPressure } from "./contact.js";
 import { Controls } from "./controls.js";
+import { hasFinalDrive, largestRingForce } from "./final_drive.js";
 import { Flank } from "./flank.js";
 import { $, Notice, Walk } from "./frame.js";
 import { bind } from "./operation.js";
@@ -9,7 +10,7 @@ import { Player, showFigures, showTransport, toothTime } from "./player.js";
 import { forces, Record, recorded, save } from "./record.js";
 import { Setup } from "./setup.js";
 import { Shapes, Simulation } from "./simulation.js";
-import { readable, Table } from "./table.js";
+import { forceText, readable, Table } from "./table.js";
 import { TraceChoice, Traces } from "./traces.js";
 import { PRESETS, View } from "./view.js";
 
@@ -86,6 +87,9 @@ class Page {
     $("duration").value = String(this.setup.stop);
     $("colour").value = this.setup.colour;
     $("speeds").value = this.setup.speeds;
+    const hasDrive = hasFinalDrive(this.setup);
+    for (const part of document.querySelectorAll("[data-of=drive]")) part.hidden = !hasDrive;
+    if (this.setup.view === "drive" && !hasDrive) this.look("whole");
     this.keep();
     this.notice.say("");
     this.simulate();
@@ -145,10 +149,16 @@ class Page {
     this.mostPressure = hasPairs(this.record, true) ? largestPressure(this.record, this.setup) : 0;
     if (this.setup.colour === "heat") this.mostHeat = largestPower(this.record, this.table);
     $("scale").lastElementChild.textContent = this.most > 0
-      ? `force on a side gear, longest ${readable(this.most / 1e3, 3)} kN` : "no force on the teeth";
+      ? `force on a side gear, longest ${forceText(this.most)}${this.onRing()}` : "no force on the teeth";
     this.tooth = toothTime(this.record, (name) => this.setup.value(name));
     this.player.limit(this.tooth);
     this.moved = true;
+  }
+
+  // Words about the force on the ring gear, if there is one.
+  onRing() {
+    const largest = largestRingForce(this.record);
+    return largest > 0 ? `; ring gear ${forceText(largest)}` : "";
   }
 
   trapped(text) {
@@ -207,6 +217,7 @@ class Page {
 
   // Changes the view. The run is repeated if it did not record the outputs of the view.
   choose(name) {
+    if (name === "drive" && !hasFinalDrive(this.setup)) return;
     this.look(name);
     this.again();
   }

@@ -67,7 +67,7 @@ export function toothTime(record, parameter) {
 
 // Values at the time of the last call of `record.seek`.
 export function showFigures(record, table) {
-  for (const part of ["carrier", "left", "right"]) {
+  for (const part of ["carrier", "left", "right", "pinion"]) {
     $(`${part}-speed`).textContent = table.shown(`${part}.speed`, record.value(`${part}.speed`), 4);
   }
   const heat = heats(table).reduce((sum, name) => sum + record.value(name), 0);

@@ -1,5 +1,6 @@
 // Record of a run: which outputs it contains, its points, and a file of them.
 import { pairNames } from "./contact.js";
+import { driveOutputs } from "./final_drive.js";
 import { element } from "./frame.js";
 import { clamp } from "./table.js";
 
@@ -23,7 +24,7 @@ export function recorded(setup, colours, withPressures) {
   const { table } = setup;
   const sides = SIDES.flatMap((side) => [`${side}.angle`, `${side}.speed`, `${side}.twist`, `${side}.tangential_force`]);
   const spins = planets(setup).map((planet) => `${planet}.spin_angle`);
-  const names = [...MOVING, ...sides, ...spins, ...forces(setup), ...heats(table), ...setup.shown(),
+  const names = [...MOVING, ...driveOutputs(setup), ...sides, ...spins, ...forces(setup), ...heats(table), ...setup.shown(),
     ...pairNames(withPressures), ...colours];
   return [...new Set(names)].filter((name) => table.find(name));
 }

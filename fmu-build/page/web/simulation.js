@@ -1,5 +1,6 @@
 // Requests to the worker: runs of set-ups, and surfaces of gears.
 import program from "worker:worker.js";
+import { drawnDrive } from "./final_drive.js";
 
 const PATIENCE = 1000; // ms for which an obsolete run may occupy the worker
 // geometry that determines the positions of gears
@@ -92,10 +93,11 @@ export class Shapes {
   want(setup) {
     const settings = setup.settings();
     const isGeometry = ({ reference }) => this.table.variables[reference].name.startsWith("geometry.");
-    const key = JSON.stringify(settings.filter(isGeometry));
+    const drive = drawnDrive(this.table, (name) => setup.value(name));
+    const key = JSON.stringify([settings.filter(isGeometry), drive]);
     if (key === this.key) return;
     this.key = key;
-    this.request(settings, (name) => setup.value(name));
+    this.request(settings, (name) => setup.value(name), drive);
   }
 
   // The worker answers in the order of the requests.
@@ -113,7 +115,7 @@ export class Shapes {
   standIn() {
     if (this.shown || this.isStandIn) return;
     this.isStandIn = true;
-    this.request([], (name) => this.table.find(name).start);
+    this.request([], (name) => this.table.find(name).start, null);
   }
 
   // After the loss of a worker, outstanding answers never come, so the next set-up requests the gears again.
@@ -122,9 +124,11 @@ export class Shapes {
     this.waiting = [];
   }
 
-  request(settings, value) {
+  // `drive` is the final drive of the set-up, or null.
+  request(settings, value, drive) {
     // values at the time of the request: the set-up may change before the answer arrives
-    this.waiting.push(Object.fromEntries(Object.entries(GEOMETRY).map(([key, name]) => [key, value(`geometry.${name}`)])));
+    const geometry = Object.fromEntries(Object.entries(GEOMETRY).map(([key, name]) => [key, value(`geometry.${name}`)]));
+    this.waiting.push({ ...geometry, drive });
     this.ask(settings);
   }
 }

@@ -6,6 +6,8 @@ const SPECIAL = { nan: NaN, inf: Infinity, infinity: Infinity, "-inf": -Infinity
 const NUMBER = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 const INTEGERS = [-(2 ** 31), 2 ** 31 - 1];
 
+export const FORCE = "N"; // unit of forces
+
 // Units for displayed speeds, with their values for 1 rad/s.
 export const SPEEDS = { "deg/s": 180 / Math.PI, "rad/s": 1, rpm: 30 / Math.PI };
 
@@ -82,6 +84,15 @@ export function readable(value, digits = 5) {
 
 // Name of a variable as words.
 export const words = (name) => name.replaceAll("]", "").replaceAll(/[[._]/g, " ");
+
+// Unit of forces up to a largest one [N], as {name, factor}: kN from 1 kN on.
+export const forceUnit = (largest) => (Math.abs(largest) < 1e3 ? { name: FORCE, factor: 1 } : { name: `k${FORCE}`, factor: 1e-3 });
+
+// Force [N] as text, in the unit of a largest force.
+export function forceText(force, digits = 3, largest = force) {
+  const { name, factor } = forceUnit(largest);
+  return `${readable(factor * force, digits)} ${name}`;
+}
 
 // Unit for readers.
 export function unitText(unit) {

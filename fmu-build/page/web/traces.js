@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import { colour, element } from "./frame.js";
 import { between, isThere } from "./record.js";
 import { MOST_TRACES } from "./setup.js";
-import { clamp, grouped, inUnit, readable, unitText, words } from "./table.js";
+import { clamp, FORCE, forceText, forceUnit, grouped, inUnit, readable, unitText, words } from "./table.js";
 
 const COLOURS = ["--trace-1", "--trace-2", "--trace-3", "--trace-4", "--trace-5", "--trace-6"];
 const AHEAD = 0.2; // fraction of the window after the present time
@@ -97,10 +97,15 @@ export class Traces {
 
   // Draws new points.
   refresh() {
-    for (const { plot, series } of this.plots) {
+    for (const panel of this.plots) {
+      const { plot, series } = panel;
+      const isForce = panel.unit === FORCE;
+      panel.largest = isForce ? Math.max(...series.map(({ name }) => this.record.largest(name))) : null;
+      const { name: unit, factor } = forceUnit(panel.largest);
+      if (isForce) plot.axes[1].label = unit;
       const columns = series.map(({ name }) => {
         const variable = this.table.find(name);
-        return this.record.column(name).map((value) => inUnit(variable, value));
+        return this.record.column(name).map((value) => factor * inUnit(variable, value));
       });
       plot.setData(this.isSpectral ? this.spectra(columns) : [this.record.times, ...columns]);
     }
@@ -116,10 +121,13 @@ export class Traces {
   // Shows the values at the time of the picture.
   at(time) {
     this.now = time;
-    for (const { plot, series, values } of this.plots) {
+    for (const { plot, series, values, largest } of this.plots) {
       if (!this.isSpectral && this.share < 1) plot.setData(plot.data);
       else if (!this.isSpectral) plot.redraw(false, false);
-      series.forEach(({ name }, i) => { values[i].textContent = this.table.shown(name, this.record.value(name), 4); });
+      series.forEach(({ name }, i) => {
+        const value = this.record.value(name);
+        values[i].textContent = largest === null ? this.table.shown(name, value, 4) : forceText(value, 4, largest);
+      });
     }
   }
 
@@ -131,8 +139,8 @@ export class Traces {
 }
 
 // Plot of several outputs with the same unit, and its legend. `series`: [{name, stroke}]; `range` returns the ends of the
-// first axis, `after` is the unit behind its last number, and `draw` is called after drawing. Returns {plot, room, series,
-// values}: the plot, its element, the series, and the elements for values in the legend.
+// first axis, `after` is the unit behind its last number, and `draw` is called after drawing. Returns {plot, room, unit, series,
+// values}: the plot, its element, the unit, the series, and the elements for values in the legend.
 function panel(host, { unit, series, range, after, draw }) {
   const values = series.map(() => element("b"));
   const items = series.map(({ name, stroke }, i) => {
@@ -156,7 +164,7 @@ function panel(host, { unit, series, range, after, draw }) {
     series: [{}, ...series.map(({ name, stroke }) => ({ label: name, stroke, width: 1.7, points: { show: false } }))],
     hooks: { draw: [draw] },
   }, [[], ...series.map(() => [])], room);
-  return { plot, room, series, values };
+  return { plot, room, unit, series, values };
 }
 
 // Range of an axis. It has a minimum width, so that a constant value is not magnified to noise.

@@ -14,11 +14,15 @@ const COARSE = 5e4; // maximum number of pixels if the processor draws
 // `from` is the position of the eye in axes of the scene. With `at`, it is in axes of the left mesh of planet 1: along
 // its pitch line, forward, away from the planet. `at` is the target along the pitch line; lengths are relative to the
 // reach of the gears.
+// With a final drive, `around` replaces `from`, and the distance is `far` times the radius of the sphere around its gears.
+// With `mesh`, the eye is in axes of its mesh: along the pitch line, from the pinion to the ring gear, upward. The distance
+// is then `far` times the radius of the ring gear. Views of one mesh are `alone`, because the ring gear would cover it.
 export const PRESETS = {
-  whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7 },
-  mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35 },
-  side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7 },
-  flank: { from: [0.5, -0.7, 0.6], at: 0.8, distance: 1.8, hold: true, shell: false, arrows: 0, through: true },
+  whole: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7, around: [-0.45, 0.8, -1], far: 4 },
+  mesh: { from: [0.75, -0.28, 0.1], at: 0.92, distance: 1.9, hold: true, shell: false, arrows: 0.35, alone: true },
+  side: { from: [1, 0.12, -0.1], distance: 6.2, hold: false, shell: false, arrows: 0.7, around: [1, 0.12, -0.1], far: 4.4 },
+  flank: { from: [0.5, -0.7, 0.6], at: 0.8, distance: 1.8, hold: true, shell: false, arrows: 0, through: true, alone: true },
+  drive: { from: [-0.3, 0.46, -1], distance: 5.9, hold: false, shell: true, arrows: 0.7, mesh: [1, 0.1, 0.6], far: 2.6 },
 };
 
 export class View {
@@ -55,37 +59,56 @@ export class View {
     new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
   }
 
-  // Replaces the gears, as `Differential.build` does.
+  // Replaces the gears, as `Differential.build` does. The eye moves if the size of the picture or its position changes.
   build(surfaces, geometry) {
-    const first = !this.differential.gears;
-    const before = this.differential.reach;
+    const before = this.differential.gears && this.sight();
     this.differential.build(surfaces, geometry);
-    if (first || Math.abs(before / this.differential.reach - 1) > 0.05 || PRESETS[this.preset].at) this.look(this.preset);
+    const now = this.sight();
+    const isSame = before && Math.abs(before.size / now.size - 1) < 0.05 && before.direction.angleTo(now.direction) < 0.1
+      && before.target.distanceTo(now.target) < 0.1 * now.size;
+    if (!isSame || PRESETS[this.preset].at) this.look(this.preset);
     this.stale = true;
   }
 
   look(name) {
     this.preset = name;
-    const { reach, assembly } = this.differential;
-    if (!reach) return;
-    const { from, at, distance, hold, shell, arrows, through } = PRESETS[name];
+    if (!this.differential.reach) return;
+    const { at, hold, shell, arrows, through, alone } = PRESETS[name];
     this.hold = hold;
     this.showCase(shell);
+    this.differential.showDrive(!alone);
     this.differential.showThrough(Boolean(through));
     this.differential.arrowLength = arrows;
-    const target = new Vector3();
-    const direction = new Vector3(...from);
-    if (at) {
-      const { line, forward, apart } = assembly.axes(0, 1, 0);
-      target.copy(line).multiplyScalar(at * reach);
-      direction.copy(line).multiplyScalar(from[0]).addScaledVector(forward, from[1]).addScaledVector(apart, from[2]);
-    }
+    const { target, direction, size } = this.sight();
     // in a narrow window, the eye is farther away
     const wide = Math.max(1, (at ? 0.9 : 1.45) / this.camera.aspect);
-    this.camera.position.copy(direction.normalize()).multiplyScalar(distance * reach * wide).add(target);
+    this.camera.position.copy(direction).multiplyScalar(size * wide).add(target);
     this.orbit.target.copy(target);
     this.orbit.update();
     this.stale = true;
+  }
+
+  // Target of the present view, direction from there to the eye, and distance of the eye.
+  sight() {
+    const { reach, assembly, drive } = this.differential;
+    const { from, at, distance, around, mesh, far } = PRESETS[this.preset];
+    const along = (axes, parts) => axes.reduce((sum, axis, k) => sum.addScaledVector(axis, parts[k]), new Vector3()).normalize();
+    if (at) {
+      const { line, forward, apart } = assembly.axes(0, 1, 0);
+      return { target: line.clone().multiplyScalar(at * reach), direction: along([line, forward, apart], from), size: distance * reach };
+    }
+    if (drive && mesh) {
+      const { line, toMesh, above, pitchPoint, ringCentre } = drive.place;
+      return { target: pitchPoint, direction: along([line, toMesh, above], mesh), size: far * pitchPoint.distanceTo(ringCentre) };
+    }
+    if (drive && around) {
+      const [target, radius] = drive.bounds;
+      const [x, y, z] = around;
+      // the view of the whole is from the side of the planets, so that the ring gear does not cover them
+      const beside = this.preset === "whole" ? x * drive.place.side : x;
+      return { target, direction: new Vector3(beside, y, z).normalize(), size: far * Math.max(radius, 1.5 * reach) };
+    }
+    return { target: new Vector3(), direction: new Vector3(...from).normalize(), size: distance * reach };
   }
 
   showCase(visible) {
@@ -141,8 +164,10 @@ export class View {
 
   // Puts names next to the parts in the window.
   label() {
-    const { reach, group, planets } = this.differential;
+    const { reach, group, planets, drive } = this.differential;
+    const turned = (position) => position.clone().applyEuler(group.rotation);
     const places = this.preset !== "whole" ? {} : {
+      ...(drive && { ring: turned(drive.labels.ring), pinion: turned(drive.labels.pinion) }),
       left: new Vector3(1.75 * reach, -0.62 * reach, 0),
       right: new Vector3(-1.75 * reach, -0.62 * reach, 0),
       planet: new Vector3().setFromMatrixPosition(planets[0].matrixWorld)
