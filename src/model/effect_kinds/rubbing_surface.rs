@@ -148,15 +148,11 @@ impl RubbingSurface {
         }
     }
 
-    /// True if `other` takes the place of this washer.
-    fn yields_to(&self, other: &Self) -> bool {
-        self.kind == other.kind && self.thrust_part == ThrustPart::Washer && other.thrust_part == ThrustPart::Plates
-    }
-
     /// Removes washers whose place is taken by plates that the gear presses.
     pub fn remove_replaced(surfaces: &mut Vec<Self>) {
-        let all = surfaces.clone();
-        surfaces.retain(|surface| !all.iter().any(|other| surface.yields_to(other)));
+        let has_plates = RubbingKind::ALL
+            .map(|kind| surfaces.iter().any(|of| of.kind == kind && of.thrust_part == ThrustPart::Plates));
+        surfaces.retain(|of| of.thrust_part != ThrustPart::Washer || !has_plates[of.kind as usize]);
     }
 
     /// Friction at the `temperatures` of all nodes [K], relative to the friction at the reference temperature.

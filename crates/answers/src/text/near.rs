@@ -24,6 +24,10 @@ const EXTRA_WORDS: f64 = 0.3;
 /// As in a search, rare words weigh more than frequent ones: `module` says more than `planet`.
 pub fn near<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'a str> {
     let names: Vec<(&str, Vec<String>)> = names.into_iter().map(|name| (name, words(name))).collect();
+    // the last part of too many names
+    if names.iter().filter(|(name, _)| name.split_once('.').is_some_and(|(_, last)| last == wrong)).count() > MOST {
+        return Vec::new();
+    }
     let weights = Weights::of(&names);
     let quantity = words(wrong.rsplit('.').next().unwrap_or_default()).len();
     let meant = words(wrong);

@@ -56,7 +56,7 @@ const GUESSES: [(&str, &[&str]); 52] = [
     ("speed", &[]),
     ("ratio", &[]),
     ("static_ratio", &[]),
-    ("clutch.torque", &[]),
+    ("clutch.torque", &["clutches.torque"]),
     ("wheel_torque", &[]),
     ("axle.torque", &[]),
     ("engine.displacement", &[]),
