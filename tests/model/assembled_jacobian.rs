@@ -162,7 +162,10 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
         ),
         ("clutches", clutches(turn(|_| {}), 0.125)),
         ("clutch and brake", clutches(turn(|p| p.effects.half_shaft = true), 1.0)),
-        ("clutches, ideal", clutches(turn(|p| p.scene.gear_contact = GearContact::Ideal), 0.3)),
+        (
+            "clutches, ideal",
+            clutches(turn(|p| (p.effects.half_shaft, p.scene.gear_contact) = (true, GearContact::Ideal)), 0.3),
+        ),
         ("clutches that hold", clutches(turn(|p| (by_speed(p), p.specs.clutches.torque = 1e4).0), 0.0)),
         ("gears press the packs", turn(|p| (by_speed(p), p.specs.limited_slip.thrust_arm = 5e-3).0)),
         ("ramps", turn(|p| (ramps(p, 1), p.scene.gear_contact = GearContact::Lumped).0)),

@@ -83,7 +83,8 @@ impl Declare for ClutchesSpec {
         "left.clutch_slip": RAD_PER_S | RPM, Always(|clutches, at| clutches.slip(0, at));
         /// Speed of the shaft of the right clutch minus the speed of the side gear; 0 without effects.clutches
         "right.clutch_slip": RAD_PER_S | RPM, Always(|clutches, at| clutches.slip(1, at));
-        /// Torque of the gearing of both clutches on the housing, positive if it would turn it forward
+        /// Torque of the gearing of both clutches on the housing, positive if it would turn it forward; 0 without
+        /// effects.clutches
         "clutches.housing_torque": NEWTON_METRE, Always(|clutches, at| clutches.on_housing(at));
     };
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.clutch_command", 0.1), ("right.clutch_command", 0.1)];
@@ -121,7 +122,7 @@ impl ClutchesSpec {
 
     /// Torque on the housing [N·m].
     fn on_housing(&self, at: &Instant) -> f64 {
-        (0..2).map(|s| (self.ratio[s] - 1.0) * at.clutch_torque[s]).sum()
+        if at.on { (0..2).map(|s| (self.ratio[s] - 1.0) * at.clutch_torque[s]).sum() } else { 0.0 }
     }
 }
 
