@@ -198,9 +198,9 @@ fn commanded(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 2] {
     let clutches = &mut p.specs.clutches;
     clutches.torque = d.about(200.0, 3.0) * (p.geometry.module / MODULE).powi(3);
     clutches.ratio = d.pick(&[[1.0, 1.0], [1.125, 0.875], [0.0, 1.0], [1.2, 1.1], [-0.5, 2.0]]);
-    // a clutch sticks within 1e-6 rad/s; the damping of its spring must not show this
-    clutches.damping_time = d.pick(&[0.0, 1e-6, 1e-5]);
-    (clutches.sliding.static_ratio, clutches.sliding.stribeck_speed) = (d.between(1.0, 1.4), d.between(0.0, 0.3));
+    clutches.damping_time = d.pick(&[0.0, 1e-5, 1e-4]);
+    // a stop is found within 1e-6 rad/s, and a steep fall of the friction with speed would magnify this
+    (clutches.sliding.static_ratio, clutches.sliding.stribeck_speed) = (d.between(1.0, 1.4), d.between(0.1, 0.3));
     (clutches.sliding.pv_limit, clutches.sliding.beyond_limit) = (d.about(3e4, 10.0), d.between(0.5, 1.5));
     let has_thrust = matches!(p.scene.gear_contact, GearContact::Lumped | GearContact::Tooth);
     p.specs.limited_slip.thrust_arm = if has_thrust && d.share(0.3) { d.between(1e-3, 2e-2) } else { 0.0 };
