@@ -20,7 +20,7 @@ from final_drives import FinalDrive
 INSTANT, SOLIDS, RUN, SLIDING, WARMER = 1e-9, 2e-5, 10.0, 1e-3, 0.2
 SIDES = ["left", "right"]
 # dry friction between side gears and carrier, which is not an output
-RUBBING = ["effects.thrust_friction", "effects.limited_slip"]
+RUBBING = ["effects.thrust_friction", "effects.limited_slip", "effects.clutches"]
 
 
 class Momentum:
@@ -107,7 +107,10 @@ class Momentum:
         if self.on["effects.warm_up"]:
             rounding += np.sum(np.abs(self.dragged(speeds, WARMER) - self.dragged(speeds, -WARMER)))
         facets = SOLIDS * (self.facets[0] * np.sum(np.abs(terms[1:-2])) + self.facets[1] * np.sum(np.abs(terms[-2:])))
-        off = np.sum(terms) - (drive - sum(shafts) - np.sum(drag))
+        # the gearing of clutches on command turns against the housing
+        housing = one.get("clutches.housing_torque")
+        rounding += INSTANT * abs(housing)
+        off = np.sum(terms) - (drive - sum(shafts) - np.sum(drag) - housing)
         assert abs(off) <= rounding + facets, f"momentum about the axle is off by {off} N.m: {terms} {drive} {shafts}"
         port = one.get("propeller.torque")
         if not self.imposed["carrier_drive"]:
@@ -148,7 +151,7 @@ class Momentum:
 
     def commands(self):
         """External torques, or None if commands do not determine all of them."""
-        if (self.on["effects.bearing_drag"] or self.final and not self.final.keeps_momentum or any(self.imposed.values())
+        if (self.on["effects.bearing_drag"] or self.on["effects.clutches"] or self.final and not self.final.keeps_momentum or any(self.imposed.values())
                 or any(self.opened.read(["left.brake_torque", "right.brake_torque"]))):
             return None
         drive = self.final.command() if self.final else self.opened.get("carrier.torque_command")

@@ -223,6 +223,8 @@ def effects(scene, u):
         scene["scene.start"] = EQUILIBRIUM
     if gear_contact == IDEAL:
         scene["limited_slip.torque_coefficient"] = 0.0
+    if gear_contact == IDEAL or u["limited_slip.thrust_arm"] < 0.5:
+        scene["limited_slip.thrust_arm"] = 0.0
     clutches(scene, u)
     grade = int(u["tooth_errors.accuracy_grade"] * 10)
     scene["tooth_errors.accuracy_grade"] = grade + 1 if grade else 0

@@ -149,7 +149,9 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
               {**ends, **theory.CLUTCHES, "limited_slip.torque_coefficient": 0.0}, {**ends, "effects.thrust_friction": True}]
     brakes = {"effects.wheel_brake": True, "left.brake_torque": 100.0, "right.brake_torque": 50.0}
     swapped = {**brakes, "left.brake_torque": 50.0, "right.brake_torque": 100.0}
-    scenes += [{**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]
+    clutches = {"effects.clutches": True, "left.clutch_command": 0.1, "right.clutch_command": 0.05, "clutches.left_ratio": 1.2,
+                "clutches.right_ratio": 0.7, "clutches.stribeck_speed": 1.0, "clutches.static_ratio": 1.2}
+    scenes += [{**ends, **clutches}, {**shafts, **clutches}, {**ends, **brakes}, {"effects.half_shaft": True, **brakes}, {"effects.half_shaft": True, **swapped}]
     # one wheel is at rest while planets spin at 1 rad/s
     scenes += [{"effects.half_shaft": True, **brakes, "carrier.speed_command": speed} for speed in [-0.625, 0.625]]
     left, right = {"scene.left_drive": "speed"}, {"scene.right_drive": "speed"}
@@ -164,7 +166,7 @@ def test_an_input_acts_at_once_on_the_outputs_that_declare_it_and_on_no_other(fm
                for name, values, side in (("left", brakes, left), ("right", swapped, right))]
     drives += [({**shafts, **left, **right, "effects.strength": True, "effects.tooth_friction": True}, "torque", "free"),
                *(({**ends, "effects.final_drive": True, **values}, carrier, spin)
-                 for values in ({}, elastic, {**elastic, **propeller}, propeller, brakes, swapped,
+                 for values in ({}, elastic, {**elastic, **propeller}, propeller, brakes, swapped, clutches,
                                 {"effects.strength": True, "effects.tooth_friction": True}) for carrier, spin in ways)]
     for contact in ["tooth", "lumped", "ideal"]:
         for scene, carrier, spin in drives:

@@ -35,11 +35,14 @@ SCENES = {
     "propeller shaft": DRIVEN | PINION | ERRORS | {"scene.gear_contact": "ideal", "effects.propeller_shaft": True, "scene.carrier_drive": "speed",
                                                    "final_drive.ring_side": "left",
                                                    "propeller_shaft.joint_angle": 0.1, "scene.start": "rolling"},
+    "clutches": BIAS | WARM | {"effects.clutches": True, "left.clutch_command": 0.2, "right.clutch_command": 0.1, "clutches.left_ratio": 1.1,
+                               "clutches.stribeck_speed": 0.5, "clutches.static_ratio": 1.3, "effects.half_shaft": True},
     "half-shafts that warm up": DRIVEN | WARM | RUBBING | {"effects.half_shaft": True, "scene.start": "rolling"},
 }
 # inputs that change within the steps, per second
 SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "warm_up.ambient_change": 5.0},
           "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
+          "clutches": {"left.clutch_command": 2.0, "right.clutch_command": 1.0, "left.speed_command": 20.0},
           "final drive": {"pinion.torque_command": 500.0}, "propeller shaft": {"pinion.speed_command": 50.0},
           "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
 # outputs that jump by the documentation: with completed steps, at events, and from tooth pair to tooth pair

@@ -7,12 +7,24 @@ const BY_OWN_LOAD: &str = ".twist";
 /// Suffixes of outputs that depend only on positions.
 const BY_POSITION: [&str; 1] = ["transmission_error"];
 /// Parts of the names of outputs that depend on the motion of teeth, washers or clutches, but not on torques.
-const BY_MOTION_OF_TEETH: [&str; 6] =
-    ["stress.", "temperature.flash", "temperature.contact", "safety.scuffing", "pv.washers", "pv.clutch"];
+const BY_MOTION_OF_TEETH: [&str; 7] = [
+    "stress.",
+    "temperature.flash",
+    "temperature.contact",
+    "safety.scuffing",
+    "pv.washers",
+    "pv.clutch",
+    ".clutch_slip",
+];
 /// Parts of the names of outputs that depend on the motion of all bodies, including the wheels, but not on torques.
 const BY_MOTION: [&str; 1] = ["power.loss"];
 /// Output that depends on speeds and on brake torques, and the suffix of these torques.
 const OF_BRAKES: (&str, &str) = ("pv.brake", ".brake_torque");
+/// Suffix of the commands of clutches.
+const CLUTCH_COMMAND: &str = ".clutch_command";
+/// Suffix of outputs of one clutch, and outputs of both, that depend on their commands and on speeds.
+const OF_CLUTCH: &str = ".clutch_torque";
+const OF_CLUTCHES: [&str; 2] = ["clutches.housing_torque", "pv.clutch_command"];
 /// Commands that speeds follow immediately, and the suffixes of these speeds. Sides of unequal inertia couple both.
 const COMMANDS: [&str; 3] = ["carrier.speed_command", "pinion.speed_command", "spin.command"];
 const FOLLOWERS: [&str; 8] = [
@@ -33,6 +45,11 @@ const OF_END: (&str, &str) = (".speed_command", ".wheel_speed");
 /// True if speeds follow the input immediately.
 fn is_followed(input: &Variable) -> bool {
     COMMANDS.contains(&input.name)
+}
+
+/// True if the input commands a clutch.
+pub fn is_clutch(input: &Variable) -> bool {
+    input.name.ends_with(CLUTCH_COMMAND)
 }
 
 /// True if the input is a torque.
@@ -82,6 +99,14 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
             if row.name == OF_BRAKES.0 {
                 return inputs_where(table, |input| is_speed(input) || input.name.ends_with(OF_BRAKES.1));
             }
+            if let Some(side) = row.name.strip_suffix(OF_CLUTCH) {
+                return inputs_where(table, |input| {
+                    is_clutch(input) && input.name.starts_with(side) || is_followed(input)
+                });
+            }
+            if OF_CLUTCHES.contains(&row.name) {
+                return inputs_where(table, |input| is_clutch(input) || is_followed(input));
+            }
             if named(&BY_MOTION_OF_TEETH) {
                 return inputs_where(table, is_followed);
             }
@@ -91,7 +116,7 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
                 // the acceleration of a carrier with imposed speed is the rate of its command
                 let is_own = row.name == "carrier.acceleration" && input.name == "carrier.speed_command";
                 let acts = !(is_in_front && input.name.starts_with("carrier.") || is_own);
-                acts && (is_speed(input) || is_torque(input) && !named(&BY_MOTION))
+                acts && (is_speed(input) || is_clutch(input) || is_torque(input) && !named(&BY_MOTION))
             })
         }
         _ => Vec::new(),

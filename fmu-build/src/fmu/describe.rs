@@ -13,7 +13,7 @@ use bevel_differential::variables::{
 };
 use clap::Args;
 
-use crate::fmu::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
+use crate::fmu::dependencies::{dependencies, inputs_where, is_clutch, is_of_ledger, is_speed, is_torque};
 use crate::fmu::effect_list;
 use crate::tools::files::write_whole;
 use crate::tools::paths;
@@ -327,7 +327,8 @@ fn structure(table: &Table) -> Element {
     every_state.sort_unstable();
     let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
         let is_position = k < table.states.len() / 2;
-        let mut known: Vec<usize> = inputs_where(table, |input| is_speed(input) || is_torque(input) && !is_position);
+        let mut known: Vec<usize> =
+            inputs_where(table, |input| is_speed(input) || (is_torque(input) || is_clutch(input)) && !is_position);
         known.extend(every_state);
         known.sort_unstable();
         Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))

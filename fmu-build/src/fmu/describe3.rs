@@ -8,7 +8,7 @@ use bevel_differential::variables::{
     Access, Causality, MODEL_NAME, OutputSource, Table, Variable, guid, real_start, table, units, value_of,
 };
 
-use super::dependencies::{dependencies, inputs_where, is_of_ledger, is_speed, is_torque};
+use super::dependencies::{dependencies, inputs_where, is_clutch, is_of_ledger, is_speed, is_torque};
 use super::describe::{
     DIFFERENCE, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories, number,
     root, unit, units_in_use, variability,
@@ -180,7 +180,8 @@ fn structure(table: &Table) -> Element {
     });
     let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
         let is_position = k < table.states.len() / 2;
-        let mut known: Vec<usize> = inputs_where(table, |input| is_speed(input) || is_torque(input) && !is_position);
+        let mut known: Vec<usize> =
+            inputs_where(table, |input| is_speed(input) || (is_torque(input) || is_clutch(input)) && !is_position);
         known.extend(table.states);
         unknown("ContinuousStateDerivative", index, known)
     });

@@ -44,7 +44,7 @@ struct Terminal {
 
 use Kind::{Inflow, Outflow, Signal};
 
-const TERMINALS: [Terminal; 15] = [
+const TERMINALS: [Terminal; 17] = [
     Terminal {
         name: "carrier_torque_driven",
         kind: TORQUE_DRIVEN,
@@ -144,6 +144,26 @@ const TERMINALS: [Terminal; 15] = [
         kind: COMMAND,
         description: "Differential lock: 0 opens it, 1 closes it; the output counts side gears that dry friction holds to the carrier",
         members: &[("command", "lock.command", Signal), ("held", "held.sides", Signal)],
+    },
+    Terminal {
+        name: "left_clutch",
+        kind: COMMAND,
+        description: "Left clutch with effects.clutches: 0 opens it, 1 presses it with its full torque",
+        members: &[
+            ("command", "left.clutch_command", Signal),
+            ("tau", "left.clutch_torque", Signal),
+            ("slip", "left.clutch_slip", Signal),
+        ],
+    },
+    Terminal {
+        name: "right_clutch",
+        kind: COMMAND,
+        description: "Right clutch with effects.clutches: 0 opens it, 1 presses it with its full torque",
+        members: &[
+            ("command", "right.clutch_command", Signal),
+            ("tau", "right.clutch_torque", Signal),
+            ("slip", "right.clutch_slip", Signal),
+        ],
     },
     Terminal {
         name: "fault",

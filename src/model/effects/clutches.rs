@@ -87,7 +87,7 @@ impl Declare for ClutchesSpec {
         /// effects.clutches
         "clutches.housing_torque": NEWTON_METRE, Always(|clutches, at| clutches.on_housing(at));
     };
-    const EXAMPLE: &'static [(&'static str, f64)] = &[("left.clutch_command", 0.1), ("right.clutch_command", 0.1)];
+    const EXAMPLE: &'static [(&'static str, f64)] = &[("left.clutch_command", 0.05), ("right.clutch_command", 0.05)];
 
     fn needs() -> Vec<(Need, Condition)> {
         vec![(Need::Temperature, all([on!(Self), depends_on_temperature::<Self>()]))]

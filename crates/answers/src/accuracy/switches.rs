@@ -120,8 +120,12 @@ impl Switch {
         if let Kind::Effect(row, _) = self.kind { Some(row) } else { None }
     }
 
-    /// Input that commands `scene` and has no influence without this effect. The scene without it is another question.
+    /// Input that commands `scene` and has no influence without this part of the machine. The scene without it is another
+    /// question.
     pub fn commands(&self, scene: &Scene) -> Option<&'static str> {
+        if self.class() != Class::Machine {
+            return None;
+        }
         let off = self.turned(scene, false);
         let set = scene.settings.iter().map(|setting| setting.row);
         let inputs = set.chain(scene.input_tables.iter().map(|table| table.row));
