@@ -30,6 +30,7 @@ FACTORS = {
     "contact.reference_line_load": 10.0, "contact.mesh_stiffness": 100.0, "half_shaft.left_stiffness": 30.0,
     "half_shaft.right_stiffness": 30.0, "pin_compliance.pin_stiffness": 30.0, "pin_compliance.case_stiffness": 30.0,
     "thrust_friction.stiffness": 30.0, "limited_slip.stiffness": 30.0, "lock.stiffness": 30.0, "lock.torque": 30.0,
+    "clutches.torque": 10.0, "clutches.stiffness": 30.0, "clutches.friction_area": 3.0,
     "wheel_brake.stiffness": 30.0, "limited_slip.friction_area": 3.0, "wheel_brake.friction_area": 3.0,
     **{f"thrust_friction.{name}_area": 3.0 for name in ("planet_washer", "side_washer", "pin")},
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
@@ -41,7 +42,7 @@ FACTORS = {
 # values from zero (a tenth of the draws) up to this multiple of the start value
 MULTIPLES = {
     "contact.damping": 100.0, "half_shaft.left_damping": 10.0, "half_shaft.right_damping": 10.0,
-    "limited_slip.preload": 10.0, "limited_slip.coast_ratio": 3.0, "limited_slip.viscous_torque": 10.0, "lock.damping_time": 10.0, "final_drive.damping": 3.0,
+    "limited_slip.preload": 10.0, "limited_slip.coast_ratio": 3.0, "limited_slip.viscous_torque": 10.0, "lock.damping_time": 10.0, "clutches.damping_time": 10.0, "final_drive.damping": 3.0,
     "propeller_shaft.damping": 3.0,
     "pin_compliance.damping_time": 100.0, "bearing_drag.carrier_torque": 30.0,
     "bearing_drag.carrier_viscous": 30.0, "bearing_drag.carrier_churning": 30.0, "bearing_drag.side_torque": 30.0,
@@ -63,6 +64,8 @@ BANDS = {
     "bearing_drag.reference_temperature": (330.0, 370.0), "bearing_drag.oil_level": (0.0, 1.0),
     "bearing_drag.seal_torque_per_diameter": (1.0, 6.0), "bearing_drag.bearing_load": (0.0, 5000.0),
     "bearing_drag.bearing_coefficient": (2e-4, 1e-3), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
+    "clutches.mean_radius": (0.02, 0.1), "clutches.plate_coefficient": (0.05, 0.2), "clutches.static_ratio": (1.0, 2.0),
+    "clutches.left_ratio": (0.8, 1.2), "clutches.right_ratio": (0.0, 1.2), "limited_slip.thrust_arm": (0.0, 0.02),
     "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
     "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2), "warm_up.ambient_change": (-20.0, 20.0),
     "warm_up.sump_change": (-20.0, 20.0),
@@ -70,7 +73,7 @@ BANDS = {
     "final_drive.drive_pressure_angle": (0.3, 0.4), "final_drive.coast_pressure_angle": (0.3, 0.4), "final_drive.spiral_angle": (0.0, 0.7),
     "final_drive.pitch_angle": (0.0, 1.4), "propeller_shaft.joint_angle": (0.0, 0.3),
     # friction over speed and temperature, with ordered temperature points
-    **{f"{effect}.{name}": band for effect in ("limited_slip", "thrust_friction", "wheel_brake") for name, band in {
+    **{f"{effect}.{name}": band for effect in ("limited_slip", "clutches", "thrust_friction", "wheel_brake") for name, band in {
         "stribeck_speed": (0.0, 0.5), "slip_slope": (-0.02, 0.02), "cold_temperature": (230.0, 300.0), "cold_factor": (0.7, 1.5),
         "reference_temperature": (330.0, 360.0), "hot_temperature": (380.0, 480.0), "hot_factor": (0.5, 1.2),
         "pv_limit": (0.0, 1e6), "beyond_limit": (0.5, 2.0)}.items()},
@@ -223,7 +226,7 @@ def effects(scene, u):
         scene["scene.start"] = EQUILIBRIUM
     if gear_contact == IDEAL:
         scene["limited_slip.torque_coefficient"] = 0.0
-    if gear_contact == IDEAL or u["limited_slip.thrust_arm"] < 0.5:
+    if gear_contact not in (LUMPED, TOOTH) or u["limited_slip.thrust_arm"] < 0.5:
         scene["limited_slip.thrust_arm"] = 0.0
     clutches(scene, u)
     grade = int(u["tooth_errors.accuracy_grade"] * 10)

@@ -12,7 +12,7 @@ from two_places import Scene
 
 TOLERANCE = 1e-8
 # effects with instantaneous heat: springs of dry friction, a tooth that breaks, pairs that enter or leave contact abruptly
-AT_ONCE = ["thrust_friction", "limited_slip", "wheel_brake", "tooth_fault"]
+AT_ONCE = ["thrust_friction", "limited_slip", "clutches", "wheel_brake", "tooth_fault"]
 # heat of brakes is part of the output power
 OUTSIDE = "heat.brake"
 # communication steps [s]
