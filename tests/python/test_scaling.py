@@ -104,9 +104,11 @@ def homogeneous(start):
     start = start | {f"effects.{name}": False for name in CARRIERS if f"effects.{name}" in start}
     start |= {"lock.command": 0.0, "tooth_friction.law": 1, "tooth_errors.accuracy_grade": 0, "tooth_errors.runout_by_grade": False,
               "bearing_drag.viscosity_from_oil": False, "bearing_drag.churning_from_geometry": False,
-              # the spring of stuck friction has a damping time of 0.1 ms
+              # a clutch on command stops within 1e-6 rad/s, and then its spring acts
+              "effects.clutches": False,
               # the vibration of an elastic mesh puts peaks of the stress between the ends of steps
               "final_drive.elastic_mesh": False,
+              # the spring of stuck friction has a damping time of 0.1 ms
               "final_drive.friction_torque": 0.0, "final_drive.drive_loss": 0.0, "final_drive.coast_loss": 0.0,
               "material.density": min(start["material.density"], 10e3), **TIGHT}
     if start["geometry.addendum_system"] == GLEASON:

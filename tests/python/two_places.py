@@ -277,13 +277,14 @@ def compared(scene, o):
 
 
 def unbalanced(momentum, scene, o):
-    """Side gears whose acceleration does not fit the torques of meshes, half-shaft and drag, unless other parts cause friction."""
+    """Side gears whose acceleration does not fit the torques of meshes, half-shaft, clutch on command and drag, unless other parts
+    cause friction."""
     if scene.contact == IDEAL or scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or scene.p["lock.command"] > 0.0:
         return []
     drag = momentum.dragged(np.array([o["carrier.speed"], *(o[f"{side}.speed"] for side in SIDES)]))[1:]
     found = []
     for side, drags in zip(SIDES, drag):
-        terms = [momentum.radius * o[f"{side}.tangential_force"], -o[f"{side}.shaft_torque"], -drags,
+        terms = [momentum.radius * o[f"{side}.tangential_force"], -o[f"{side}.shaft_torque"], o[f"{side}.clutch_torque"], -drags,
                  -momentum.side * o[f"{side}.acceleration"]]
         allowed = INSTANT * sum(map(abs, terms)) + SOLIDS * momentum.facets[1] * abs(terms[-1])
         if abs(sum(terms)) > allowed:
