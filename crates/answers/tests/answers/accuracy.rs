@@ -442,9 +442,9 @@ fn a_final_drive_is_kept_and_its_mesh_is_elastic_only_for_what_it_moves() {
         assert_eq!(why, "pinion.speed_command commands the scene");
         let Role::Acts { by, chosen } = role(&found, "final_drive errors") else { panic!("{}", report::text(&found)) };
         assert_eq!((*chosen, *by > within), (elastic, elastic), "{want}: {by}");
-        // flanks in contact never reach the lash
+        // the flanks lift off, which the mean speed does not show
         let Role::Acts { by, .. } = role(&found, "final_drive.backlash") else { panic!("lash") };
-        assert!(*by <= within, "{want}: {by}");
+        assert_eq!(*by > within, elastic, "{want}: {by}");
     }
     // a rigid mesh has nothing to leave out
     let found = asked(&AXLE.replace("elastic_mesh = true", "elastic_mesh = false"), &["carrier.speed:mean"], 0.01);
