@@ -68,7 +68,7 @@ def test_initial_values_have_one_sided_derivatives_at_the_ends_of_all_ranges(fmu
     with Starting(fmu) as instance:
         for variable in changing(fmu):
             for value in (variable.minimum, variable.maximum):
-                # plates that a gear presses take the place of its washer at once
+                # plates that a gear presses take the place of its washer immediately
                 if (variable.name, value) == ("limited_slip.thrust_arm", 0.0):
                     continue
 

@@ -15,8 +15,8 @@
 //! The command u runs from 0 (open) to 1. A clutch without slip holds up to the same torque (`effect_kinds::dry_friction`).
 //! Slip speed, temperature and p·v change its torque as those of a clutch pack. The torque refers to the side gear.
 //!
-//! Source: J. Deur, M. Hancock and F. Assadian, Modeling and analysis of active differential dynamics, J. Dyn. Syst.
-//! Meas. Control 132 (2010) 061501.
+//! Source: J. Deur, V. Ivanović, M. Hancock and F. Assadian, Modeling and analysis of active differential dynamics,
+//! J. Dyn. Syst. Meas. Control 132 (2010) 061501.
 
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};

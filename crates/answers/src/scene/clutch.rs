@@ -99,7 +99,8 @@ fn dimension(key: &str, value: &Value, like: &str) -> Result<f64, Problem> {
     if number.is_finite() && is_allowed { Ok(number) } else { Err(problem(format!("it must be {allowed}"))) }
 }
 
-/// Settings of the packs from all dimensions, in SI and in the order of `KEYS`, and whether the side gears press them.
+/// Settings of the packs from all dimensions, in SI and in the order of `KEYS`. `gear_thrust`: true if the side gears press
+/// the plates.
 fn packs(
     [faces, friction, inner, outer, drive, coast, lever, spring]: [f64; 8],
     gear_thrust: bool,
