@@ -9,7 +9,7 @@ import pytest
 from bevel_differential.vehicle import Car, Tyre
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "vehicle"
-LAUNCH, VECTORING = (runpy.run_path(str(EXAMPLES / f"{name}.py")) for name in ("launch", "torque_vectoring"))
+LAUNCH, VECTORING, PLAIN = (runpy.run_path(str(EXAMPLES / f"{name}.py")) for name in ("launch", "torque_vectoring", "split_friction_fmpy"))
 TYRE = Tyre()
 
 
@@ -56,6 +56,16 @@ def test_the_clutch_of_the_left_side_also_helps_a_wheel_on_ice_at_the_right(fmu_
     assert one["body.speed"][-1] > 1.5
     for name, twin in (("body.speed", "body.speed"), ("left.wheel_speed", "right.wheel_speed"), ("left.shaft_torque", "right.shaft_torque")):
         assert one[name][100:] == pytest.approx(other[twin][100:], rel=1e-3, abs=1e-3 * np.abs(one[name]).max())
+
+
+def test_the_script_for_fmpy_moves_the_torque_of_the_clutch_and_needs_no_other_package(fmu_file):
+    assert "import bevel" not in (text := (EXAMPLES / "split_friction_fmpy.py").read_text()) and "from bevel" not in text
+    left, right, left_torque, right_torque, clutch = PLAIN["simulate"](fmu_file, PLAIN["FULL"]).values()
+    moved = PLAIN["TORQUE"] * (left - right) / PLAIN["FULL"]
+    assert -clutch == pytest.approx(moved, rel=0.01) and right_torque - left_torque == pytest.approx(moved, rel=0.05)
+    # the right wheel moves wheel and car, apart from what the ice moves
+    open_right = PLAIN["simulate"](fmu_file, float("inf"))["right.wheel_speed"]
+    assert right > 1.4 * open_right
 
 
 @pytest.fixture(scope="module")
