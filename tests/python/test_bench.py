@@ -125,6 +125,25 @@ def test_the_bench_of_clutches_shows_what_the_scene_has(fmu_file, tmp_path):
         bench("ramps", tmp_path, values={"limited_slip.torque_coefficient": 0.0}, fmu=fmu_file, workers=0)
 
 
+@pytest.mark.parametrize("ratios", [(1.125, 0.875), (1.0, 0.0)])
+@pytest.mark.parametrize("other", [{}, {"effects.limited_slip": True, "limited_slip.preload": 30.0}])
+def test_clutches_on_command_have_the_torque_of_their_command_against_their_slip(fmu_file, tmp_path, ratios, other):
+    of = dict(zip(("left", "right"), ratios))
+    values = other | {f"clutches.{side}_ratio": ratio for side, ratio in of.items()}
+    says = bench("clutch_command", tmp_path, values=values, fmu=fmu_file, workers=0)
+    rows = np.genfromtxt(tmp_path / "clutch_command.csv", delimiter=",", names=True, deletechars="", dtype=None, encoding="utf-8")
+    assert len(rows) == 2 * 2 * 21
+    # means settle within a thousandth of the torques of the wheels
+    for side, slip, command, left, right, torque, housing in rows.tolist():
+        assert torque == pytest.approx(np.sign(slip) * command * 400.0, abs=0.3)
+        assert housing == pytest.approx((of[side] - 1.0) * torque, abs=0.3)
+        assert left + right == pytest.approx(600.0 - housing, abs=0.3)
+    expected = [number for ratio in ratios for number in (400.0, -400.0, 400.0 * (ratio - 1.0), -400.0 * (ratio - 1.0))]
+    assert numbers(says.replace("\N{MINUS SIGN}", "-")) == pytest.approx([*expected, 0.0], abs=0.3)
+    with pytest.raises(DifferentialError, match="needs clutches on command"):
+        bench("clutch_command", tmp_path, values={"effects.clutches": False}, fmu=fmu_file, workers=0)
+
+
 def test_judder_ends_where_linear_theory_excludes_it(fmu_file, tmp_path):
     # T (s - 1) r/v_S exp(-v/v_S) is below the damping of a half-shaft if the wheels differ by more than 3.3 rad/s
     says = bench("judder", tmp_path, fmu=fmu_file)

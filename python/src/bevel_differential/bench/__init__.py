@@ -10,14 +10,15 @@ from ..fmu import Fmu
 from ..scene import Scene
 from ..values import FileName, Value
 from .clutch import clutch_curve, ramps
+from .commanded import clutch_command
 from .lash import lash
 from .over_time import hot_lap, judder, winter_start
 from .steady import breakaway, bias
 
 # tests by name, each with the scene that it runs
 TESTS = {"bias": (bias, "bias"), "breakaway": (breakaway, "bias"), "ramps": (ramps, "ramps"),
-         "clutch_curve": (clutch_curve, "clutch_curve"), "judder": (judder, "judder"), "hot_lap": (hot_lap, "hot_lap"),
-         "winter_start": (winter_start, "winter_start"), "lash": (lash, "lash")}
+         "clutch_curve": (clutch_curve, "clutch_curve"), "clutch_command": (clutch_command, "clutch_command"),
+         "judder": (judder, "judder"), "hot_lap": (hot_lap, "hot_lap"), "winter_start": (winter_start, "winter_start"), "lash": (lash, "lash")}
 
 
 def scene_file(name: str) -> Path:

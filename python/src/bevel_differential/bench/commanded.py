@@ -1,0 +1,82 @@
+"""Steady test of clutches on command: clutch torque over command.
+
+Each clutch is pressed alone while its wheel is slower, then faster than the clutch's shaft. The clutch torque C follows from the wheels,
+relative to the same run without a command, so that other friction does not count:
+
+    T_L - T_R = C_L - C_R        T_L + T_R = T_c + (1 - σ_L) C_L + (1 - σ_R) C_R
+"""
+
+from collections.abc import Mapping
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..losses import inputs
+from ..losses.axes import axes
+from ..panel import CYCLE, Panel, curve
+from ..scene import Scene
+from ..values import DifferentialError
+from .steady import DIFFERENCE, SPEED, largest_torque, means, written
+
+SIDES = ("left", "right")
+COMMANDS = np.arange(21) / 20.0
+# slips of a clutch [rad/s], with the state of its wheel relative to its shaft
+SLIPS = {0.5 * DIFFERENCE: "slower", -0.5 * DIFFERENCE: "faster"}
+# smallest torque that is reported [N·m]
+RESOLVED = 1e-3
+HEAD = ["clutch", "slip [rad/s]", "clutch_command [1]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "clutch_torque [N.m]",
+        "housing_torque [N.m]"]
+
+
+def clutch_command(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
+    """Measures the torque of each clutch on its side gear, and that of both gearings on the housing, over the command."""
+    if not scene.value("effects.clutches"):
+        raise DifferentialError("effects.clutches = false: the bench of torque over command needs clutches on command")
+    of_torque, torque, temperature = axes(scene)[0], largest_torque(scene), scene.value("oil.temperature")
+    ratios = {side: float(scene.value(f"clutches.{side}_ratio")) for side in SIDES}
+    points = list(product(SIDES, SLIPS, COMMANDS.tolist()))
+    found = means(scene, [inputs((torque, SPEED, _difference(side, ratios[side], slip), temperature))
+                          | {f"{each}.clutch_command": command if each == side else 0.0 for each in SIDES}
+                          for side, slip, command in points], farm)
+    rows = []
+    for (side, slip, command), (left, right, *_) in zip(points, found):
+        if command == 0.0:
+            open_left, open_right = left, right
+        moved = (left - right) - (open_left - open_right)
+        rows.append((side, slip, command, left, right, moved if side == "left" else -moved, open_left + open_right - left - right))
+    panels = [_panel(rows, of_torque.named("torque of the clutch on its side gear"), 5)]
+    if any(ratio != 1.0 for ratio in ratios.values()):
+        panels.append(_panel(rows, of_torque.named("torque on the housing"), 6))
+    return written(scene, out, _conclusion(rows, of_torque), [panels], 5.4, "clutch pressed", HEAD, rows)
+
+
+def _difference(side, ratio, slip):
+    """Difference of the wheel speeds at which the clutch of a side has a slip, while the carrier turns with SPEED."""
+    return 2.0 * ((ratio * SPEED - slip) - SPEED) * (1.0 if side == "left" else -1.0)
+
+
+def _curves(rows):
+    """Rows of each clutch and slip."""
+    return {(side, slip): [row for row in rows if row[:2] == (side, slip)] for side, slip in product(SIDES, SLIPS)}
+
+
+def _conclusion(rows, of_torque):
+    sentences, bend = [], 0.0
+    for side in SIDES:
+        torques, housing = np.array([[row[5:] for row in _curves(rows)[side, slip]] for slip in SLIPS]).transpose(2, 0, 1)
+        last, held = ([of_torque.text(round(end, 3) + 0.0) for end in ends[:, -1].tolist()] for ends in (torques, housing))
+        sentences.append(f"the {side} clutch has {last[0]} at a slower wheel and {last[1]} at a faster one, and the housing {held[0]} and {held[1]}")
+        bend = max(bend, np.abs(torques - COMMANDS * torques[:, -1:]).max() / max(np.abs(torques).max(), RESOLVED))
+    return (f"at full command, {'; '.join(sentences)}. Slower and faster are relative to the clutch's shaft. Torque deviates from proportion to the "
+            f"command by up to {100.0 * bend:.1f} %")
+
+
+def _panel(rows, label, column):
+    curves = []
+    for ((side, slip), own), colour, form in zip(_curves(rows).items(), (CYCLE[0], CYCLE[0], CYCLE[1], CYCLE[1]), ("-", "--") * 2):
+        commands, torques = zip(*((row[2], row[column]) for row in own))
+        curves.append(curve(commands, torques, f"{side} clutch, {SLIPS[slip]} wheel", colour, form,
+                            linewidth=3.0 if side == "left" else 1.4))
+    return Panel("command", label, curves, xlim=(0.0, 1.0), legend="best" if column == 5 else "")
