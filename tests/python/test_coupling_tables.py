@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from command_line import command
-from bevel_differential import Scene
+from bevel_differential import DifferentialWarning, Scene
 from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.coupling import middle
 from bevel_differential.losses.grid import Bound
@@ -111,6 +111,31 @@ def test_without_limited_slip_the_tables_are_left_out_with_the_reason(mapped, ta
     script, found = tables(mapped({"scene.gear_contact": "ideal", "effects.limited_slip": False}, [200.0, 800.0], [1.0, 9.0]))
     assert not set(found) & set(NAMES) and "because effects.limited_slip is off in the scene" in script
     assert "eta_tbl" in script and "locking_tbl" in script
+
+
+ELECTRONIC = {"scene.gear_contact": "ideal", "effects.clutches": True, "clutches.torque": 300.0, "left.clutch_command": 0.4}
+
+
+def test_a_clutch_on_command_has_its_torque_at_every_slip(mapped, tables):
+    _, found = tables(mapped(ELECTRONIC, [200.0, 800.0], [1.0, 9.0]))
+    assert found["Tdw"] == pytest.approx(np.sign(found["dwT"]) * 0.4 * 300.0, rel=1e-3, abs=1e-3)
+    assert found["TTin"] == pytest.approx(np.full(len(found["Tin"]), 0.4 * 300.0), rel=1e-3)
+
+
+def test_a_clutch_whose_gearing_is_supported_by_the_housing_has_no_tables_and_its_reversal_is_reported(tables):
+    levels, said = dict(zip(VARIABLES, ([800.0], [40.0], [4.0, 12.0], [TEMPERATURE]))), []
+    with Scene("clutches", set=ELECTRONIC | {"clutches.left_ratio": 1.125}) as scene:
+        script, found = tables(losses(scene, levels, bound=Bound(1000.0, 1000.0), unseen=0, workers=0, tell=said.append))
+    assert not set(found) & set(NAMES) and "to or from the housing" in script
+    assert any("left clutch reverses at a difference of 0.25 times" in text for text in said)
+
+
+def test_a_map_says_that_a_command_which_changes_in_the_scene_is_constant():
+    levels = dict(zip(VARIABLES, ([800.0], [40.0], [4.0], [TEMPERATURE])))
+    table = ("left.clutch_command", [0.0, 0.1], [0.0, 1.0], None)
+    with Scene("clutches", set={**ELECTRONIC, "left.clutch_command": 0.0}, tables=[table]) as scene:
+        with pytest.warns(DifferentialWarning, match="left.clutch_command changes over time in the scene, but is constant at 0 here"):
+            losses(scene, levels, bound=Bound(1000.0, 1000.0), unseen=0, workers=0)
 
 
 @pytest.mark.parametrize("switch, said", [("true", False), ("false", True)])

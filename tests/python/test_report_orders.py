@@ -193,3 +193,20 @@ def test_the_drawn_teeth_touch_at_the_points_of_the_fmu(simulated):
     deflection = 1e3 * last["planet[1].left_transmission_error"] * pair.outer_cone / mean
     lash = 1e3 * run.value("geometry.backlash") * math.cos(pair.pressure_angle)
     assert min(apart) == pytest.approx(deflection, rel=0.1) and max(apart) > 0.9 * lash
+
+
+@pytest.mark.parametrize("wheels", [{}, {"scene.left_drive": "torque", "scene.right_drive": "torque", "left.load_torque": 200.0,
+                                         "right.load_torque": 600.0}])
+def test_a_scene_with_a_clutch_on_command_runs_up_under_its_loads(fmu_file, wheels):
+    """Wheels by speed, or by torques that the clutch holds apart. Its gearing gives an eighth of its torque to the housing."""
+    values = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "carrier.torque_command": 850.0,
+              "left.speed_command": 43.0, "right.speed_command": 46.0, "carrier.speed_command": 44.5, "effects.clutches": True,
+              "clutches.torque": 400.0, "clutches.right_ratio": 1.125, "inertia.left_end": 50.0, "inertia.right_end": 50.0} | wheels
+    scene = Scene("vectoring", stop=0.3, step=1e-3, outputs=["left.shaft_torque"], set=values, fmu=fmu_file,
+                  tables=[("right.clutch_command", [0.0, 0.1], [1.0, 1.0 - 1e-9], None)])
+    run = Simulated.of(scene)
+    up = run_up(run)
+    # the clutch winds up at the start
+    assert run.mean("clutches.housing_torque") == pytest.approx(50.0, rel=0.01)
+    assert up.loads == pytest.approx([run.mean(f"{side}.shaft_torque") for side in ("left", "right")], rel=0.02)
+    assert "the command of the right clutch is constant at its mean of 1" in up.changed

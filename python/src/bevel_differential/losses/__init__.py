@@ -18,7 +18,7 @@ from ..warned import silenced
 from ..writing import locked
 from .grid import Bound, estimates, grid_points, refined, share_beyond, starting, torques_of
 from .loss_map import MAPPED, SIGNS, LossMap
-from .point import AXES, FIGURES, PointTask, benched
+from .point import AXES, FIGURES, PointTask, benched, pressed
 
 # variables with the units of the axes: torque, speed, difference of speeds, temperature
 VARIABLES = ["carrier.torque_command", "carrier.speed_command", "left.speed_command", "oil.temperature"]
@@ -82,6 +82,8 @@ def losses(scene: Scene | FileName, levels: Mapping[str, Sequence[float]], *, wi
             scene.set({CORNERS: True})
             model += ", corner contact"
         tell(f"model: {model}")
+    for text in _reversals(scene, lines):
+        tell(text)
     task, begin, temperatures = PointTask(scene), time.perf_counter(), lines[3]
     if len(temperatures) > 1 and not _depends_on_oil(scene, temperatures):
         lines[3] = temperatures[len(temperatures) // 2:][:1]
@@ -199,6 +201,16 @@ def _depends_on_oil(scene, temperatures):
     except DifferentialError:
         # the run itself will report the point that is refused
         return True
+
+
+def _reversals(scene, lines):
+    """Sentence about each clutch on command whose torque reverses between the lines, where the map has a discontinuity."""
+    _, speeds, differences, _ = lines
+    for side in pressed(scene):
+        per_speed = 2.0 * abs(float(scene.value(f"clutches.{side}_ratio")) - 1.0)
+        if per_speed * np.abs(speeds).max() > differences[0] and per_speed * np.abs(speeds).min() < differences[-1]:
+            yield (f"the torque of the {side} clutch reverses at a difference of {per_speed:g} times the carrier speed: the map needs many "
+                   "points there; choose --speed and --difference on one side of it")
 
 
 def _chosen(scene, lines, within):

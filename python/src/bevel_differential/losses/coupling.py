@@ -4,8 +4,8 @@ The block splits the torque T of the carrier into the torques of its axles, whic
 
     T1 = T/2 − Tc/2,   T2 = T/2 + Tc/2,   slip (ω1 − ω2)/2
 
-so Tc is the difference of the axle torques. It is the torque of both clutch packs together, and the slip is that of one side gear
-relative to the carrier. A positive Tc at positive slip brakes the fast axle. The mask has the vectors dwT and Tdw for "Slip speed
+so Tc is the difference of the axle torques. It is the torque of both clutch packs together, or that of a clutch on command, and the slip
+is that of one side gear relative to the carrier. A positive Tc at positive slip brakes the fast axle. The mask has the vectors dwT and Tdw for "Slip speed
 dependent torque data", and Tin and TTin for "Input torque dependent torque data".
 
 Sources: https://mathworks.com/help/autoblks/ref/limitedslipdifferential.html; factors of slip and torque from code that Simulink Coder
@@ -16,6 +16,7 @@ import numpy as np
 from . import MeasuredMap
 from .grid import grid_points, torques_of
 from .loss_map import DIFFERENCE, MAPPED, SIGNS
+from .point import pressed
 
 SWITCH = "effects.limited_slip"
 # smallest number of points of a vector that a look-up table accepts
@@ -24,9 +25,12 @@ FEWEST = 2
 
 def left_out(result: MeasuredMap) -> str:
     """Reason why there are no tables of the coupling torque; empty if there are."""
-    if result.scene.value(SWITCH):
+    sides = pressed(result.scene)
+    if any(result.scene.value(f"clutches.{side}_ratio") != 1.0 for side in sides):
+        return "a clutch whose ratio is not 1 also moves torque to or from the housing, which the block does not have"
+    if sides or result.scene.value(SWITCH):
         return ""
-    return f"{SWITCH} is off in the scene, so no clutch couples the axles"
+    return f"{SWITCH} is off in the scene and no clutch on command is pressed, so no clutch couples the axles"
 
 
 def middle(result: MeasuredMap) -> list[int]:

@@ -21,6 +21,7 @@ from ..instance import Instance
 from ..scene import Scene
 from ..values import UNFELT, DifferentialError, Number
 from ..want import Want
+from ..warned import warn
 from ..designs.task import Row
 
 # variables that define a point
@@ -31,6 +32,8 @@ FIGURES = ["left.shaft_torque:mean", "right.shaft_torque:mean", "power.loss:mean
 BENCH = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.planet_spin": "free",
          "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False}
 SHAFTS = ["half_shaft.left", "half_shaft.right"]
+# inputs that act on a bench, too, and are constant there
+COMMANDS = ["left.clutch_command", "right.clutch_command", "lock.command"]
 # damping over stiffness of the half-shafts, s: the means of the torques do not depend on it
 DAMPING_TIME = 0.01
 # samples of a mesh cycle; shortest time window over which means are compared, s; maximum number of windows
@@ -42,10 +45,19 @@ CREEP, FINER, LEVELS = 0.02, 20, 3
 
 
 def benched(scene: Scene) -> Scene:
-    """Copy of the scene on the bench: its parameters, driven by torque and speeds, without its changes over time."""
+    """Copy of the scene on the bench: its parameters, driven by torque and speeds, without its changes over time. Warns of commands that
+    change over time in the scene."""
+    changed = {name for name, *_ in scene.tables}.union(*(values for _, values in scene.changes))
+    warn(f"{name} changes over time in the scene, but is constant at {scene.value(name):g} here: give the scene a constant value"
+         for name in COMMANDS if name in changed)
     values = {**scene.values, **BENCH}
     values |= {f"{shaft}_damping": DAMPING_TIME * scene.value(f"{shaft}_stiffness") for shaft in SHAFTS}
     return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
+
+
+def pressed(scene: Scene) -> list[str]:
+    """Sides whose clutch on command is pressed."""
+    return [side for side in ("left", "right") if scene.value("effects.clutches") and scene.value(f"{side}.clutch_command")]
 
 
 class PointTask:

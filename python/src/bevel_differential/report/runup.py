@@ -149,8 +149,8 @@ def loads_of(run: Simulated) -> tuple[tuple[float, float], list[str]]:
 
 def _values(run, commands, imposed, loads):
     """Values that differ from the scene's, and sentences about differences that a reader would not expect."""
-    # the start uses the speed of a carrier that is driven by torque
-    drive = {"carrier.torque_command": sum(loads), "carrier.speed_command": SLOWEST}
+    # the start uses the speed of a carrier that is driven by torque; gearings of clutches give a part of the torque to the housing
+    drive = {"carrier.torque_command": sum(loads) + run.mean("clutches.housing_torque"), "carrier.speed_command": SLOWEST}
     values: dict[str, Number | str] = {
         "scene.start": "rolling", "left.load_torque": loads[0], "right.load_torque": loads[1],
         **{port_command(run.value, name): port_value(run.value, name, value) for name, value in drive.items()},
@@ -171,6 +171,10 @@ def _values(run, commands, imposed, loads):
         if max(abs(run.series(f"{side}.brake_torque"))) > 0.0:
             values[f"{side}.brake_torque"] = 0.0
             changed.append(f"the {side} brake is released")
+        command = run.series(f"{side}.clutch_command")
+        if np.ptp(command) > 0.0:
+            values[f"{side}.clutch_command"] = run.mean(f"{side}.clutch_command")
+            changed.append(f"the command of the {side} clutch is constant at its mean of {words.number(values[f'{side}.clutch_command'])}")
     return values, changed
 
 

@@ -64,8 +64,12 @@ def _torques(run):
     left, right, carrier = (run.shown(name) for name in ("left.shaft_torque", "right.shaft_torque", "carrier.torque"))
     unit = words.unit_text(run.unit("carrier.torque"))
     means = [words.number(mean_over_time(values, run.time)) for values in (carrier, left, right)]
+    housing = run.shown("clutches.housing_torque")
+    taken = ""
+    if np.any(housing):
+        taken = f"the gearings of the clutches give {words.quantity(mean_over_time(housing, run.time), unit)} to the housing, and "
     return (f"Torque of the drive on the carrier and of the half-shafts on the wheels; on the mean carrier {means[0]}, left "
-            f"{means[1]} and right {means[2]} {unit}; the difference accelerates bodies or is lost. Largest: carrier "
+            f"{means[1]} and right {means[2]} {unit}; {taken}the {'rest' if taken else 'difference'} accelerates bodies or is lost. Largest: carrier "
             f"{words.number(np.max(np.abs(carrier)))}, left "
             f"{words.number(np.max(np.abs(left)))}, right {words.quantity(np.max(np.abs(right)), unit)}.")
 
