@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use crate::model::dynamics::Actuators;
 use crate::model::effect_kinds::{BodyEffect, Friction, Loss, RubbingSurface, SurfaceTemperature};
 use crate::model::effects::half_shaft::HalfShafts;
 use crate::model::scene::{
-    GearContact, InputDerivatives, Inputs, OilSpec, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
+    ACTUATED_LOCK, GearContact, InputDerivatives, Inputs, OilSpec, PAIRS, Plan, RubbingKind, RubbingPair, Viscosity,
 };
 use crate::model::setup::{Parameters, SceneEffects};
 use crate::model::thermal::{NODES, OIL};
@@ -30,6 +31,8 @@ pub struct BodyEffects {
     pub has_commanded: bool,
     /// True if there is dry friction other than that of a lock.
     pub has_friction: bool,
+    /// Actuators that commands pass.
+    pub actuators: Actuators,
     /// Oil, if an effect needs its viscosity.
     oil: Option<OilSpec>,
 }
@@ -39,7 +42,8 @@ impl BodyEffects {
     pub fn new(p: &Parameters, effects: &SceneEffects, plan: &Plan) -> Self {
         let (forces, mut surfaces) = (effects.on_bodies(plan), Vec::new());
         effects.set_surfaces(&mut surfaces);
-        let has_friction = surfaces.iter().any(|surface| !surface.is_lock());
+        let actuators = effects.actuators();
+        let has_friction = has_friction(&surfaces, &actuators);
         Self {
             has_commanded: surfaces.iter().any(|surface| surface.kind.is_commanded()),
             has_effects: !forces.is_empty() || has_friction,
@@ -48,6 +52,7 @@ impl BodyEffects {
             has_friction,
             surfaces,
             pairs: plan.rubbing(plan.contact != GearContact::Ideal),
+            actuators,
             half_shafts: HalfShafts::new(&p.specs.half_shaft, plan),
             oil: effects.oil_acts().then_some(p.oil),
         }
@@ -61,7 +66,7 @@ impl BodyEffects {
     /// Applies changed tunable parameters.
     pub fn tune(&mut self, effects: &SceneEffects) {
         effects.set_surfaces(&mut self.surfaces);
-        self.has_friction = self.surfaces.iter().any(|surface| !surface.is_lock());
+        self.has_friction = has_friction(&self.surfaces, &self.actuators);
     }
 
     /// True if pairs of this `kind` have friction.
@@ -109,4 +114,9 @@ impl BodyEffects {
     pub fn needs_loads(&self) -> bool {
         self.surfaces.iter().any(RubbingSurface::depends_on_meshes)
     }
+}
+
+/// True if there may be friction that no direct command of the lock announces.
+fn has_friction(surfaces: &[RubbingSurface], actuators: &Actuators) -> bool {
+    actuators[ACTUATED_LOCK].is_some() || surfaces.iter().any(|surface| !surface.is_lock())
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Actuated;
 use crate::model::scene::{InputDerivatives, Inputs};
 use crate::numeric::finite;
 
@@ -13,6 +14,8 @@ pub struct ActingInputs {
     pub values: Inputs,
     /// Derivatives from the present on, if the host has set them.
     pub derivatives: Option<InputDerivatives>,
+    /// States of the actuators that commands pass, if the scene has any.
+    pub actuated: Option<Actuated>,
 }
 
-finite!(ActingInputs { values, derivatives });
+finite!(ActingInputs { values, derivatives, actuated });

@@ -71,6 +71,9 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
         if let Some(derivatives) = &state.inputs.derivatives {
             these.driven = these.driven_terms(derivatives);
         }
+        if S::MAY_ACT && these.applied.has_moving_actuators() {
+            these.driven = Driven::SCALES;
+        }
         these
     }
 

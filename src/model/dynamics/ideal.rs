@@ -59,7 +59,7 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
     #[inline(always)]
     pub(super) fn at_time<T>(&self, time: f64, of: impl FnOnce(InputsNow) -> T) -> T {
         if self.applied.driven {
-            let (inputs, derivatives) = self.applied.input_derivatives.after(time, &self.applied.inputs);
+            let (inputs, derivatives) = self.applied.inputs_after(Some(&self.ideal.body_effects), time);
             of((&inputs, &derivatives.rates[0]))
         } else {
             of(self.now())

@@ -1,13 +1,16 @@
 //! Inputs and dry friction, which act on gears with and without teeth.
 
+use super::actuated::{courses, later};
 use super::ledger_rates::LedgerRates;
-use super::{PinionLoss, State};
+use super::{Actuated, PinionLoss, State};
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
-use crate::model::effect_kinds::{BodyMotion, Friction, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
+use crate::model::effect_kinds::{
+    BodyMotion, Friction, FrictionState, Mode, Parabola, RubbingSurface, Slip, SurfaceLoad,
+};
 use crate::model::scene::{
-    CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair, Viscosity,
+    ACTUATED, CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair, Viscosity,
 };
 use crate::model::thermal::NODES;
 
@@ -27,10 +30,12 @@ pub struct Jacobian<'a, const N: usize> {
 /// Inputs and dry friction that act in the equations.
 #[derive(Clone, Copy)]
 pub struct InputsAndFriction {
-    /// Inputs.
+    /// Inputs. Commands that pass actuators have the values that act behind these.
     pub inputs: Inputs,
     /// Derivatives of the inputs.
     pub input_derivatives: InputDerivatives,
+    /// Actuators that move, and the courses of their commands.
+    actuated: Option<(Actuated, [Parabola; ACTUATED])>,
     /// True if inputs change with time.
     pub driven: bool,
     /// Changes of the load torques, left and right, and of the drive's torque within the pending step [N·m].
@@ -51,6 +56,7 @@ impl InputsAndFriction {
         Self {
             inputs: *inputs,
             input_derivatives: state.inputs.derivatives.unwrap_or(InputDerivatives::ZERO),
+            actuated: None,
             driven: state.inputs.derivatives.is_some(),
             change: [0.0; 3],
             friction_state: state.friction,
@@ -64,12 +70,53 @@ impl InputsAndFriction {
     /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
         self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.used);
+        if let Some(actuated) = &state.inputs.actuated {
+            self.actuate(body_effects, actuated, state);
+        }
         if body_effects.may_have_dry_friction(state) {
-            let at = (state.lock, &state.thermal.used);
-            let friction = body_effects.friction(at, &self.inputs, &self.input_derivatives);
+            let friction = self.friction_at(body_effects, (state.lock, &state.thermal.used));
             self.has_dry_friction = friction.is_any();
             self.friction = Some(friction);
         }
+    }
+
+    /// Lets the commands of `state` pass the actuators of the scene.
+    #[cold]
+    #[inline(never)]
+    fn actuate(&mut self, body_effects: &BodyEffects, actuated: &Actuated, state: &State) {
+        let actuators = &body_effects.actuators;
+        let present = actuated.at(actuators, [&state.inputs.values, &self.inputs], state.time());
+        let commands = courses(&self.inputs, state.inputs.derivatives.as_ref());
+        if present.moves(actuators, &self.inputs, state.inputs.derivatives.as_ref()) {
+            self.actuated = Some((present, commands));
+            self.driven = true;
+        }
+        present.act(actuators, &commands, &mut self.inputs, &mut self.input_derivatives);
+    }
+
+    /// Dry friction with the lock at `lock` and all nodes at `temperatures` [K].
+    fn friction_at(&self, body_effects: &BodyEffects, at: (f64, &[f64; NODES])) -> Friction {
+        let mut derivatives = self.input_derivatives;
+        if self.actuated.is_some() {
+            // any value but 0 says that a command changes, even if it starts with derivatives of 0
+            derivatives.rates[1].actuated_mut().into_iter().for_each(|rate| *rate = 1.0);
+        }
+        body_effects.friction(at, &self.inputs, &derivatives)
+    }
+
+    /// Inputs and their derivatives `time` [s] later.
+    pub fn inputs_after(&self, body_effects: Option<&BodyEffects>, time: f64) -> (Inputs, InputDerivatives) {
+        let (mut inputs, mut derivatives) = self.input_derivatives.after(time, &self.inputs);
+        if let (Some((actuated, commands)), Some(BodyEffects { actuators, .. })) = (&self.actuated, body_effects) {
+            let later = commands.each_ref().map(|command| later(command, time));
+            actuated.after(actuators, commands, time).act(actuators, &later, &mut inputs, &mut derivatives);
+        }
+        (inputs, derivatives)
+    }
+
+    /// True if actuators move.
+    pub fn has_moving_actuators(&self) -> bool {
+        self.actuated.is_some()
     }
 
     /// True if dry friction neither acts nor holds anything.
@@ -79,7 +126,7 @@ impl InputsAndFriction {
 
     /// Updates dry friction and oil viscosity to other `temperatures` [K].
     pub fn update_temperatures(&mut self, body_effects: &BodyEffects, lock: f64, temperatures: &[f64; NODES]) {
-        self.friction = Some(body_effects.friction((lock, temperatures), &self.inputs, &self.input_derivatives));
+        self.friction = Some(self.friction_at(body_effects, (lock, temperatures)));
         self.oil_viscosity = body_effects.oil_viscosity(temperatures);
     }
 
@@ -181,7 +228,7 @@ pub trait FrictionEquations<const N: usize> {
     where
         Self: Copy,
     {
-        let (inputs, input_derivatives) = self.applied().input_derivatives.after(time, &self.applied().inputs);
+        let (inputs, input_derivatives) = self.applied().inputs_after(self.body_effects(), time);
         self.under(&inputs, &input_derivatives)
     }
 
@@ -285,7 +332,7 @@ pub trait FrictionEquations<const N: usize> {
     fn surface_loads(&self, at: &Point<N>, time: f64) -> [SurfaceLoad; PAIRS] {
         let (mut all, applied) = (self.mesh_loads(at), self.applied());
         if applied.driven && time > 0.0 {
-            let (inputs, _) = applied.input_derivatives.after(time, &applied.inputs);
+            let (inputs, _) = applied.inputs_after(self.body_effects(), time);
             applied.friction().add_commands(&inputs, &mut all);
         } else {
             applied.friction().add_commands(&applied.inputs, &mut all);

@@ -13,6 +13,7 @@
 //! - `state`, `acting_inputs`, `timeline`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
 
 pub mod acting_inputs;
+pub mod actuated;
 mod closed_form;
 mod driven;
 #[cfg(test)]
@@ -43,6 +44,7 @@ pub mod shape;
 pub mod state;
 pub mod timeline;
 
+pub use actuated::{Actuated, Actuators};
 pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
 pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};

@@ -80,7 +80,7 @@ impl State {
             torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
             lock: 0.0,
-            inputs: ActingInputs { values: Inputs::ZERO, derivatives: None },
+            inputs: ActingInputs { values: Inputs::ZERO, derivatives: None, actuated: None },
             energy_at_start: 0.0,
             pending_step: None,
             events: Events::default(),
@@ -226,6 +226,7 @@ impl State {
             && friction.iter().all(|body| body.stiffness >= 0.0)
             && torque_means.is_finite()
             && inputs.derivatives.is_finite()
+            && inputs.actuated.is_finite()
             && whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)
             && (0.0..=1.0).contains(lock)
             && control.is_valid()

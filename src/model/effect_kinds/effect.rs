@@ -6,7 +6,7 @@ use std::fmt::Debug;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use super::{BodyEffect, BodyMotion, FlankFriction, RubbingSurface, ToothEffects};
+use super::{Actuator, BodyEffect, BodyMotion, FlankFriction, RubbingSurface, ToothEffects};
 use crate::contact::ContactSpec;
 use crate::contact::errors::GearTeeth;
 use crate::declaration::{Condition, DisplayUnit, EnumType, Group, Need, Row, Rows, Unit};
@@ -252,6 +252,11 @@ pub trait Effect: Any {
     /// True if the effect depends on the viscosity of the oil at its temperature.
     fn is_oiled(&self) -> bool {
         false
+    }
+
+    /// Actuator of its commands, and their indices in the order of [`Inputs::actuated`].
+    fn actuator(&self) -> Option<(Actuator, &'static [usize])> {
+        None
     }
 
     /// Adds the surfaces on which the effect lets bodies rub to `surfaces`.

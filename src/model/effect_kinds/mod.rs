@@ -1,6 +1,7 @@
 //! Building blocks of effects: their declaration (`effect`), forces on bodies (`body_effect`, `element`), dry friction
 //! with sticking (`rubbing_surface`, `friction`, `dry_friction`), and changes to single teeth (`teeth`).
 
+pub mod actuator;
 pub mod body_effect;
 pub mod body_friction;
 pub mod dry_friction;
@@ -24,6 +25,7 @@ pub mod slip_spec;
 pub mod teeth;
 pub mod torque_curve;
 
+pub use actuator::{Actuates, Actuator, ActuatorState, Parabola};
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes, StaticLoads};
 pub(super) use effect::readings;
 pub use effect::{

@@ -12,7 +12,7 @@
 //! T_L + T_R = T_c + (1 − σ_L) C_L + (1 − σ_R) C_R
 //! ```
 //!
-//! The command u runs from 0 (open) to 1. A clutch without slip holds up to the same torque (`effect_kinds::dry_friction`).
+//! The command u runs from 0 (open) to 1 and passes an actuator (`effect_kinds::actuator`). A clutch without slip holds up to the same torque (`effect_kinds::dry_friction`).
 //! Slip speed, temperature and p·v change its torque as those of a clutch pack. The torque refers to the side gear.
 //!
 //! Source: J. Deur, V. Ivanović, M. Hancock and F. Assadian, Modeling and analysis of active differential dynamics,
@@ -22,10 +22,10 @@ use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, ByLoad, Class, Command, Declare, Effect, Heat, InputField, Instant, Reading, RubbingSurface, Setting,
-    Slides, SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
+    Actuates, Actuator, BUILT, ByLoad, Class, Command, Declare, Effect, Heat, InputField, Instant, Reading,
+    RubbingSurface, Setting, Slides, SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
 };
-use crate::model::scene::{CARRIER, Requests, RubbingKind};
+use crate::model::scene::{ACTUATED_CLUTCHES, CARRIER, Requests, RubbingKind};
 use crate::model::thermal::CLUTCH;
 use crate::problem::Problem;
 
@@ -49,12 +49,19 @@ parameters! {
         /// Coefficient of friction of the plates
         plate_coefficient: f64 = 0.1, ONE, 0.01..=1.0;
         ..sliding: SlipSpec;
+        ..actuator: Actuator;
     }
 }
 
 impl Slides for ClutchesSpec {
     fn sliding(&mut self) -> &mut SlipSpec {
         &mut self.sliding
+    }
+}
+
+impl Actuates for ClutchesSpec {
+    fn actuator(&mut self) -> &mut Actuator {
+        &mut self.actuator
     }
 }
 
@@ -133,6 +140,10 @@ impl Effect for ClutchesSpec {
 
     fn requests(&self, _: &Setting) -> Requests {
         Requests { clutch_ratio: self.ratio.map(Some), ..Requests::default() }
+    }
+
+    fn actuator(&self) -> Option<(Actuator, &'static [usize])> {
+        Some((self.actuator, &ACTUATED_CLUTCHES))
     }
 
     fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {

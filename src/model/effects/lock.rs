@@ -5,8 +5,10 @@ use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
-use crate::model::effect_kinds::{BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, RubbingSurface, Setting};
-use crate::model::scene::RubbingKind;
+use crate::model::effect_kinds::{
+    Actuates, Actuator, BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, RubbingSurface, Setting,
+};
+use crate::model::scene::{ACTUATED_LOCK, RubbingKind};
 
 parameters! {
     /// Lock between side gears and carrier, controlled by a command.
@@ -17,6 +19,13 @@ parameters! {
         stiffness: f64 = 1e6, NM_PER_RAD, 1.0..=1e9;
         /// Damping of the closed lock over its stiffness
         damping_time: f64 = DAMPING_TIME, SECOND, 0.0..=1.0;
+        ..actuator: Actuator;
+    }
+}
+
+impl Actuates for LockSpec {
+    fn actuator(&mut self) -> &mut Actuator {
+        &mut self.actuator
     }
 }
 
@@ -34,6 +43,10 @@ impl Declare for LockSpec {
 }
 
 impl Effect for LockSpec {
+    fn actuator(&self) -> Option<(Actuator, &'static [usize])> {
+        Some((self.actuator, &[ACTUATED_LOCK]))
+    }
+
     fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
         surfaces.push(RubbingSurface {
             limit: ByLoad { constant: self.torque, ..ByLoad::NONE },

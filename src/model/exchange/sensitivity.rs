@@ -9,14 +9,15 @@
 use super::states::STATES;
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Gears;
-use crate::model::dynamics::FrictionEquations;
+use crate::model::dynamics::actuated::courses;
 use crate::model::dynamics::with_equations;
+use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::outputs::forces::{Extent, Forces};
 use crate::model::outputs::pairs::PairLines;
 use crate::model::outputs::{LedgerReadings, Motion};
 use crate::model::run::Simulation;
 use crate::model::run::imposed::{add_impulse, imposed_speeds};
-use crate::model::scene::{CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
+use crate::model::scene::{ACTUATED, CARRIER, InputDerivatives, Inputs, MAX_DOF, PLANET};
 use crate::model::setup::{HEATS, STEP_READINGS};
 use crate::model::thermal::network::Rates;
 use crate::model::thermal::{NODES, Network, of_scene};
@@ -37,6 +38,8 @@ pub struct Direction {
     pub inputs: Inputs,
     /// Change of the rates of the inputs.
     pub rates: Inputs,
+    /// Change of what acts behind the actuators of commands. It changes only with time.
+    pub actuated: [f64; ACTUATED],
     /// Change of the temperatures of the nodes [K]. They change only with time.
     pub temperatures: [f64; NODES],
 }
@@ -48,6 +51,7 @@ impl Direction {
         v: [0.0; MAX_DOF],
         inputs: Inputs::ZERO,
         rates: Inputs::ZERO,
+        actuated: [0.0; ACTUATED],
         temperatures: [0.0; NODES],
     };
 
@@ -99,11 +103,33 @@ impl Simulation {
         let (inputs, state) = (&self.inputs, &self.state);
         let mut input_acceleration_slopes = [0.0; MAX_DOF];
         let input_derivatives = InputDerivatives { rates: [direction.rates, Inputs::ZERO] };
+        let change = self.acting_change(direction);
         with_equations!(self.model, state, inputs, |equations| {
-            let by_inputs = equations.input_accelerations(&state.point(), &direction.inputs, &input_derivatives);
+            let by_inputs = equations.input_accelerations(&state.point(), &change, &input_derivatives);
             input_acceleration_slopes.iter_mut().zip(by_inputs).for_each(|(slope, by_inputs)| *slope = by_inputs);
         });
         input_acceleration_slopes
+    }
+
+    /// Change of the inputs along `direction` as it acts behind the actuators of commands.
+    fn acting_change(&self, direction: &Direction) -> Inputs {
+        let (mut change, commands) = (direction.inputs, self.inputs.actuated());
+        for (k, slot) in change.actuated_mut().into_iter().enumerate() {
+            if let Some(of) = &self.model.body_effects().actuators[k] {
+                *slot = of.feedthrough(commands[k]) * *slot + direction.actuated[k];
+            }
+        }
+        change
+    }
+
+    /// Rates at which the outputs of the actuators of commands change with time [1/s].
+    fn actuator_rates(&self) -> [f64; ACTUATED] {
+        let (actuators, State { inputs: acting, .. }) = (&self.model.body_effects().actuators, &self.state);
+        let Some(actuated) = &acting.actuated else { return [0.0; ACTUATED] };
+        let present = actuated.at(actuators, [&acting.values, &self.inputs], self.state.time());
+        let commands = courses(&self.inputs, acting.derivatives.as_ref());
+        let delayed = |k: usize| actuators[k].as_ref().filter(|of| !of.is_immediate());
+        std::array::from_fn(|k| delayed(k).map_or(0.0, |of| of.acting(&present.states[k], &commands[k])[1]))
     }
 
     /// Direction in which state and inputs change with time, without temperatures.
@@ -114,6 +140,7 @@ impl Simulation {
         if let Some(input_derivatives) = self.input_derivatives() {
             [direction.inputs, direction.rates] = input_derivatives.rates;
         }
+        direction.actuated = self.actuator_rates();
         direction
     }
 
@@ -192,6 +219,11 @@ impl Simulation {
         }
         if let (Some(from), Some(to)) = (&from.inputs.derivatives, &mut state.inputs.derivatives) {
             to.rates[0] = from.rates[0].plus(factor, &direction.rates);
+        }
+        if let (Some(from), Some(to)) = (&from.inputs.actuated, &mut state.inputs.actuated) {
+            for (to, (from, change)) in to.states.iter_mut().zip(from.states.iter().zip(direction.actuated)) {
+                (to.limited, to.value) = (from.limited + factor * change, from.value + factor * change);
+            }
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
         for (to, (from, change)) in

@@ -6,9 +6,10 @@
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{FrictionEquations, State};
+use crate::model::dynamics::{Actuated, FrictionEquations, State};
 use crate::model::run::events::{
-    apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, next_change, record_holds,
+    acting_inputs, apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, has_lock_moved,
+    next_change, record_holds,
 };
 use crate::model::run::progress::complete;
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
@@ -32,9 +33,13 @@ impl Simulation {
     /// Records the present state as the end of a completed step. `followed_commands` are the latest commands to whose
     /// jumps of imposed speeds the free speeds have responded.
     fn accept(&mut self, followed_commands: Inputs) {
-        let State { q, v, .. } = self.state;
+        let (State { q, v, inputs, .. }, time) = (self.state, self.state.time());
+        if let Some(actuated) = &mut self.state.inputs.actuated {
+            let present = actuated.at(&self.model.body_effects().actuators, [&inputs.values, &self.inputs], time);
+            *actuated = Actuated { since: Some(time), ..present };
+        }
         self.state.inputs.values = self.inputs;
-        self.accepted = Some(Accepted { time: self.state.time(), q, v, followed_commands });
+        self.accepted = Some(Accepted { time, q, v, followed_commands });
         self.forces = None;
     }
 
@@ -97,7 +102,8 @@ impl Simulation {
             state.work += energy(model, inputs, &begin) - before;
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
-                let (_, first) = equations.under(&state.inputs.values, &InputDerivatives::ZERO).evaluate(&start);
+                let before = acting_inputs(model, &state.inputs.values, &begin);
+                let (_, first) = equations.under(&before, &InputDerivatives::ZERO).evaluate(&start);
                 let (_, last) = equations.evaluate(&end);
                 // the motion in between is unknown: for stiff teeth, no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
@@ -132,7 +138,7 @@ impl Simulation {
             state.wrap(&model.periods, &model.body_effects().pairs);
         }
         let jumps = imposed::is_impulse(model, &from.followed_commands, inputs);
-        let commanded = inputs.lock != state.lock || has_commanded_changed(model, inputs, state);
+        let commanded = has_lock_moved(model, inputs, state) || has_commanded_changed(model, inputs, state);
         let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
         self.accept(from.followed_commands);
         Ok(due)
@@ -180,9 +186,8 @@ impl Simulation {
         });
         record_holds(&friction, state);
         break_tooth(model, inputs, state);
-        let next = next_change(model, state);
         let states_changed = before.q != state.q || before.v != state.v;
         self.accept(self.inputs);
-        Ok(Update { states_changed, next })
+        Ok(Update { states_changed, next: self.next_event() })
     }
 }

@@ -3,11 +3,12 @@
 
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
+use crate::model::dynamics::actuated::courses;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{FrictionEquations, State};
+use crate::model::dynamics::{FrictionEquations, InputsAndFriction, State};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{InputDerivatives, Inputs, PAIRS, RubbingKind};
+use crate::model::scene::{ACTUATED, ACTUATED_LOCK, InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
@@ -16,10 +17,45 @@ pub fn energy(model: &Model, inputs: &Inputs, state: &State) -> f64 {
 }
 
 /// Time of the next change of the equations that the host does not cause [s]: the onset of the tooth fault, if it is
-/// still to come.
+/// still to come, or the next step of a lock whose actuator moves.
 pub fn next_change(model: &Model, state: &State) -> Option<f64> {
     let onset = onset(model).filter(|_| may_break_tooth(model) && !state.is_tooth_broken);
-    onset.filter(|&onset| !state.timeline.has_reached(onset))
+    let onset = onset.filter(|&onset| !state.timeline.has_reached(onset));
+    onset.into_iter().chain(next_step_of_lock(model, state)).reduce(f64::min)
+}
+
+/// Time at which a lock whose actuator moves takes its next step [s]. The stiffness of a closed lock follows its command,
+/// so the lock is constant in between, within about one hundredth of the full command.
+fn next_step_of_lock(model: &Model, state: &State) -> Option<f64> {
+    let actuated = state.inputs.actuated.as_ref()?;
+    let actuator = model.body_effects().actuators[ACTUATED_LOCK].as_ref()?;
+    let mut only_lock = [None; ACTUATED];
+    only_lock[ACTUATED_LOCK] = Some(*actuator);
+    let moves = actuated.moves(&only_lock, &state.inputs.values, state.inputs.derivatives.as_ref());
+    (moves && !actuator.is_immediate()).then(|| state.time() + actuator.hundredth())
+}
+
+/// Applies the command of the lock behind its actuator, if it has changed.
+pub fn follow_lock(model: &Model, inputs: &Inputs, state: &mut State) {
+    if state.inputs.actuated.is_some() && acting_inputs(model, inputs, state).lock != state.lock {
+        apply_changes(model, inputs, state);
+    }
+}
+
+/// True if the lock is due to follow its command. An actuator moves it in steps ([`next_change`]).
+pub fn has_lock_moved(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let lock = acting_inputs(model, inputs, state).lock;
+    lock != state.lock && next_step_of_lock(model, state).is_none()
+}
+
+/// Inputs that act at `state`, behind the actuators.
+pub fn acting_inputs(model: &Model, inputs: &Inputs, state: &State) -> Inputs {
+    let Some(actuated) = &state.inputs.actuated else { return *inputs };
+    let (actuators, mut acting) = (&model.body_effects().actuators, *inputs);
+    let commands = courses(inputs, state.inputs.derivatives.as_ref());
+    let present = actuated.at(actuators, [&state.inputs.values, inputs], state.time());
+    present.act(actuators, &commands, &mut acting, &mut InputDerivatives::ZERO.clone());
+    acting
 }
 
 /// True if a tooth of the scene may break.
@@ -52,7 +88,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 /// ends on bodies.
 pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
-    state.lock = inputs.lock;
+    state.lock = acting_inputs(model, inputs, state).lock;
     if !model.body_effects().may_have_dry_friction(state) {
         return;
     }
@@ -79,9 +115,10 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
 
 /// True if brakes or clutches were applied or released since friction last switched.
 pub fn has_commanded_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
-    let friction = model.body_effects().friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
+    let mut applied = InputsAndFriction::without_friction(inputs, state);
+    applied.add(model.body_effects(), state);
     let mut commanded = (0..PAIRS).filter(|&i| RubbingKind::of(i).0.is_commanded());
-    commanded.any(|i| friction.on(i).stiffness != state.friction[i].stiffness)
+    commanded.any(|i| applied.friction().on(i).stiffness != state.friction[i].stiffness)
 }
 
 /// True if inputs command the limit torques of brakes or clutches.

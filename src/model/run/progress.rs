@@ -5,15 +5,17 @@
 //! pending step is completed up to the present, and the integration restarts there. If only torques change, the
 //! integration continues without a restart (see `change`).
 
-use super::events::{apply_changes, break_tooth, next_change};
+use super::events::{apply_changes, break_tooth, follow_lock, next_change};
 use super::integration::{self, Integration};
 use super::{StepFailure, change, imposed};
 use crate::model::assembly::{Gears, Model};
+use crate::model::dynamics::acting_inputs::ActingInputs;
+use crate::model::dynamics::actuated::courses;
 use crate::model::dynamics::event::AdvanceOptions;
 use crate::model::dynamics::timeline::LONGEST_INTERVAL;
-use crate::model::dynamics::{Clock, CommunicationPoint, State, Stop};
+use crate::model::dynamics::{Actuated, Clock, CommunicationPoint, State, Stop};
 use crate::model::effects::Memories;
-use crate::model::scene::{Inputs, Method, Plan};
+use crate::model::scene::{Inputs, Method};
 
 /// Time of a communication step during which the limit of attempts grows [s]: an hour.
 const LONGEST_GROWTH: f64 = 3600.0;
@@ -86,18 +88,19 @@ pub fn integrate(
     while state.time() < until {
         let (begin, events) = (state.time(), state.events.count());
         let stop = state.timeline.next_stop(next_change(model, state), until);
-        let outcome = if state.inputs.derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
+        let outcome = if inputs_move(model, state) || model.parameters.solver.method == Method::FixedStep {
             step_to_stop(model, inputs, (state, memories), stop, &mut budget)
         } else {
             step_past_stop(model, inputs, (state, memories), (stop, options, acceleration_change.take()), &mut budget)
         };
-        advance_inputs(&model.ideal.plan, inputs, state, state.time() - begin);
+        advance_inputs(model, inputs, state, state.time() - begin);
         outcome?;
         // an event has paused the motion
         if state.time() < stop.time {
             return Ok(());
         }
         break_tooth(model, inputs, state);
+        follow_lock(model, inputs, state);
         let pauses = if state.time() < until {
             options.pauses && state.events.count() != events
         } else {
@@ -238,8 +241,20 @@ pub fn wrap_and_constrain(model: &Model, state: &mut State) {
     }
 }
 
-/// Advances inputs by `time` [s] along their derivatives.
-pub fn advance_inputs(plan: &Plan, inputs: &mut Inputs, state: &mut State, time: f64) {
+/// True if inputs have derivatives, or if actuators move behind them.
+pub fn inputs_move(model: &Model, state: &State) -> bool {
+    let ActingInputs { values, derivatives, actuated } = &state.inputs;
+    let moves = |of: &Actuated| of.moves(&model.body_effects().actuators, values, derivatives.as_ref());
+    derivatives.is_some() || actuated.as_ref().is_some_and(moves)
+}
+
+/// Advances inputs by `time` [s] along their derivatives, and the actuators behind them.
+pub fn advance_inputs(model: &Model, inputs: &mut Inputs, state: &mut State, time: f64) {
+    let plan = &model.ideal.plan;
+    if let Some(actuated) = &mut state.inputs.actuated {
+        let commands = courses(inputs, state.inputs.derivatives.as_ref());
+        *actuated = actuated.after(&model.body_effects().actuators, &commands, time);
+    }
     if let Some(derivatives) = &mut state.inputs.derivatives {
         derivatives.follow(time, inputs);
         // rounding must not depend on whether the host or the program refers a command to the carrier

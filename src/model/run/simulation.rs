@@ -223,7 +223,7 @@ impl Simulation {
                 return Err(StepFailure::not_finite(state.time()));
             }
             if state.inputs.derivatives.is_some() {
-                progress::advance_inputs(&model.ideal.plan, inputs, state, h);
+                progress::advance_inputs(model, inputs, state, h);
                 // exact to the last bit, because the next step would treat any difference as a discontinuity
                 model.ideal.impose(state, inputs);
             }
@@ -257,7 +257,7 @@ impl Simulation {
     pub fn next_solver_time(&mut self) -> Result<Option<f64>, StepFailure> {
         let (model, state) = (&self.model, &self.state);
         let is_closed = matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state));
-        if is_closed || state.inputs.derivatives.is_some() || model.parameters.solver.method == Method::FixedStep {
+        if is_closed || progress::inputs_move(model, state) || model.parameters.solver.method == Method::FixedStep {
             return Ok(None);
         }
         let end = |state: &State| {

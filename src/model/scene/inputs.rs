@@ -18,6 +18,13 @@ const RESISTING: [f64; 2] = [0.0, f64::INFINITY];
 /// Limits of a command: 0 none, 1 full.
 const COMMAND: [f64; 2] = [0.0, 1.0];
 
+/// Number of commands that may pass actuators.
+pub const ACTUATED: usize = 3;
+/// Indices of the commands of the clutches among these, left and right.
+pub const ACTUATED_CLUTCHES: [usize; 2] = [0, 1];
+/// Index of the command of the lock among these.
+pub const ACTUATED_LOCK: usize = 2;
+
 /// One value, or one for the left and one for the right side.
 trait Value: Copy {
     const ZERO: Self;
@@ -170,6 +177,18 @@ impl Inputs {
     /// Values that limit commanded friction, to be changed.
     pub fn friction_commands_mut(&mut self) -> [&mut [f64; 2]; 2] {
         [&mut self.brake_torque, &mut self.clutch_command]
+    }
+
+    /// Commands that may pass actuators.
+    pub fn actuated(&self) -> [f64; ACTUATED] {
+        let [left, right] = self.clutch_command;
+        [left, right, self.lock]
+    }
+
+    /// Commands that may pass actuators, to be changed.
+    pub fn actuated_mut(&mut self) -> [&mut f64; ACTUATED] {
+        let [left, right] = &mut self.clutch_command;
+        [left, right, &mut self.lock]
     }
 
     /// Changes of the outside temperatures: ambient and a given sump [K].

@@ -11,7 +11,7 @@ mod solver;
 
 pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
 pub use input_derivatives::{InputDerivatives, ORDERS};
-pub use inputs::{Inputs, MAX_SPEED, MAX_TORQUE};
+pub use inputs::{ACTUATED, ACTUATED_CLUTCHES, ACTUATED_LOCK, Inputs, MAX_SPEED, MAX_TORQUE};
 pub use layout::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PINION, PLANET, PROPELLER};
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};

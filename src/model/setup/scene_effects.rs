@@ -2,10 +2,10 @@
 
 use super::effect_outputs::{body_index, heat_index};
 use crate::model::effect_kinds::{
-    BUILT, BodyEffect, Changes, Effect, FlankFriction, Instant, RubbingSurface, Setting, ToothEffects,
+    Actuator, BUILT, BodyEffect, Changes, Effect, FlankFriction, Instant, RubbingSurface, Setting, ToothEffects,
 };
 use crate::model::effects::{EffectEntry, EffectParameters, Effects, configured};
-use crate::model::scene::{Plan, Requests};
+use crate::model::scene::{ACTUATED, Plan, Requests};
 use crate::problem::Problem;
 
 /// Effects of a scene.
@@ -111,6 +111,17 @@ impl<'a> SceneEffects<'a> {
     /// True if any effect depends on the viscosity of the oil.
     pub fn oil_acts(&self) -> bool {
         self.acting().any(|(_, _, effect)| effect.is_oiled())
+    }
+
+    /// Actuators that commands pass.
+    pub fn actuators(&self) -> [Option<Actuator>; ACTUATED] {
+        let mut all = [None; ACTUATED];
+        for (_, _, effect) in self.acting() {
+            if let Some((actuator, commands)) = effect.actuator().filter(|(of, _)| !of.is_direct()) {
+                commands.iter().for_each(|&k| all[k] = Some(actuator));
+            }
+        }
+        all
     }
 
     /// Replaces `surfaces` by those with dry friction.

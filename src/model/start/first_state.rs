@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
-use crate::model::dynamics::{Largest, State};
+use crate::model::dynamics::{Actuated, Largest, State};
 use crate::model::run::events::{apply_changes, break_tooth};
 use crate::model::run::{Simulation, imposed, watching};
 use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
@@ -32,6 +32,7 @@ impl Simulation {
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
         let (model, state, inputs) = (&simulation.model, &mut simulation.state, &{ simulation.inputs });
+        state.inputs.actuated = Actuated::settled(&model.body_effects().actuators, inputs);
         state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start

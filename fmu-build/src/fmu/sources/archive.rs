@@ -15,6 +15,8 @@ use crate::fmu::libraries::{CRATES, Library};
 use crate::fmu::{describe, documentation, licences};
 use crate::tools::files::write_whole;
 
+/// Level of compression: beyond 9 a slower search for a smaller result, here with the fewest iterations.
+const SMALLEST: i64 = 10;
 const DESCRIPTION: &str = "modelDescription.xml";
 const INDEX: &str = "documentation/index.html";
 /// Parts of the FMU that are left out: libraries, their evidence, and the page, which contains a library.
@@ -38,7 +40,7 @@ fn variant(fmu: &Path, files: &[File]) -> Result<Vec<u8>> {
     let mut out = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)
-        .compression_level(Some(9))
+        .compression_level(Some(SMALLEST))
         .last_modified_time(DateTime::default())
         .unix_permissions(0o644);
     let add = |out: &mut ZipWriter<_>, name: &str, text: &str| -> Result<()> {

@@ -214,15 +214,65 @@ fn arguments(line: &str) -> impl Iterator<Item = &str> {
 /// Translates a function.
 fn function(text: &str) -> Result<String> {
     let mut out = String::with_capacity(text.len() / 2);
+    // operands that wait for the statement that takes them
+    let mut operands: Vec<String> = Vec::new();
     for line in text.lines() {
         let line = line.trim();
         if line.is_empty() || DROPPED.iter().any(|dropped| line.starts_with(dropped)) {
             continue;
         }
-        out.push_str(&statement(line)?);
-        out.push('\n');
+        let mut line = statement(line)?;
+        if operand(&line).is_some() {
+            operands.push(line);
+            continue;
+        }
+        while let Some(with) = operands.last().and_then(|last| with_operand(&line, last)) {
+            line = with;
+            operands.pop();
+        }
+        for line in operands.drain(..).chain([line]) {
+            out.push_str(&line);
+            out.push('\n');
+        }
     }
     Ok(out)
+}
+
+/// Name and value of an operand of WebAssembly's stack, if `line` assigns a local variable or a constant to it.
+fn operand(line: &str) -> Option<(&str, &str)> {
+    let (name, value) = line.strip_suffix(';')?.split_once('=')?;
+    let starts_with = |text: &str, of: &str| text.starts_with(|first: char| of.contains(first));
+    let is_plain = value.chars().all(|c| c.is_ascii_alphanumeric() || "._-".contains(c));
+    let is_value = starts_with(value, "lp0123456789-") && !value.starts_with("-l");
+    (is_operand(name) && is_plain && is_value).then_some((name, value))
+}
+
+/// True if `name` is that of an operand, such as `i3`.
+fn is_operand(name: &str) -> bool {
+    name.strip_prefix(['i', 'j', 'f', 'd']).is_some_and(|number| number.parse::<u32>().is_ok())
+}
+
+/// `line` with the value of the `last` operand instead of its name. `None` if the line does not take it, or if the
+/// operand may be needed afterwards: only a copy leaves its operand on the stack.
+fn with_operand(line: &str, last: &str) -> Option<String> {
+    let (name, value) = operand(last)?;
+    if line.strip_suffix(';')?.split_once('=').is_some_and(|(_, from)| is_operand(from)) {
+        return None;
+    }
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut places = line
+        .match_indices(name)
+        .map(|(at, _)| (at, at + name.len()))
+        .filter(|&(from, to)| !line[..from].ends_with(is_part) && !line[to..].starts_with(is_part));
+    let (mut from, mut to) = places.next()?;
+    let after = &line[to..];
+    if from == 0 && after.starts_with('=') && !after.starts_with("==") {
+        // the result takes the place of the operand
+        (from, to) = places.next()?;
+    } else if from == 0 && after.contains('=') {
+        return None;
+    }
+    places.next().is_none().then(|| format!("{}{value}{}", &line[..from], &line[to..]))
 }
 
 /// Translates a line of a function.
@@ -237,11 +287,26 @@ fn statement(line: &str) -> Result<String> {
     for (long, short) in SHORTER {
         line = line.replace(long, short);
     }
-    let line = renamed(&line).replace("w2c_bd* instance", "bd *s").replace("(instance", "(s").replace(" = ", "=");
+    let line = renamed(&line).replace("w2c_bd* instance", "bd *s").replace("(instance", "(s");
     if line.contains("instance") || line.contains("wasm_rt") {
         bail!("a statement of unknown form: {line}");
     }
-    Ok(line)
+    Ok(without_spaces(&line))
+}
+
+/// Removes spaces that separate no words.
+fn without_spaces(line: &str) -> String {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let separates = |before: &str, after: &str| {
+        before.ends_with(is_word) && after.starts_with(is_word) || before.ends_with('-') && after.starts_with('-')
+    };
+    let mut out = String::with_capacity(line.len());
+    for (at, c) in line.char_indices() {
+        if c != ' ' || separates(&line[..at], &line[at + 1..]) {
+            out.push(c);
+        }
+    }
+    out
 }
 
 /// `f64_load_default32(…, (u64)(var_i0) + 8u)` → `f64_load(s, var_i0, 8u)`.
@@ -279,26 +344,41 @@ mod tests {
         for (from, to) in [
             (
                 "var_d0 = f64_load_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0) + 8u);",
-                "d0=f64_load(s, i0, 8u);",
+                "d0=f64_load(s,i0,8u);",
             ),
             (
                 "i32_store8_default32(wasm_rt_local_memory_base, wasm_rt_local_memory_size, &instance->w2c_memory, (u64)(var_i0), var_i1);",
-                "i32_store8(s, i0, 0u, i1);",
+                "i32_store8(s,i0,0u,i1);",
             ),
             (
                 "var_i0 = CALL_INDIRECT(instance->w2c_T0, u32 (*)(void*, u32, f64), w2c_bd_t3, var_i3, instance->w2c_T0.data[var_i3].module_instance, var_i0, var_d1);",
-                "i0=bd_call(u32 (*)(bd *, u32, f64), 3, i3)(s, i0, d1);",
+                "i0=bd_call(u32(*)(bd*,u32,f64),3,i3)(s,i0,d1);",
             ),
-            ("var_i0 = w2c_bd_f143(instance, var_i0);", "i0=bd_f143(s, i0);"),
+            ("var_i0 = w2c_bd_f143(instance, var_i0);", "i0=bd_f143(s,i0);"),
             (
                 "memory_copy(&instance->w2c_memory, &instance->w2c_memory, var_i0, var_i1, var_i2);",
-                "memory_copy(s, i0, i1, i2);",
+                "memory_copy(s,i0,i1,i2);",
             ),
             ("instance->w2c_g0 = var_i0;", "s->g0=i0;"),
-            ("if (var_i0) {goto var_B3;}", "if (i0) {goto B3;}"),
+            ("if (var_i0) {goto var_B3;}", "if(i0){goto B3;}"),
         ] {
             assert_eq!(statement(from).unwrap(), to);
         }
         assert!(statement("wasm_rt_something_new(instance);").is_err());
+    }
+
+    #[test]
+    fn operands_are_written_where_they_are_taken() {
+        for (lines, to) in [
+            (["var_j9 = 63ull;", "var_j8 >>= (var_j9 & 63);"], "j8>>=(63ull&63);\n"),
+            (["var_i1 = var_l3;", "var_i1 = var_i1 > var_i2;"], "i1=l3>i2;\n"),
+            (["var_i0 = var_p1;", "i32_store(var_i0, var_i1);"], "i32_store(p1,i1);\n"),
+            // the next statement changes the operand, or leaves it on the stack, or takes another
+            (["var_i1 = var_l3;", "var_i1 += 48u;"], "i1=l3;\ni1+=48u;\n"),
+            (["var_i1 = var_l3;", "var_l4 = var_i1;"], "i1=l3;\nl4=i1;\n"),
+            (["var_i1 = var_l3;", "var_i0 = var_i11 == var_i12;"], "i1=l3;\ni0=i11==i12;\n"),
+        ] {
+            assert_eq!(function(&lines.join("\n")).unwrap(), to);
+        }
     }
 }
