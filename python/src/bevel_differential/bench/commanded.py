@@ -1,9 +1,11 @@
-"""Steady test of clutches on command: clutch torque over command.
+"""Steady test of clutches on command: torque over command.
 
-Each clutch is pressed alone while its wheel is slower, then faster than the clutch's shaft. The clutch torque C follows from the wheels,
-relative to the same run without a command, so that other friction does not count:
+Only one clutch is pressed, while its wheel is slower and then faster than the clutch's shaft. The test measures the torques of the wheels,
+relative to the same run without a command. Without other friction, they give the torque C of the clutch:
 
     T_L - T_R = C_L - C_R        T_L + T_R = T_c + (1 - σ_L) C_L + (1 - σ_R) C_R
+
+Friction of teeth, washers and pins depends on their loads, which the clutch changes. The moved torque then differs from C.
 """
 
 from collections.abc import Mapping
@@ -26,12 +28,12 @@ COMMANDS = np.arange(21) / 20.0
 SLIPS = {0.5 * DIFFERENCE: "slower", -0.5 * DIFFERENCE: "faster"}
 # smallest torque that is reported [N·m]
 RESOLVED = 1e-3
-HEAD = ["clutch", "slip [rad/s]", "clutch_command [1]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "clutch_torque [N.m]",
+HEAD = ["clutch", "slip [rad/s]", "clutch_command [1]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "moved_torque [N.m]",
         "housing_torque [N.m]"]
 
 
 def clutch_command(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
-    """Measures the torque of each clutch on its side gear, and that of both gearings on the housing, over the command."""
+    """Measures the torque that each clutch moves to its wheel, and the torque of its gearing on the housing, over the command."""
     if not scene.value("effects.clutches"):
         raise DifferentialError("effects.clutches = false: the bench of torque over command needs clutches on command")
     of_torque, torque, temperature = axes(scene)[0], largest_torque(scene), scene.value("oil.temperature")
@@ -46,7 +48,7 @@ def clutch_command(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
             open_left, open_right = left, right
         moved = (left - right) - (open_left - open_right)
         rows.append((side, slip, command, left, right, moved if side == "left" else -moved, open_left + open_right - left - right))
-    panels = [_panel(rows, of_torque.named("torque of the clutch on its side gear"), 5)]
+    panels = [_panel(rows, of_torque.named("torque moved to the wheel"), 5)]
     if any(ratio != 1.0 for ratio in ratios.values()):
         panels.append(_panel(rows, of_torque.named("torque on the housing"), 6))
     return written(scene, out, _conclusion(rows, of_torque), [panels], 5.4, "clutch pressed", HEAD, rows)
@@ -66,11 +68,11 @@ def _conclusion(rows, of_torque):
     sentences, bend = [], 0.0
     for side in SIDES:
         torques, housing = np.array([[row[5:] for row in _curves(rows)[side, slip]] for slip in SLIPS]).transpose(2, 0, 1)
-        last, held = ([of_torque.text(round(end, 3) + 0.0) for end in ends[:, -1].tolist()] for ends in (torques, housing))
-        sentences.append(f"the {side} clutch has {last[0]} at a slower wheel and {last[1]} at a faster one, and the housing {held[0]} and {held[1]}")
+        last, held = ([of_torque.text(round(end, 2) + 0.0) for end in ends[:, -1].tolist()] for ends in (torques, housing))
+        sentences.append(f"the {side} clutch moves {last[0]} to a slower wheel and {last[1]} to a faster one (housing: {held[0]} and {held[1]})")
         bend = max(bend, np.abs(torques - COMMANDS * torques[:, -1:]).max() / max(np.abs(torques).max(), RESOLVED))
-    return (f"at full command, {'; '.join(sentences)}. Slower and faster are relative to the clutch's shaft. Torque deviates from proportion to the "
-            f"command by up to {100.0 * bend:.1f} %")
+    return (f"at full command, {'; '.join(sentences)}. Slower and faster are relative to the clutch's shaft. The torque deviates from proportion "
+            f"to the command by up to {100.0 * bend:.1f} %")
 
 
 def _panel(rows, label, column):

@@ -71,7 +71,7 @@ def largest_torque(scene: Scene) -> float:
 def means(scene: Scene, runs: Sequence[Mapping[str, Number]], farm: Mapping[str, Any]) -> list[list[float]]:
     """FIGURES of each run of the scene on the bench; `runs`: values of a point, and others that differ from the scene."""
     with Farm(**farm) as workers:
-        rows = workers.evaluate(PointTask(benched(scene)), list(enumerate(runs)))
+        rows = workers.evaluate(PointTask(benched(scene, runs[0])), list(enumerate(runs)))
     for row in rows:
         if row.message:
             raise DifferentialError(row.message, kind=row.kind)

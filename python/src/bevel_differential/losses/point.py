@@ -10,7 +10,7 @@ With a final drive, torque and speed act on its port. Both are still referred to
 is the same, and the loss includes the heat of final drive and propeller shaft."""
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
 from math import ceil, lcm, pi
 from typing import Any
 
@@ -44,12 +44,12 @@ STILL, STILL_TORQUE = 1e-3, 0.01
 CREEP, FINER, LEVELS = 0.02, 20, 3
 
 
-def benched(scene: Scene) -> Scene:
+def benched(scene: Scene, given: Container[str] = ()) -> Scene:
     """Copy of the scene on the bench: its parameters, driven by torque and speeds, without its changes over time. Warns of commands that
-    change over time in the scene."""
+    change over time in the scene, unless each run has them `given`."""
     changed = {name for name, *_ in scene.tables}.union(*(values for _, values in scene.changes))
     warn(f"{name} changes over time in the scene, but is constant at {scene.value(name):g} here: give the scene a constant value"
-         for name in COMMANDS if name in changed)
+         for name in COMMANDS if name in changed and name not in given)
     values = {**scene.values, **BENCH}
     values |= {f"{shaft}_damping": DAMPING_TIME * scene.value(f"{shaft}_stiffness") for shaft in SHAFTS}
     return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
