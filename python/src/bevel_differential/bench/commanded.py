@@ -65,12 +65,15 @@ def _curves(rows):
 
 
 def _conclusion(rows, of_torque):
-    sentences, bend = [], 0.0
+    found, bend = {}, 0.0
     for side in SIDES:
         torques, housing = np.array([[row[5:] for row in _curves(rows)[side, slip]] for slip in SLIPS]).transpose(2, 0, 1)
         last, held = ([of_torque.text(round(end, 2) + 0.0) for end in ends[:, -1].tolist()] for ends in (torques, housing))
-        sentences.append(f"the {side} clutch moves {last[0]} to a slower wheel and {last[1]} to a faster one (housing: {held[0]} and {held[1]})")
+        found[side] = f"{last[0]} to a slower wheel and {last[1]} to a faster one (housing: {held[0]} and {held[1]})"
         bend = max(bend, np.abs(torques - COMMANDS * torques[:, -1:]).max() / max(np.abs(torques).max(), RESOLVED))
+    sentences = [f"the {side} clutch moves {moves}" for side, moves in found.items()]
+    if len(set(found.values())) == 1:
+        sentences = [f"each clutch moves {found[SIDES[0]]}"]
     return (f"at full command, {'; '.join(sentences)}. Slower and faster are relative to the clutch's shaft. The torque deviates from proportion "
             f"to the command by up to {100.0 * bend:.1f} %")
 
