@@ -154,6 +154,22 @@ def test_a_clutch_holds_for_an_hour_without_creep_and_is_released(fmu, direction
     assert released["held.clutches"][-1] == 0.0 and direction * released["left.speed"][-1] > 1.0
 
 
+def test_a_pressed_clutch_warms_up_and_fades(fmu):
+    """Without cooling, C dT/dt = P (1 - k (T - T_0)), if friction falls linearly to `hot_factor`."""
+    capacity, fade, slip, command = 300.0, 0.4 / 120.0, 2.0, 0.5
+    values = RIG | wheel_speeds(1.0, -slip) | {
+        "scene.gear_contact": "ideal", "clutches.torque": TORQUE, "left.clutch_command": command, "carrier.torque_command": 300.0,
+        "effects.warm_up": True, "oil.temperature": 353.15, "warm_up.clutch_capacity": capacity, "warm_up.clutch_to_oil": 0.0,
+        "clutches.hot_factor": 0.6, "solver.relative_tolerance": 1e-8}
+    found = record(fmu, values, 60.0, step=0.1, outputs=["temperature.clutch", "left.clutch_torque", "heat.clutch_command"])
+    power = command * TORQUE * slip
+    risen = (1.0 - np.exp(-fade * power / capacity * found["time"])) / fade
+    assert risen[-1] > 40.0
+    assert found["temperature.clutch"] - 353.15 == pytest.approx(risen, abs=0.01 * risen[-1])
+    assert found["heat.clutch_command"] == pytest.approx(capacity * risen, abs=0.01 * capacity * risen[-1])
+    assert found["left.clutch_torque"][-1] == pytest.approx(command * TORQUE * (1.0 - fade * risen[-1]), rel=0.01)
+
+
 def test_two_clutches_that_hold_stop_the_car_and_this_is_said_once(fmu):
     values = RIG | {
         "scene.left_drive": "torque", "scene.right_drive": "torque", "scene.gear_contact": "ideal", "left.load_torque": 0.0,

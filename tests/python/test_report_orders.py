@@ -1,10 +1,12 @@
 """Order tracking, intervals in the backlash and contact patterns of a report, against closed forms."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 from bevel_differential import DifferentialError, Scene
+from bevel_differential.report import traces
 from bevel_differential.report.drawings import outline, unrolled
 from bevel_differential.report.forces import bands, rolling, share, spectrum
 from bevel_differential.report.gears import pair_of
@@ -210,3 +212,5 @@ def test_a_scene_with_a_clutch_on_command_runs_up_under_its_loads(fmu_file, whee
     assert run.mean("clutches.housing_torque") == pytest.approx(50.0, rel=0.01)
     assert up.loads == pytest.approx([run.mean(f"{side}.shaft_torque") for side in ("left", "right")], rel=0.02)
     assert "the command of the right clutch is constant at its mean of 1" in up.changed
+    given = re.search(r"the gearings of the clutches give ([\d.]+) N·m to the housing", traces.section(run).blocks[-1].caption)
+    assert float(given[1]) == pytest.approx(50.0, rel=0.01)
