@@ -51,13 +51,15 @@ pub struct Added {
 }
 
 /// Name and text of each [`Happening`], in the order of their numbers.
-pub const HAPPENINGS: [(&str, &CStr, Happening); 6] = [
+pub const HAPPENINGS: [(&str, &CStr, Happening); 8] = [
     ("nothing", c"nothing has happened yet", Happening::Nothing),
     ("wheel_stops", c"a brake begins to hold a wheel", Happening::WheelStops),
     ("wheel_breaks_loose", c"a brake no longer holds a wheel", Happening::WheelBreaksLoose),
     ("clutch_sticks", c"a clutch, a washer or the lock begins to hold", Happening::ClutchSticks),
     ("clutch_slips", c"a clutch, a washer or the lock no longer holds", Happening::ClutchSlips),
     ("tooth_breaks", c"the tooth of the tooth fault breaks", Happening::ToothBreaks),
+    ("dog_engages", c"a dog clutch engages", Happening::DogEngages),
+    ("dog_disengages", c"a dog clutch disengages", Happening::DogDisengages),
 ];
 
 /// Index of the row `name`; `usize::MAX` if no row has this name.

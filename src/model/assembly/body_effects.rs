@@ -58,8 +58,9 @@ impl BodyEffects {
         }
     }
 
-    /// Fails if there are too many surfaces with dry friction on one body.
+    /// Fails if there are too many surfaces with dry friction on one body, or if a dog clutch has no shaft.
     pub fn check(&self) -> Result<(), Problem> {
+        self.half_shafts.check()?;
         Friction::check(&self.surfaces)
     }
 

@@ -131,6 +131,7 @@ impl IdealWithEffects {
             layout: &self.layout,
             inputs: &Inputs::ZERO,
             input_rates: &Inputs::ZERO,
+            dogs: &crate::model::scene::Dogs::default(),
             oil_viscosity: None,
         };
         self.body_effects.forces.iter().for_each(|effect| effect.slopes(&motion, &mut slopes));

@@ -207,7 +207,8 @@ impl<'a, const N: usize, S: Shape<N>> Equations<'a, S, N> {
             return self.applied.inputs.load_torque[s];
         }
         let end = self.end(s);
-        self.teeth.effect_terms.body_effects.half_shafts.torque(s, at.q[end], at.v[s] - at.v[end])
+        let motion = [at.q[end], at.v[s] - at.v[end]];
+        self.teeth.effect_terms.body_effects.half_shafts.torque(s, motion, &self.applied.dogs)
     }
 
     /// Adds the torques of inputs, converts sums of forces to accelerations, and completes the ledger rates.

@@ -1,9 +1,9 @@
-//! Events of a simulation: a tooth breaks, or friction starts or stops holding a body.
+//! Events of a simulation: a tooth breaks, friction starts or stops holding a body, or a dog clutch switches.
 
 use serde::{Deserialize, Serialize};
 
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{PAIRS, RubbingKind};
+use crate::model::scene::{Dogs, PAIRS, RubbingKind};
 use crate::numeric::finite;
 
 /// Kind of an event.
@@ -23,6 +23,10 @@ pub enum Happening {
     ClutchSlips = 4,
     /// The tooth of the tooth fault breaks.
     ToothBreaks = 5,
+    /// A dog clutch engages.
+    DogEngages = 6,
+    /// A dog clutch disengages.
+    DogDisengages = 7,
 }
 
 /// An event.
@@ -30,8 +34,7 @@ pub enum Happening {
 pub struct Event {
     /// Kind of the event.
     pub what: Happening,
-    /// Index of the body that friction starts or stops holding: side gears, then planet groups, then wheels. It is 0
-    /// for teeth.
+    /// Number of the pair that friction starts or stops holding, or side of a dog clutch. It is 0 for teeth.
     pub body: u8,
     /// Time [s].
     pub time: f64,
@@ -67,6 +70,7 @@ impl Event {
     pub fn number(&self) -> i32 {
         match self.what {
             Happening::Nothing | Happening::ToothBreaks => 0,
+            Happening::DogEngages | Happening::DogDisengages => i32::from(self.body) + 1,
             _ => RubbingKind::of(usize::from(self.body)).1 as i32 + 1,
         }
     }
@@ -95,6 +99,20 @@ impl Events {
         let event = Event { what, body: body as u8, time, count: self.count().wrapping_add(1) };
         self.recent.rotate_right(1);
         self.recent[0] = event;
+    }
+
+    /// Records an event at `time` [s] for each dog clutch that switches between the states `before` and `after`. Returns
+    /// true if there is an event.
+    pub fn record_dogs(&mut self, [before, after]: [&Dogs; 2], time: f64) -> bool {
+        let count = self.count();
+        for s in 0..2 {
+            match (before.closed[s], after.closed[s]) {
+                (None, Some(_)) => self.record(Happening::DogEngages, s, time),
+                (Some(_), None) => self.record(Happening::DogDisengages, s, time),
+                _ => {}
+            }
+        }
+        self.count() != count
     }
 
     /// Records an event at `time` [s] for each body that friction starts or stops holding between its states `before`

@@ -92,7 +92,8 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
         for s in (0..2).filter(|_| self.has_ends()) {
             let end = self.end(s);
             let rate = at.v[s] - at.v[end];
-            ledger_rates.shaft[s] = self.ideal.body_effects.half_shafts.torque(s, at.q[end], rate);
+            ledger_rates.shaft[s] =
+                self.ideal.body_effects.half_shafts.torque(s, [at.q[end], rate], &self.applied.dogs);
         }
         self.drive(at, (inputs, rates), &mut sum, ledger_rates);
         (sum, [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
@@ -102,7 +103,7 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
     #[inline]
     fn motion<'b>(&'b self, at: &'b Point<N>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
         let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
-        BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, oil_viscosity }
+        BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, dogs: &self.applied.dogs, oil_viscosity }
     }
 
     /// Accelerations W Q + f u̇_c.
@@ -160,7 +161,7 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
         for s in 0..2 {
             let end = self.end(s);
             let rate = at.v[s] - at.v[end];
-            let torque = self.ideal.body_effects.half_shafts.torque(s, at.q[end], rate);
+            let torque = self.ideal.body_effects.half_shafts.torque(s, [at.q[end], rate], &self.applied.dogs);
             sum[s] -= torque;
             sum[end] += torque;
             see(ledger_rates, s, torque, rate);

@@ -1,5 +1,6 @@
 //! Interface of the equations of ideal gears to an integrator.
 
+use super::dogs::DogEquations;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{set_twist_rates, turn_twist_rates};
@@ -125,8 +126,8 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
             // a stuck clutch or wheel turns by milliradians
             (weights.q[0], weights.q[1]) = (1e3, 1e3);
         }
-        for (i, _) in self.ideal.layout.attached() {
-            weights.q[i] = 1.0 / (1e-3 + at.q[i].abs());
+        for (k, (i, _)) in self.ideal.layout.attached().enumerate() {
+            weights.q[i] = 1.0 / (1e-3 + (at.q[i] - self.applied.dogs.middle(k)).abs());
         }
         weights
     }
@@ -136,6 +137,6 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     }
 
     fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
-        self.friction_crossing(start, end)
+        self.friction_crossing(start, end).into_iter().chain(self.dog_crossing(start, end)).reduce(f64::min)
     }
 }

@@ -10,7 +10,8 @@ use crate::model::effect_kinds::{
     BodyMotion, Friction, FrictionState, Mode, Parabola, RubbingSurface, Slip, SurfaceLoad,
 };
 use crate::model::scene::{
-    ACTUATED, CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair, Viscosity,
+    ACTUATED, CARRIER, Dogs, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair,
+    Viscosity,
 };
 use crate::model::thermal::NODES;
 
@@ -45,6 +46,8 @@ pub struct InputsAndFriction {
     friction: Option<Friction>,
     /// True if there is any dry friction.
     pub has_dry_friction: bool,
+    /// State of the dog clutches.
+    pub dogs: Dogs,
     /// Viscosity of the oil, if an effect needs it.
     pub oil_viscosity: Option<Viscosity>,
 }
@@ -62,6 +65,7 @@ impl InputsAndFriction {
             friction_state: state.friction,
             friction: None,
             has_dry_friction: false,
+            dogs: state.dogs,
             oil_viscosity: None,
         }
     }
@@ -279,13 +283,14 @@ pub trait FrictionEquations<const N: usize> {
 
     /// Positions, velocities and inputs, as passed to effects.
     fn body_motion<'b>(&'b self, at: &'b Point<N>) -> BodyMotion<'b> {
-        let InputsAndFriction { inputs, input_derivatives, oil_viscosity, .. } = self.applied();
+        let InputsAndFriction { inputs, input_derivatives, dogs, oil_viscosity, .. } = self.applied();
         BodyMotion {
             q: &at.q,
             v: &at.v,
             layout: self.layout(),
             inputs,
             input_rates: &input_derivatives.rates[0],
+            dogs,
             oil_viscosity: *oil_viscosity,
         }
     }

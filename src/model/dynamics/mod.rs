@@ -15,6 +15,7 @@
 pub mod acting_inputs;
 pub mod actuated;
 mod closed_form;
+pub mod dogs;
 mod driven;
 #[cfg(test)]
 #[path = "tests/driven.rs"]

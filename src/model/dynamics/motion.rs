@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::dogs::DogEquations;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{MAX_SIZE, Shape};
@@ -147,8 +148,10 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
                 (q[self.pin(g)], v[self.pin(g)]) = (side, v[CARRIER]);
             }
         }
-        for (i, to) in self.teeth.layout.attached().take(if S::is_attached(&self.teeth.layout) { N } else { 0 }) {
-            (q[i], v[i]) = (1.0 / (TWIST_FLOOR + at.q[i].abs()), v[to]);
+        let attached = self.teeth.layout.attached().take(if S::is_attached(&self.teeth.layout) { N } else { 0 });
+        for (k, (i, to)) in attached.enumerate() {
+            let twist = at.q[i] - self.applied.dogs.middle(k);
+            (q[i], v[i]) = (1.0 / (TWIST_FLOOR + twist.abs()), v[to]);
         }
         Point { q, v }
     }
@@ -218,6 +221,7 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
-        if S::MAY_ACT { self.friction_crossing(start, end) } else { None }
+        let crossings = || self.friction_crossing(start, end).into_iter().chain(self.dog_crossing(start, end));
+        if S::MAY_ACT { crossings().reduce(f64::min) } else { None }
     }
 }

@@ -12,7 +12,7 @@ use super::timeline::Timeline;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{Inputs, Layout, MAX_DOF, OilSpec, PAIRS, PLANET, RubbingPair};
+use crate::model::scene::{Dogs, Inputs, Layout, MAX_DOF, OilSpec, PAIRS, PLANET, RubbingPair};
 use crate::model::setup::HEATS;
 use crate::model::thermal::Thermal;
 use crate::numeric::Finite;
@@ -51,6 +51,8 @@ pub struct State {
     pub is_tooth_broken: bool,
     /// Lock command that acted in the last step, from 0 to 1.
     pub lock: f64,
+    /// State of the dog clutches.
+    pub dogs: Dogs,
     /// Inputs that act.
     pub inputs: ActingInputs,
     /// Kinetic and elastic energy at the start [J].
@@ -80,6 +82,7 @@ impl State {
             torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
             lock: 0.0,
+            dogs: Dogs::default(),
             inputs: ActingInputs { values: Inputs::ZERO, derivatives: None, actuated: None },
             energy_at_start: 0.0,
             pending_step: None,
@@ -212,6 +215,7 @@ impl State {
             torque_means,
             is_tooth_broken: _,
             lock,
+            dogs,
             inputs,
             energy_at_start,
             pending_step: _,
@@ -225,6 +229,7 @@ impl State {
             && friction.is_finite()
             && friction.iter().all(|body| body.stiffness >= 0.0)
             && torque_means.is_finite()
+            && dogs.is_finite()
             && inputs.derivatives.is_finite()
             && inputs.actuated.is_finite()
             && whole_periods.iter().all(|count| count.unsigned_abs() < MOST_PERIODS)

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use super::Loss;
 use crate::integrate::Matrix;
-use crate::model::scene::{Inputs, Layout, Viscosity};
+use crate::model::scene::{Dogs, Inputs, Layout, Viscosity};
 
 /// Positions and velocities of all degrees of freedom, and the commands of the host.
 pub struct BodyMotion<'a> {
@@ -18,6 +18,8 @@ pub struct BodyMotion<'a> {
     pub inputs: &'a Inputs,
     /// Rates of the inputs [per s].
     pub input_rates: &'a Inputs,
+    /// State of the dog clutches.
+    pub dogs: &'a Dogs,
     /// Viscosity of the oil, if an effect needs it.
     pub oil_viscosity: Option<Viscosity>,
 }

@@ -15,6 +15,7 @@ pub mod element;
 pub mod element_tests;
 pub mod friction;
 pub mod friction_state;
+pub mod lash_spring;
 pub mod loss;
 pub mod memory;
 pub mod pv_limit;
@@ -34,6 +35,7 @@ pub use effect::{
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
 pub use friction_state::{FrictionState, Mode};
+pub use lash_spring::LashSpring;
 pub use loss::Loss;
 pub use memory::{Memory, Remembered};
 pub use pv_limit::PvLimit;

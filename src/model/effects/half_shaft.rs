@@ -2,11 +2,14 @@
 //!
 //! Kelvin–Voigt element of a uniform shaft, k = G I_t / L.
 
+use crate::declaration::SIDES;
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Attached, BodyEffect, Declare, Effect, Element, Heat, Instant, Law, Part, Reading, Setting, Spring, readings,
+    Action, Attached, BodyEffect, BodyMotion, Declare, Effect, Element, Heat, Instant, LashSpring, Law, Part, Reading,
+    Setting, Slopes, Spring, readings,
 };
-use crate::model::scene::{InertiaSpec, Plan, Requests, Scene, SideDrive};
+use crate::model::scene::{Dog, Dogs, InertiaSpec, Plan, Requests, Scene, SideDrive};
+use crate::numeric::{Dual, Scalar};
 use crate::problem::Problem;
 
 parameters! {
@@ -106,20 +109,30 @@ impl Effect for HalfShaftSpec {
 
     fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let (shafts, layout) = (HalfShafts::new(self, plan), plan.layout());
-        let part = |s: usize| {
-            let end = layout.end(s);
-            // the twist grows if the side gear turns faster than the end
-            Part { law: shafts.0[s], displacement: Some(end), body: s, base: Some(end) }
-        };
-        layout.has_ends().then(|| Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)) as _)
+        if !layout.has_ends() {
+            return None;
+        }
+        let end = [0, 1].map(|s| layout.end(s));
+        if plan.dogs.iter().any(Option::is_some) {
+            return Some(Box::new(ShaftsWithDogs { shafts, end, heat_index: setting.heat_index }));
+        }
+        // the twist grows if the side gear turns faster than the end
+        let part = |s: usize| Part { law: shafts.springs[s], displacement: Some(end[s]), body: s, base: Some(end[s]) };
+        Some(Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)))
     }
 }
 
 impl HalfShaftSpec {
     /// Twist of the half-shaft of side `s` [rad].
     fn twist(&self, s: usize, at: &Instant) -> f64 {
+        let motion = at.motion;
         if at.plan.shafts[s] {
-            at.motion.q[at.motion.layout.end(s)]
+            let twist = motion.q[motion.layout.end(s)];
+            match (at.plan.dogs[s], motion.dogs.closed[s]) {
+                (Some(_), None) => 0.0,
+                (Some(_), Some(gap)) => twist - gap,
+                (None, _) => twist,
+            }
         } else if at.on && self.stiffness[s] > 0.0 {
             // the end has no degree of freedom, so the twist is static
             at.shaft_torque[s] / self.stiffness[s]
@@ -129,31 +142,139 @@ impl HalfShaftSpec {
     }
 }
 
-/// Half-shafts whose ends are degrees of freedom, left and right.
+/// Half-shafts whose ends are degrees of freedom, left and right, behind dog clutches if the scene has any.
 #[derive(Clone, Copy, Debug)]
-pub struct HalfShafts([Spring; 2]);
+pub struct HalfShafts {
+    springs: [Spring; 2],
+    /// Dog clutches.
+    pub dogs: [Option<Dog>; 2],
+}
 
 impl HalfShafts {
     /// Half-shafts of `plan`. Stiffness and damping are 0 on a side whose end has no degree of freedom.
     pub fn new(spec: &HalfShaftSpec, plan: &Plan) -> Self {
         let of = |s: usize, value: f64| if plan.shafts[s] { value } else { 0.0 };
-        Self([0, 1].map(|s| Spring { stiffness: of(s, spec.stiffness[s]), damping: of(s, spec.damping[s]) }))
+        let spring = |s: usize| Spring { stiffness: of(s, spec.stiffness[s]), damping: of(s, spec.damping[s]) };
+        Self { springs: [0, 1].map(spring), dogs: plan.dogs }
     }
 
-    /// Torque that the shaft of side `s` delivers to the wheel [N·m], at `twist` [rad] and its `rate` [rad/s].
+    /// Torque that the shaft of side `s` delivers to the wheel [N·m], at a twist [rad] and its rate [rad/s].
     #[inline]
-    pub fn torque(&self, s: usize, twist: f64, rate: f64) -> f64 {
-        self.0[s].force(twist, rate, None)
+    pub fn torque<T: Scalar>(&self, s: usize, [twist, rate]: [T; 2], dogs: &Dogs) -> T {
+        match &self.dogs[s] {
+            None => self.springs[s].force(twist, rate, None),
+            Some(dog) => self.through_dog((s, dog), [twist, rate], dogs),
+        }
+    }
+
+    /// Torque through a dog clutch.
+    #[inline(never)]
+    fn through_dog<T: Scalar>(&self, (s, dog): (usize, &Dog), [twist, rate]: [T; 2], dogs: &Dogs) -> T {
+        match dogs.closed[s] {
+            Some(gap) => self.behind(s, dog).torque(twist - gap, rate),
+            None if dogs.commanded[s] => dog.ratcheting(rate),
+            None => T::constant(0.0),
+        }
+    }
+
+    /// The shaft of side `s` with the lash of its closed dog clutch.
+    fn behind(&self, s: usize, dog: &Dog) -> LashSpring {
+        let Spring { stiffness, damping } = self.springs[s];
+        LashSpring { stiffness, damping, half_lash: dog.half_lash }
     }
 
     /// Power that damping of the shaft of side `s` turns into heat [W], at the `rate` of its twist [rad/s].
     #[inline]
     pub fn heat(&self, s: usize, rate: f64) -> f64 {
-        self.0[s].heat(rate, 0.0)
+        self.springs[s].heat(rate, 0.0)
     }
 
     /// Static twist of the shaft of side `s` [rad] under `torque` [N·m].
-    pub fn static_twist(&self, s: usize, torque: f64) -> f64 {
-        torque / self.0[s].stiffness
+    pub fn static_twist(&self, s: usize, torque: f64, dogs: &Dogs) -> f64 {
+        match (&self.dogs[s], dogs.closed[s]) {
+            (None, _) => torque / self.springs[s].stiffness,
+            (Some(dog), Some(gap)) => gap + self.behind(s, dog).displacement(torque),
+            (Some(_), None) => 0.0,
+        }
+    }
+
+    /// Fails if a dog clutch has no shaft that twists.
+    pub fn check(&self) -> Result<(), Problem> {
+        match (0..2).find(|&s| self.dogs[s].is_some() && self.springs[s].stiffness == 0.0) {
+            None => Ok(()),
+            Some(s) => Err(problem!(
+                "effects.disconnect",
+                "the {0} wheel does not turn apart from its side gear; set effects.half_shaft = true and \
+                 inertia.{0}_end above 0, or scene.{0}_drive = speed",
+                SIDES[s]
+            )),
+        }
+    }
+}
+
+/// Half-shafts of a scene with dog clutches.
+#[derive(Debug)]
+struct ShaftsWithDogs {
+    shafts: HalfShafts,
+    /// Degrees of freedom of the wheel-side ends.
+    end: [usize; 2],
+    heat_index: usize,
+}
+
+impl ShaftsWithDogs {
+    /// Twist of the shaft of side `s`, and its rate.
+    fn local(&self, s: usize, at: &BodyMotion) -> [f64; 2] {
+        [at.q[self.end[s]], at.v[s] - at.v[self.end[s]]]
+    }
+}
+
+impl BodyEffect for ShaftsWithDogs {
+    fn act(&self, at: &BodyMotion, out: &mut Action) {
+        for s in 0..2 {
+            let [twist, rate] = self.local(s, at);
+            let torque = self.shafts.torque(s, [twist, rate], at.dogs);
+            out.force[s] -= torque;
+            out.force[self.end[s]] += torque;
+            match (&self.shafts.dogs[s], at.dogs.closed[s]) {
+                (None, _) => out.heat[self.heat_index] += self.shafts.heat(s, rate),
+                (Some(dog), Some(gap)) => {
+                    out.heat[self.heat_index] += self.shafts.behind(s, dog).heat(twist - gap, rate);
+                }
+                (Some(dog), None) => out.heat[dog.heat_index] += torque * rate,
+            }
+        }
+    }
+
+    fn slopes(&self, at: &BodyMotion, out: &mut Slopes) {
+        for s in 0..2 {
+            let ([twist, rate], end) = (self.local(s, at), self.end[s]);
+            let local = [Dual::<2>::variable(twist, 0), Dual::variable(rate, 1)];
+            let [by_twist, by_rate] = self.shafts.torque(s, local, at.dogs).d;
+            for (row, sign) in [(s, -1.0), (end, 1.0)] {
+                out.position(row, end, sign * by_twist);
+                out.velocity(row, s, sign * by_rate);
+                out.velocity(row, end, -sign * by_rate);
+            }
+        }
+    }
+
+    fn kink(&self, at: &BodyMotion, h: f64) -> Option<f64> {
+        let of = |s: usize| {
+            let ([twist, rate], dog, gap) = (self.local(s, at), self.shafts.dogs[s].as_ref()?, at.dogs.closed[s]?);
+            self.shafts.behind(s, dog).kink(twist - gap, rate, h)
+        };
+        (0..2).filter_map(of).reduce(f64::min)
+    }
+
+    fn energy(&self, at: &BodyMotion) -> f64 {
+        let of = |s: usize| {
+            let [twist, _] = self.local(s, at);
+            match (&self.shafts.dogs[s], at.dogs.closed[s]) {
+                (None, _) => self.shafts.springs[s].energy(twist),
+                (Some(dog), Some(gap)) => self.shafts.behind(s, dog).energy(twist - gap),
+                (Some(_), None) => 0.0,
+            }
+        };
+        of(0) + of(1)
     }
 }

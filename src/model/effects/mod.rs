@@ -6,6 +6,7 @@ mod bearing_drag;
 mod body_compliance;
 mod clutches;
 pub mod coupling_advice;
+mod disconnect;
 mod final_drive;
 pub mod half_shaft;
 mod limited_slip;
@@ -279,6 +280,7 @@ effects! {
         thrust_friction: thrust_friction::ThrustFrictionSpec,
         limited_slip: limited_slip::LimitedSlipSpec,
         clutches: clutches::ClutchesSpec,
+        disconnect: disconnect::DisconnectSpec,
         half_shaft: half_shaft::HalfShaftSpec,
         pin_compliance: pin_compliance::PinComplianceSpec,
         bearing_drag: bearing_drag::BearingDragSpec,

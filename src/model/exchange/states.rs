@@ -2,6 +2,7 @@
 //! scene: position and velocity of each body. Positions are unwrapped.
 
 use crate::model::assembly::Gears;
+use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, Largest};
 use crate::model::run::Simulation;
@@ -50,8 +51,8 @@ pub const BODIES: [Body; MAX_DOF] = {
 /// Number of states: positions of all bodies, then their velocities.
 pub const STATES: usize = 2 * MAX_DOF;
 /// Number of event indicators: touch of drive and coast flanks of each mesh, then dry friction by the numbers of the
-/// pairs, with each planet instead of each group.
-pub const INDICATORS: usize = 4 * MAX_PLANETS + PAIRS;
+/// pairs, with each planet instead of each group, then both dog clutches.
+pub const INDICATORS: usize = 4 * MAX_PLANETS + PAIRS + 2;
 // otherwise planets would need more indicators than groups of planets
 const _: () = assert!(MAX_PLANETS == MAX_GROUPS);
 /// Value of an indicator whose event cannot occur.
@@ -112,7 +113,7 @@ impl Simulation {
     }
 
     /// Event indicators: approach of flanks [m], positive if they press on each other; distance of dry friction from
-    /// its switch [N·m while stuck, rad/s while sliding].
+    /// its switch [N·m while stuck, rad/s while sliding], and of dog clutches from theirs, relative to the limits.
     pub fn indicators(&self) -> [f64; INDICATORS] {
         let mut indicators = [NEVER; INDICATORS];
         let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);
@@ -131,7 +132,7 @@ impl Simulation {
         }
         with_equations!(model, state, inputs, |equations| {
             let margins = equations.friction_margins(&state.point());
-            let friction = &mut indicators[4 * MAX_PLANETS..];
+            let (friction, dogs) = indicators[4 * MAX_PLANETS..].split_at_mut(PAIRS);
             for (number, indicator) in friction.iter_mut().enumerate() {
                 let of = match RubbingKind::of(number) {
                     (RubbingKind::Planet, i) if i >= plan.planets => continue,
@@ -139,6 +140,9 @@ impl Simulation {
                     _ => number,
                 };
                 *indicator = margins[of].unwrap_or(NEVER);
+            }
+            for (indicator, margin) in dogs.iter_mut().zip(equations.dog_margins(&state.point())) {
+                *indicator = margin.unwrap_or(NEVER);
             }
         });
         indicators

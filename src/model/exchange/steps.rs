@@ -5,11 +5,12 @@
 
 use super::states::STATES;
 use crate::integrate::{Point, SecondOrder, Step};
+use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Actuated, FrictionEquations, State};
 use crate::model::run::events::{
-    acting_inputs, apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, has_lock_moved,
-    next_change, record_holds,
+    acting_inputs, apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, has_dog_command_changed,
+    has_lock_moved, next_change, record_holds,
 };
 use crate::model::run::progress::complete;
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
@@ -127,7 +128,7 @@ impl Simulation {
                 let mut anchors = equations.applied().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);
                 equations.applied_mut().set_anchors(&anchors);
-                is_due = equations.is_friction_due(&end, 0.0);
+                is_due = equations.is_friction_due(&end, 0.0) || equations.is_dog_due(&end);
                 state.friction = equations.applied().friction_state;
                 outcome
             });
@@ -138,7 +139,9 @@ impl Simulation {
             state.wrap(&model.periods, &model.body_effects().pairs);
         }
         let jumps = imposed::is_impulse(model, &from.followed_commands, inputs);
-        let commanded = has_lock_moved(model, inputs, state) || has_commanded_changed(model, inputs, state);
+        let commanded = has_lock_moved(model, inputs, state)
+            || has_commanded_changed(model, inputs, state)
+            || has_dog_command_changed(model, inputs, state);
         let due = is_due || jumps || commanded || breaks_tooth(model, inputs, state);
         self.accept(from.followed_commands);
         Ok(due)

@@ -190,7 +190,8 @@ fn read_effects(
 ) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
-    let motion = BodyMotion { q: &state.q, v: &state.v, layout, inputs, input_rates: &Inputs::ZERO, oil_viscosity };
+    let (State { q, v, dogs, .. }, input_rates) = (state, &Inputs::ZERO);
+    let motion = BodyMotion { q, v, layout, inputs, input_rates, dogs, oil_viscosity };
     let (ratio, effects) = (plan.drive_ratio.unwrap_or(1.0), &model.body_effects().forces);
     let on_pinion = effects.iter().find_map(|effect| effect.shaft_torque(&motion)).unwrap_or(out.drive_torque);
     (out.pinion_torque, out.port_torque) = (on_pinion / ratio, out.drive_torque / ratio);

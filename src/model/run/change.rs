@@ -49,6 +49,7 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
         lock: inputs.lock,
         brake_torque: inputs.brake_torque.map(|torque| given(rubs(RubbingKind::Wheel), torque)),
         clutch_command: inputs.clutch_command.map(|command| given(rubs(RubbingKind::Clutch), command)),
+        dog_command: [0, 1].map(|s| given(plan.dogs[s].is_some(), inputs.dog_command[s])),
         fault: given(may_break_tooth(model), inputs.fault),
         ambient_change: given(around.is_some(), inputs.ambient_change),
         sump_change: given(around.is_some_and(|around| around.sump.is_some()), inputs.sump_change),

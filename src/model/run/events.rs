@@ -4,11 +4,12 @@
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
 use crate::model::dynamics::actuated::courses;
+use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, InputsAndFriction, State};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{ACTUATED, ACTUATED_LOCK, InputDerivatives, Inputs, PAIRS, RubbingKind};
+use crate::model::scene::{ACTUATED, ACTUATED_LOCK, Dogs, InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
@@ -89,12 +90,33 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn apply_changes(model: &Model, inputs: &Inputs, state: &mut State) {
     break_tooth(model, inputs, state);
     state.lock = acting_inputs(model, inputs, state).lock;
+    switch_dogs(model, inputs, state);
     if !model.body_effects().may_have_dry_friction(state) {
         return;
     }
     let before = state.friction;
     switch_friction(model, inputs, state);
     record_holds(&before, state);
+}
+
+/// Passes their commands to the dog clutches and switches those that are due.
+pub fn switch_dogs(model: &Model, inputs: &Inputs, state: &mut State) {
+    if !model.body_effects().half_shafts.dogs.iter().any(Option::is_some) {
+        return;
+    }
+    with_equations!(model, state, inputs, |equations| {
+        equations.command_dogs(inputs);
+        equations.settle_dogs(&state.point(), &mut state.heat);
+        let (before, time) = (state.dogs, state.time());
+        state.dogs = equations.applied().dogs;
+        state.events.record_dogs([&before, &state.dogs], time);
+    });
+}
+
+/// True if the command of a dog clutch has changed.
+pub fn has_dog_command_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
+    let commands = Dogs::commands(inputs);
+    (0..2).any(|s| model.body_effects().half_shafts.dogs[s].is_some() && commands[s] != state.dogs.commanded[s])
 }
 
 /// Records an event for each body that friction starts or stops holding, compared with the friction `before`.

@@ -11,7 +11,8 @@ use crate::model::scene::{InputDerivatives, Inputs};
 use crate::numeric::Finite;
 
 /// Mask of the inputs that jump: 1 for each of them.
-const UNRAMPED: Inputs = Inputs { lock: 1.0, fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
+const UNRAMPED: Inputs =
+    Inputs { lock: 1.0, dog_command: [1.0; 2], fault: 1.0, ambient_change: 1.0, sump_change: 1.0, ..Inputs::ZERO };
 
 /// Inputs as set by the host.
 #[derive(Clone, Copy, Debug)]

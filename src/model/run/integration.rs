@@ -18,6 +18,7 @@ use super::{LedgerEquations, LedgerSums, StepFailure, effort};
 use crate::integrate::{self, AfterStep, Failure, Radau, Rodas5P, SolverContext, Statistics, Step, Trajectory};
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects, SHAFTS_SIZE};
 use crate::model::assembly::{Gears, Model, Teeth};
+use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::shape::{
     Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithBodies, WithEffects,
@@ -180,7 +181,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             }
             equations.record(model, &step, &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
-            switched = equations.is_friction_due(step.end, step.time);
+            switched = equations.is_friction_due(step.end, step.time) || equations.is_dog_due(step.end);
             let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };
@@ -196,7 +197,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
             trajectory.longest = LONGEST.min(state.thermal.longest);
         }
-        if switched && switch_friction(equations, state, &trajectory, begin) && pauses && trajectory.time < clock.now {
+        if switched && switch(equations, state, &trajectory, begin) && pauses && trajectory.time < clock.now {
             clock.now = trajectory.time;
         }
         let is_over = trajectory.time >= set_back_at || trajectory.end - trajectory.time <= RESOLUTION;
@@ -275,8 +276,9 @@ fn store<const N: usize>(state: &mut State, clock: &mut Clock, trajectory: &Traj
     }
 }
 
-/// Switches the friction that is due at the end of the last completed step. Returns true if this is an event.
-fn switch_friction<const N: usize, E: LedgerEquations<N> + ?Sized>(
+/// Switches the friction and the dog clutches that are due at the end of the last completed step. Returns true if this
+/// is an event.
+fn switch<const N: usize, E: LedgerEquations<N> + ?Sized>(
     equations: &mut E,
     state: &mut State,
     trajectory: &Trajectory<N, LedgerRates>,
@@ -284,8 +286,11 @@ fn switch_friction<const N: usize, E: LedgerEquations<N> + ?Sized>(
 ) -> bool {
     let before = equations.applied().friction_state;
     equations.settle_friction(&trajectory.point, trajectory.time, false, &mut state.heat);
-    let friction = [&before, &equations.applied().friction_state];
-    state.events.record_friction(friction, begin + trajectory.time)
+    equations.settle_dogs(&trajectory.point, &mut state.heat);
+    let (after, time) = (equations.applied(), begin + trajectory.time);
+    let engages = state.events.record_dogs([&state.dogs, &after.dogs], time);
+    state.dogs = after.dogs;
+    state.events.record_friction([&before, &after.friction_state], time) || engages
 }
 
 /// Maximum number of attempted steps for plain teeth in a communication step. It limits the waiting time of a host to

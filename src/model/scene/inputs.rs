@@ -154,6 +154,8 @@ inputs! {
     brake_torque: [f64; 2] = [0.0; 2], RESISTING;
     /// Commands of the clutches, left and right, from 0 (open) to 1 (full torque).
     clutch_command: [f64; 2] = [0.0; 2], COMMAND;
+    /// Commands of the dog clutches, left and right: closed above one half.
+    dog_command: [f64; 2] = [1.0; 2], COMMAND;
     /// Triggers the tooth fault when it rises above one half.
     fault: f64 = 0.0, COMMAND;
     /// Change of the ambient temperature from its parameter [K].

@@ -1,5 +1,6 @@
 //! Scene without effects: drives, inputs, material, integration, and the plan of its bodies.
 
+mod dog;
 mod input_derivatives;
 mod inputs;
 pub mod layout;
@@ -10,6 +11,7 @@ mod rubbing;
 mod solver;
 
 pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive, Start};
+pub use dog::{Dog, DogMotion, DogPhase, Dogs};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::{ACTUATED, ACTUATED_CLUTCHES, ACTUATED_LOCK, Inputs, MAX_SPEED, MAX_TORQUE};
 pub use layout::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PINION, PLANET, PROPELLER};

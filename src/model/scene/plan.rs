@@ -4,8 +4,8 @@
 //! is simulated, and its forces are multiplied by the number of members.
 
 use super::{
-    ATTACHED_COUNT, CARRIER, CarrierDrive, ENDS, GearContact, InputDerivatives, Inputs, Layout, MAX_DOF, MAX_GROUPS,
-    MAX_PLANETS, PINION, PROPELLER, PlanetSpin, Scene, SideDrive,
+    ATTACHED_COUNT, CARRIER, CarrierDrive, Dog, ENDS, GearContact, InputDerivatives, Inputs, Layout, MAX_DOF,
+    MAX_GROUPS, MAX_PLANETS, PINION, PROPELLER, PlanetSpin, Scene, SideDrive,
 };
 use crate::geometry::{GearSpec, Pair, assembly};
 use crate::problem::Problem;
@@ -40,6 +40,8 @@ pub struct Plan {
     pub turns: u32,
     /// Ratio of the speeds of each clutch's shaft and the carrier, left and right, if there are clutches.
     pub clutch_ratio: [Option<f64>; 2],
+    /// Dog clutches between side gears and half-shafts, left and right.
+    pub dogs: [Option<Dog>; 2],
     /// True if the planet spin is imposed.
     pub spin_imposed: bool,
     /// True for each wheel-side end whose speed is imposed, left and right.
@@ -73,6 +75,8 @@ pub struct Requests {
     pub turns: u32,
     /// Ratio of the speeds of each clutch's shaft and the carrier, left and right, if there are clutches.
     pub clutch_ratio: [Option<f64>; 2],
+    /// Dog clutches between side gears and half-shafts, left and right.
+    pub dogs: [Option<Dog>; 2],
 }
 
 /// Body that turns relative to another body.
@@ -118,6 +122,7 @@ impl Plan {
             on_carrier: requests.on_carrier,
             turns: requests.turns.max(1),
             clutch_ratio: requests.clutch_ratio,
+            dogs: requests.dogs,
             spin_imposed: scene.planet_spin == PlanetSpin::Imposed,
             side_imposed,
             shafts,

@@ -93,6 +93,7 @@ impl<'a> SceneEffects<'a> {
                 drive_ratio: all.drive_ratio.or(request.drive_ratio),
                 on_carrier: all.on_carrier + request.on_carrier,
                 turns: all.turns.max(request.turns),
+                dogs: [0, 1].map(|s| all.dogs[s].or(request.dogs[s])),
                 clutch_ratio: [0, 1].map(|s| all.clutch_ratio[s].or(request.clutch_ratio[s])),
             }
         })

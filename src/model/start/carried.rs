@@ -138,7 +138,7 @@ fn effect_torques(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIE
     }
     let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
     let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
-    let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, oil_viscosity };
+    let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, dogs: &state.dogs, oil_viscosity };
     let (mut force, mut heat) = ([0.0; MAX_DOF], [0.0; HEATS]);
     let mut out = Action { force: &mut force, heat: &mut heat };
     for effect in model.body_effects().forces.iter() {

@@ -7,7 +7,7 @@ use crate::model::assembly::{Gears, Given, Model, SIGMA};
 use crate::model::dynamics::{Actuated, Largest, State};
 use crate::model::run::events::{apply_changes, break_tooth};
 use crate::model::run::{Simulation, imposed, watching};
-use crate::model::scene::{CARRIER, GearContact, Inputs, Start};
+use crate::model::scene::{CARRIER, Dogs, GearContact, Inputs, Start};
 use crate::model::setup::{HEATS, Parameters};
 use crate::model::thermal::of_scene;
 use crate::problem::Problem;
@@ -32,6 +32,7 @@ impl Simulation {
     ) -> Result<Self, Vec<Problem>> {
         let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
         let (model, state, inputs) = (&simulation.model, &mut simulation.state, &{ simulation.inputs });
+        state.dogs = Dogs::at_start(&model.body_effects().half_shafts.dogs, inputs);
         state.inputs.actuated = Actuated::settled(&model.body_effects().actuators, inputs);
         state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);

@@ -14,7 +14,7 @@ pub fn wind(model: &Model, shafts: &HalfShafts, inputs: &Inputs, state: &mut Sta
     let carried = Carried::new(model, &model.ideal, inputs, state);
     let plan = &model.ideal.plan;
     for s in (0..2).filter(|&s| plan.shafts[s]) {
-        state.q[plan.layout().end(s)] = shafts.static_twist(s, carried.shaft[s]);
+        state.q[plan.layout().end(s)] = shafts.static_twist(s, carried.shaft[s], &state.dogs);
     }
     wind_up(model, &carried, state);
 }
@@ -95,7 +95,7 @@ pub fn preload(equations: &Largest, model: &Model, inputs: &Inputs, state: &mut 
         }
         if plan.shafts[s] {
             point.q[teeth.layout.end(s)] =
-                teeth.effect_terms.body_effects.half_shafts.static_twist(s, carried.shaft[s]);
+                teeth.effect_terms.body_effects.half_shafts.static_twist(s, carried.shaft[s], &state.dogs);
         }
     }
     state.set_point(&point);

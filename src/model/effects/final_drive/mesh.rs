@@ -8,14 +8,13 @@
 //! e = Σ E_n/r cos(n z₁ θ_p + ψ_n) + R₁/r cos(θ_p + ψ_1r) + R₂/r cos(θ_c + ψ_2r)
 //! ```
 //!
-//! A flank damps only in contact and never pulls. The torques follow from the potential V(x): T (1 + ∂e/∂θ_c) acts on
+//! The torques follow from the potential V(x): T (1 + ∂e/∂θ_c) acts on
 //! the carrier and −T (1 − i ∂e/∂θ_p) on the pinion at the carrier's speed. The power of both is −(V̇ + heat).
 //!
 //! Source: A. Kahraman and R. Singh, J. Sound Vib. 142 (1990) 49–75, for a pair with lash and transmission error.
 
 use super::FinalDriveSpec;
-use crate::contact::WORTHWHILE;
-use crate::model::effect_kinds::{BodyMotion, Slopes};
+use crate::model::effect_kinds::{BodyMotion, LashSpring, Slopes};
 use crate::model::scene::{CARRIER, Layout};
 use crate::numeric::{Dual, Scalar};
 
@@ -51,12 +50,8 @@ impl Harmonic {
 pub struct Mesh {
     /// Ratio i.
     ratio: f64,
-    /// Stiffness K at the carrier [N·m/rad].
-    stiffness: f64,
-    /// Damping c at the carrier [N·m·s/rad].
-    damping: f64,
-    /// Half of the lash at the carrier, b/2 [rad].
-    half_lash: f64,
+    /// Spring with the stiffness K, the damping c and the lash b at the carrier.
+    spring: LashSpring,
     /// Harmonics of the angle of the pinion.
     of_pinion: [Harmonic; 4],
     /// Harmonic of the angle of the carrier.
@@ -85,9 +80,11 @@ impl Mesh {
         let harmonic = |error: f64, order: f64, phase: f64| Harmonic { amplitude: error / r, order, phase };
         Self {
             ratio: of.ratio(),
-            stiffness: of.stiffness * r * r,
-            damping: of.damping * r * r,
-            half_lash: 0.5 * of.backlash / r,
+            spring: LashSpring {
+                stiffness: of.stiffness * r * r,
+                damping: of.damping * r * r,
+                half_lash: 0.5 * of.backlash / r,
+            },
             of_pinion: [
                 harmonic(of.error_1, z, of.error_phase_1),
                 harmonic(of.error_2, 2.0 * z, of.error_phase_2),
@@ -118,23 +115,9 @@ impl Mesh {
         Deviation { x: -lag - error, rate, by_carrier, by_pinion }
     }
 
-    /// Depth of the flanks in contact, positive, and the direction in which they drive; `None` within the lash.
-    fn contact<T: Scalar>(&self, x: T) -> Option<(T, f64)> {
-        let direction = if x.value() < 0.0 { -1.0 } else { 1.0 };
-        let depth = x * direction - self.half_lash;
-        (depth.value() > 0.0).then_some((depth, direction))
-    }
-
-    /// Torque T of the mesh at a deviation and its rate.
-    fn torque<T: Scalar>(&self, x: T, rate: T) -> T {
-        let Some((depth, direction)) = self.contact(x) else { return T::constant(0.0) };
-        let pressing = depth * self.stiffness + rate * (direction * self.damping);
-        if pressing.value() > 0.0 { pressing * direction } else { T::constant(0.0) }
-    }
-
     /// Torques on the carrier and on the pinion.
     fn torques<T: Scalar>(&self, &Deviation { x, rate, by_carrier, by_pinion }: &Deviation<T>) -> [T; 2] {
-        let torque = self.torque(x, rate);
+        let torque = self.spring.torque(x, rate);
         [torque + torque * by_carrier, torque * by_pinion - torque]
     }
 
@@ -144,9 +127,7 @@ impl Mesh {
         let [on_carrier, on_pinion] = self.torques(&deviation);
         force[CARRIER] += on_carrier;
         force[self.pinion] += on_pinion;
-        let Deviation { x, rate, .. } = deviation;
-        let spring = self.contact(x).map_or(0.0, |(depth, direction)| direction * self.stiffness * depth);
-        (self.torque(x, rate) - spring) * rate
+        self.spring.heat(deviation.x, deviation.rate)
     }
 
     /// Adds the derivatives of the torques.
@@ -163,8 +144,7 @@ impl Mesh {
 
     /// Elastic energy [J].
     pub fn energy(&self, at: &BodyMotion) -> f64 {
-        let depth = self.contact(self.deviation(self.local(at)).x).map_or(0.0, |(depth, _)| depth);
-        0.5 * self.stiffness * depth * depth
+        self.spring.energy(self.deviation(self.local(at)).x)
     }
 
     /// Torque on the carrier [N·m].
@@ -175,32 +155,27 @@ impl Mesh {
     /// Torque T of the mesh [N·m].
     pub fn torque_at(&self, at: &BodyMotion) -> f64 {
         let Deviation { x, rate, .. } = self.deviation(self.local(at));
-        self.torque(x, rate)
+        self.spring.torque(x, rate)
     }
 
     /// Derivatives of [`Self::torque_at`] with respect to positions and velocities of carrier and pinion.
     pub fn torque_slopes(&self, at: &BodyMotion) -> [(usize, [f64; 2]); 2] {
         let local = self.local(at);
         let Deviation { x, rate, .. } = self.deviation(std::array::from_fn(|k| Dual::<4>::variable(local[k], k)));
-        let [carrier, pinion, carrier_speed, pinion_speed] = self.torque(x, rate).d;
+        let [carrier, pinion, carrier_speed, pinion_speed] = self.spring.torque(x, rate).d;
         [(CARRIER, [carrier, carrier_speed]), (self.pinion, [pinion, pinion_speed])]
     }
 
     /// Fraction of a step of `h` [s] after which flanks touch or separate, if the deviation keeps its rate.
     pub fn kink(&self, at: &BodyMotion, h: f64) -> Option<f64> {
         let Deviation { x, rate, .. } = self.deviation(self.local(at));
-        let fraction = |edge: f64| (edge - x) / (rate * h);
-        [self.half_lash, -self.half_lash]
-            .map(fraction)
-            .into_iter()
-            .filter(|fraction| (WORTHWHILE.0..WORTHWHILE.1).contains(fraction))
-            .reduce(f64::min)
+        self.spring.kink(x, rate, h)
     }
 
     /// Sets the lag of the pinion so that the mesh carries the `torque` on the carrier [N·m]; without torque, the flanks
     /// are in the middle of the lash. The pinion then keeps its distance from the path of perfect teeth.
     pub fn wind_up(&self, torque: f64, [q, v]: [&mut [f64]; 2]) {
-        let depth = torque / self.stiffness + if torque == 0.0 { 0.0 } else { self.half_lash.copysign(torque) };
+        let depth = self.spring.displacement(torque);
         for _ in 0..ROUNDS {
             let Deviation { x, .. } = self.deviation([q[CARRIER], q[self.pinion], 0.0, 0.0]);
             q[self.pinion] += x - depth;
