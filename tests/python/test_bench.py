@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 from bevel_differential import Scene
 from bevel_differential.bench import TESTS, bench, scene_file
+from bevel_differential.bench.step_response import Actuator
 from bevel_differential.scene_file import read_toml
 from bevel_differential.values import DifferentialError
 from command_line import command
 from PIL import Image
+from scipy.integrate import solve_ivp
 from scipy.interpolate import PchipInterpolator
 
 PRELOAD, RATIO, COLD = 60.0, 1.3, 1.5
@@ -142,6 +144,53 @@ def test_clutches_on_command_have_the_torque_of_their_command_against_their_slip
     assert numbers(says.replace("\N{MINUS SIGN}", "-")) == pytest.approx([*expected, 0.0], abs=0.3)
     with pytest.raises(DifferentialError, match="needs clutches on command"):
         bench("clutch_command", tmp_path, values={"effects.clutches": False}, fmu=fmu_file, workers=0)
+
+
+@pytest.mark.parametrize("command, dead_band", [(0.0, 0.0), (0.7, 0.1)])
+def test_the_step_response_of_a_clutch_is_that_of_its_actuator(fmu_file, tmp_path, command, dead_band):
+    tau, stroke = 0.03, 0.2
+    values = {"clutches.response_time": tau, "clutches.stroke_time": stroke, "clutches.dead_band": dead_band, "left.clutch_command": command}
+    says = bench("clutch_command", tmp_path, values=values, fmu=fmu_file, workers=0)
+    rows = table(tmp_path / "clutch_command_step.csv")
+    time, torque = rows["time_[s]"], rows["clutch_torque_[N.m]"]
+    target = ((command or 1.0) - dead_band) / (1.0 - dead_band)
+    length = time[rows["clutch_command_[1]"] > 0.0].max()
+
+    def ramp(after):
+        t = np.maximum(after, 0.0)
+        return t - 2.0 * tau + (t + 2.0 * tau) * np.exp(-t / tau)
+
+    def risen(after):
+        """Critically damped response to a ramp that ends at the target."""
+        return 400.0 / stroke * (ramp(after) - ramp(after - target * stroke))
+
+    assert torque == pytest.approx(np.maximum(risen(time) - risen(time - length), 0.0), abs=1e-3)
+    assert rows["closed_form_[N.m]"] == pytest.approx(torque, abs=1e-3)
+    fine = np.linspace(0.0, length, 100_001)
+    times = [1e3 * fine[np.argmax(risen(fine) >= level * risen(length))] for level in (0.01, 0.1, 0.5, 0.9)]
+    dead, _, _, _, *rise = numbers(says[says.index(" is ", says.index("After a step")):says.index("After the step back")])
+    # printed with three digits
+    assert [dead, *rise] == pytest.approx(times, rel=5e-3)
+
+
+@pytest.mark.parametrize("values, says", [({}, "No actuator delays the torque"),
+                                          ({"clutches.response_time": 0.1, "clutches.dead_band": 0.5, "left.clutch_command": 0.2},
+                                           "left.clutch_command = 0.2 is within the dead band")])
+def test_without_a_delay_or_within_the_dead_band_no_step_is_drawn(fmu_file, tmp_path, values, says):
+    assert says in bench("clutch_command", tmp_path, values=values, fmu=fmu_file, workers=0)
+    assert not (tmp_path / "clutch_command_step.csv").exists()
+
+
+@pytest.mark.parametrize("damping", [0.1, 0.999999, 1.0, 1.000001, 10.0])
+def test_the_closed_form_of_the_step_agrees_with_a_numerical_integration(damping):
+    actuator, times = Actuator(0.0, 0.3, 0.05, damping), np.linspace(-0.1, 4.0, 200)
+
+    def force(time):
+        return min(max(time / 0.3, 0.0), 1.0) - min(max((time - 2.0) / 0.3, 0.0), 1.0)
+
+    found = solve_ivp(lambda t, y: [y[1], (force(t) - y[0]) / 0.05**2 - 2.0 * damping * y[1] / 0.05], (-0.1, 4.0), [0.0, 0.0], t_eval=times,
+                      rtol=1e-9, atol=1e-11, max_step=5e-3)
+    assert actuator.pulse(times, 1.0, 2.0) == pytest.approx(np.maximum(found.y[0], 0.0), abs=1e-6)
 
 
 def test_judder_ends_where_linear_theory_excludes_it(fmu_file, tmp_path):

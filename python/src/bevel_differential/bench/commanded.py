@@ -1,4 +1,4 @@
-"""Steady test of clutches on command: torque over command.
+"""Test of clutches on command: torque over command at rest, and the response to a step of the command.
 
 Only one clutch is pressed, while its wheel is slower and then faster than the clutch's shaft. The test measures the torques of the wheels,
 relative to the same run without a command. Without other friction, they give the torque C of the clutch:
@@ -21,6 +21,7 @@ from ..panel import CYCLE, Panel, curve
 from ..scene import Scene
 from ..values import DifferentialError
 from .steady import DIFFERENCE, SPEED, largest_torque, means, written
+from .step_response import SLIP, step_response
 
 SIDES = ("left", "right")
 COMMANDS = np.arange(21) / 20.0
@@ -51,7 +52,11 @@ def clutch_command(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     panels = [_panel(rows, of_torque.named("torque moved to the wheel"), 5)]
     if any(ratio != 1.0 for ratio in ratios.values()):
         panels.append(_panel(rows, of_torque.named("torque on the housing"), 6))
-    return written(scene, out, _conclusion(rows, of_torque), [panels], 5.4, "clutch pressed", HEAD, rows)
+    drive = inputs((torque, SPEED, _difference("left", ratios["left"], SLIP), temperature))
+    response, below = step_response(scene, drive, out.with_name(f"{out.name}_step.csv"), of_torque)
+    # one panel is as wide as two
+    rows_of_panels = [panels * (2 if below and len(panels) == 1 else 1), *below]
+    return written(scene, out, f"{_conclusion(rows, of_torque)}. {response}", rows_of_panels, 5.4 + 3.6 * len(below), "clutch pressed", HEAD, rows)
 
 
 def _difference(side, ratio, slip):
