@@ -62,7 +62,7 @@ def test_without_a_final_drive_the_lash_is_at_the_carrier(scene):
 @pytest.mark.parametrize("values", [IDEAL, {"effects.backlash": False}, IDEAL | {"effects.final_drive": True}])
 def test_a_scene_without_lash_says_so(scene, values):
     block = axle.lash(unsimulated(scene(values)))
-    assert block.text.startswith("There is no lash between the ") and block.text.endswith(" and the side gears.")
+    assert block.text.startswith("There is no lash between the ") and block.text.endswith(" and the wheels.")
 
 
 @pytest.mark.parametrize("values", [ELASTIC, ELASTIC | {"geometry.backlash": "0.17 mm", "geometry.side_teeth": 18,

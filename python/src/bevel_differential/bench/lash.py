@@ -1,7 +1,7 @@
-"""Lash and wind-up: angle of the drive's port over its torque in both directions, while the side gears are held.
+"""Lash and wind-up: angle of the drive's port over its torque in both directions, while the side gears are held, or dog clutches behind them.
 
-The angle is that of the equilibrium at the start, relative to the mean of the side gears at the port's speed. Half-shafts are behind the
-side gears and do not count. The play is the angle between both directions at no torque. It is extrapolated from three torques in a
+The angle is that of the equilibrium at the start, relative to the mean of the side gears at the port's speed. Dog clutches are closed, and a
+side gear with a dog clutch counts without its angle in the lash of the clutch. The twist of half-shafts does not count. The play is the angle between both directions at no torque. It is extrapolated from three torques in a
 geometric series by Aitken's method, which is exact for any power law of the deflection."""
 
 from collections.abc import Mapping
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..drive_port import PORT_TORQUE, SPEED, TORQUE, drive_ratio, port_command
-from ..lash import lash_by_source
+from ..lash import closed_dogs, lash_by_source
 from ..panel import Axis, Panel, curve
 from ..report import words
 from ..scene import Scene
@@ -19,6 +19,8 @@ from .steady import largest_torque, written
 
 # torques of the curve relative to the scene's, and smallest torque of the extrapolation, N·m, which bends nearly nothing
 PARTS, LEAST = np.linspace(0.05, 1.0, 20), 1e-3
+SIDES = ("left", "right")
+CLOSED = {f"{side}.dog_command": 1.0 for side in SIDES}
 HEAD = [f"{PORT_TORQUE} [N.m]", "angle_in_drive [deg]", "angle_in_coast [deg]", "total [deg]"]
 
 
@@ -40,7 +42,12 @@ def lash(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 def _sources(scene):
     ideal = scene.fmu.variable("scene.gear_contact").number("ideal")
-    return lash_by_source(scene.value, scene.value("scene.gear_contact") != ideal)
+    return lash_by_source(_closed(scene), scene.value("scene.gear_contact") != ideal)
+
+
+def _closed(scene):
+    """Values of the scene with closed dog clutches."""
+    return lambda name: CLOSED.get(name, scene.value(name))
 
 
 def play_of(scene: Scene) -> float:
@@ -51,12 +58,16 @@ def play_of(scene: Scene) -> float:
 
 
 def angle_at(scene: Scene, torque: float) -> float:
-    """Angle of the port relative to the held side gears [rad], under this torque on the port [N·m]."""
+    """Angle of the port relative to the held parts [rad], under this torque on the port [N·m]."""
     ratio = drive_ratio(scene.value)
     values = {"scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque", "scene.planet_spin": "free",
               "scene.start": "equilibrium", port_command(scene.value, TORQUE): torque, port_command(scene.value, SPEED): 0.0,
-              "left.load_torque": 0.5 * ratio * torque, "right.load_torque": 0.5 * ratio * torque}
+              "left.load_torque": 0.5 * ratio * torque, "right.load_torque": 0.5 * ratio * torque, **CLOSED}
     with scene.fmu.open() as instance:
         instance.initialise({**scene.values, **values})
-        port, left, right = instance.read(["propeller.angle", "left.angle", "right.angle"])
-    return float(port - ratio * 0.5 * (left + right))
+        port, *held = instance.read(["propeller.angle", "left.angle", "right.angle"])
+        for side in closed_dogs(_closed(scene)):
+            twist, load = instance.read([f"{side}.twist", f"{side}.shaft_torque"])
+            # side gear relative to the half-shaft, which twists behind the clutch
+            held[SIDES.index(side)] -= twist - load / float(scene.value(f"half_shaft.{side}_stiffness"))
+    return float(port - ratio * 0.5 * sum(held))

@@ -7,7 +7,8 @@ falling friction from juddering, so the means are quasi-static at small differen
 stuck: it is wound up in both directions, slowly, over a mesh cycle, and its torques range up to breakaway.
 
 With a final drive, torque and speed act on its port. Both are still referred to the carrier, so that the balance of torques and powers
-is the same, and the loss includes the heat of final drive and propeller shaft."""
+is the same, and the loss includes the heat of final drive and propeller shaft. Dog clutches are closed: their lash changes no mean, so the
+bench leaves them out."""
 
 import time
 from collections.abc import Callable, Container, Mapping
@@ -30,10 +31,12 @@ TORQUES = ["left.shaft_torque", "right.shaft_torque"]
 FIGURES = ["left.shaft_torque:mean", "right.shaft_torque:mean", "power.loss:mean", "left.shaft_torque:min", "left.shaft_torque:max"]
 # drives of a bench; without the effect warm_up, all surfaces have the temperature of the oil
 BENCH = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.planet_spin": "free",
-         "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False}
+         "scene.start": "equilibrium", "effects.warm_up": False, "effects.wheel_brake": False, "effects.disconnect": False}
 SHAFTS = ["half_shaft.left", "half_shaft.right"]
 # inputs that act on a bench, too, and are constant there
 COMMANDS = ["left.clutch_command", "right.clutch_command", "lock.command"]
+# commands of dog clutches, whose side is open up to this command
+DOGS, OPEN = ["left.dog_command", "right.dog_command"], 0.5
 # damping over stiffness of the half-shafts, s: the means of the torques do not depend on it
 DAMPING_TIME = 0.01
 # samples of a mesh cycle; shortest time window over which means are compared, s; maximum number of windows
@@ -46,11 +49,13 @@ CREEP, FINER, LEVELS = 0.02, 20, 3
 
 def benched(scene: Scene, given: Container[str] = ()) -> Scene:
     """Copy of the scene on the bench: its parameters, driven by torque and speeds, without its changes over time. Warns of commands that
-    change over time in the scene, unless each run has them `given`."""
+    change over time in the scene, unless each run has them `given`, and of dog clutches that are not always closed there."""
     changed = {name for name, *_ in scene.tables}.union(*(values for _, values in scene.changes))
     warn(f"{name} changes over time in the scene, but is constant at {scene.value(name):g} here: give the scene a constant value"
          for name in COMMANDS if name in changed and name not in given)
-    values = {**scene.values, **BENCH}
+    if scene.value("effects.disconnect"):
+        warn(f"{name} opens a dog clutch in the scene, but it is closed here" for name in DOGS if name in changed or scene.value(name) <= OPEN)
+    values = {name: value for name, value in scene.values.items() if name not in DOGS and not name.startswith("disconnect.")} | BENCH
     values |= {f"{shaft}_damping": DAMPING_TIME * scene.value(f"{shaft}_stiffness") for shaft in SHAFTS}
     return Scene(scene.name, description=scene.description, stop=scene.stop, step=scene.step, set=values, fmu=scene.fmu)
 

@@ -4,7 +4,7 @@ import math
 
 from ..coupling.vibration import SHAFT, vibrations
 from ..drive_port import drive_ratio, port_name
-from ..lash import lash_by_source
+from ..lash import closed_dogs, lash_by_source
 from ..values import DifferentialError
 from . import words
 from .blocks import Block, Section, Table, Text
@@ -26,15 +26,23 @@ def lash(run: Simulated) -> Block:
     sources, port, ratio = lash_by_source(run.value, run.has_teeth), port_name(run.value), drive_ratio(run.value)
     total = sum(source.angle for source in sources)
     if not total:
-        return Text(f"There is no lash between the {port} and the side gears.")
+        return Text(f"There is no lash between the {port} and the wheels.")
     at_carrier = port == "carrier"
-    rows = [(source.source, *((words.number(1e3 * source.length), words.number(1e3 * source.radius)) if source.length else ("none", "")),
+    rows = [(source.source, *_length(source),
              *([] if at_carrier else [_degrees(source.angle / ratio)]), _degrees(source.angle)) for source in sources]
     rows.append(("total", "", "", *([] if at_carrier else [_degrees(total / ratio)]), _degrees(total)))
     head = ("source of lash", "lash, mm", "at radius, mm", "at the carrier, °", *([] if at_carrier else [f"at the {port}, °"]))
     times = "" if at_carrier else f", times the ratio {words.number(ratio)} at the {port}"
-    return Table(head, rows, f"Angles through which the {port} turns freely while both side gears are held: lash over radius{times}. "
-                             "The gears of the differential have their lash at the outer pitch radius of the side gears.")
+    dogs = " A dog clutch counts with half of its lash, because only one side gear turns by it." if closed_dogs(run.value) else ""
+    return Table(head, rows, f"Angles through which the {port} turns freely while both wheels are held: lash over radius{times}. "
+                             f"The gears of the differential have their lash at the outer pitch radius of the side gears.{dogs}")
+
+
+def _length(source):
+    """Texts of lash and radius."""
+    if not source.radius:
+        return "", ""
+    return (words.number(1e3 * source.length), words.number(1e3 * source.radius)) if source.length else ("none", "")
 
 
 def _degrees(angle):

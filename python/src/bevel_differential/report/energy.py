@@ -3,7 +3,7 @@
 import numpy as np
 
 from ..panel import Mark, Panel, curve, scaled_axis
-from . import words
+from . import dogs, words
 from .blocks import Section
 from .head import energy_balance
 from .simulated import Simulated
@@ -61,9 +61,14 @@ def _bias_caption(run, left, right):
     apart = ("both carry the same at all times, and the point stays on the line of ratio 1" if even else
              f"farthest apart at {words.moment(run.time[k], run.time[-1])}, left {words.number(left[k])} and right "
              f"{words.quantity(right[k], run.unit('right.shaft_torque'))}")
+    closed = dogs.connected(run)
+    at_end = f"{words.number(bias[-1])} at the end and " if closed[-1] else ""
+    ratio = (f"The FMU's bias ratio of slow over fast shaft is {at_end}at most {words.number(bias[closed].max(), 3)} "
+             f"{'in the run' if closed.all() else 'while the dog clutches are closed'}" if closed.any() else
+             "There is no bias ratio, because a dog clutch is never closed")
+    ends = f", its locking value {words.number(locked, 3)} at the end" if closed[-1] else ""
     return (f"Torque of the half-shafts: {apart}. Grey lines: the torques have the ratio that is printed next to them; the large "
-            f"dot is the end. The FMU's bias ratio of slow over fast shaft is {words.number(bias[-1])} at the end and at most "
-            f"{words.number(bias.max(), 3)} in the run, its locking value {words.number(locked, 3)} at the end.")
+            f"dot is the end. {ratio}{ends}.")
 
 
 def _heats(run):

@@ -9,7 +9,7 @@ from ..fmu import Fmu
 from ..plot import over_time
 from ..scene import Scene
 from ..want import mean_over_time
-from . import strength, words
+from . import dogs, strength, words
 from .blocks import Section, Table, Text
 from .simulated import Simulated
 from .svg_style import picture
@@ -56,12 +56,16 @@ def energy_balance(run: Simulated) -> tuple[float, float]:
 def _split(run):
     left, right = (run.mean(f"{side}.shaft_torque") for side in ("left", "right"))
     if max(abs(left), abs(right)) < 1e-9:
-        return "The half-shafts carry no torque on the mean, so that there is no bias."
+        return f"The half-shafts carry no torque on the mean, so that there is no bias. {dogs.phases(run)}".rstrip()
     torque = run.scene.fmu.variable("left.shaft_torque")
     shares = f"left {words.shown(torque, left)}, right {words.shown(torque, right)} on the mean"
-    low, high = (words.number(float(bound(run.series("torque_bias_ratio"))), 3) for bound in (np.min, np.max))
+    closed = dogs.connected(run)
+    if not closed.any():
+        return f"Torque: {shares}; no bias ratio, because a dog clutch is never closed. {dogs.phases(run)}"
+    low, high = (words.number(float(bound(run.series("torque_bias_ratio")[closed])), 3) for bound in (np.min, np.max))
     course = f"{low} all the time" if low == high else f"from {low} to {high}"
-    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {course}."
+    when = "" if closed.all() else " while the dog clutches are closed"
+    return f"Torque: {shares}; bias ratio (slow over fast half-shaft) {course}{when}. {dogs.phases(run)}".rstrip()
 
 
 def program(fmu: Fmu) -> list[tuple[str, str]]:

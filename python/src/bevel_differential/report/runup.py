@@ -14,7 +14,7 @@ from ..progress import silent
 from ..scene import Scene
 from ..values import DifferentialError, Number
 from ..want import mean_over_time
-from . import words
+from . import dogs, words
 from .simulated import Simulated
 
 # lowest and highest carrier speed, rad/s: 100 and 1000 rpm
@@ -171,6 +171,9 @@ def _values(run, commands, imposed, loads):
         if max(abs(run.series(f"{side}.brake_torque"))) > 0.0:
             values[f"{side}.brake_torque"] = 0.0
             changed.append(f"the {side} brake is released")
+        if min(run.series(f"{side}.dog_phase")) < dogs.CLOSED:
+            values[f"{side}.dog_command"] = 1.0
+            changed.append(f"the {side} dog clutch is closed")
         command = run.series(f"{side}.clutch_command")
         if np.ptp(command) > 0.0:
             values[f"{side}.clutch_command"] = run.mean(f"{side}.clutch_command")
