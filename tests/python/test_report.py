@@ -75,5 +75,5 @@ def test_effects_that_are_off_are_tried_and_refusals_come_from_the_fmu():
     assert "effects.body_compliance: does not work with contact.law = impact" in worth
     assert re.search(r"tooth_errors\s+changes nothing beyond the solver's tolerance \(tooth_errors.accuracy_grade", worth)
     assert re.search(r"half_shaft\s+changes nothing [^.]*\(.*inertia.left_end", worth)
-    assert "Not tried: tooth_fault, limited_slip, clutches, final_drive, propeller_shaft and wheel_brake" in worth
+    assert "Not tried: tooth_fault, limited_slip, clutches, disconnect, final_drive, propeller_shaft and wheel_brake" in worth
 

@@ -1,4 +1,5 @@
-"""Examples of the car: a launch on split friction and a turn with torque vectoring, against closed forms and in the mirror."""
+"""Examples of the car: a launch on split friction, a turn with torque vectoring and an axle disconnect, against closed forms and in the
+mirror."""
 
 import runpy
 from math import pi, sin
@@ -9,7 +10,8 @@ import pytest
 from bevel_differential.vehicle import Car, Tyre
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples" / "vehicle"
-LAUNCH, VECTORING, PLAIN = (runpy.run_path(str(EXAMPLES / f"{name}.py")) for name in ("launch", "torque_vectoring", "split_friction_fmpy"))
+LAUNCH, VECTORING, PLAIN, AXLE = (runpy.run_path(str(EXAMPLES / f"{name}.py"))
+                                  for name in ("launch", "torque_vectoring", "split_friction_fmpy", "disconnect"))
 TYRE = Tyre()
 
 
@@ -121,3 +123,49 @@ def test_a_turn_to_the_right_is_the_mirror_image(fmu_file):
     assert one["body.yaw_rate"] == pytest.approx(-other["body.yaw_rate"], abs=1e-4 * np.abs(one["body.yaw_rate"]).max())
     for name, twin in (("left_tyre.force", "right_tyre.force"), ("motor.torque", "motor.torque"), ("heat.clutch_command", "heat.clutch_command")):
         assert one[name] == pytest.approx(other[twin], abs=0.01 * np.abs(one[name]).max())
+
+
+@pytest.fixture(scope="module")
+def coasting(fmu_file):
+    """Records of the car that opens its dog clutch, and of the car that does not."""
+    return [AXLE["coasted"](opens, fmu_file) for opens in (True, False)]
+
+
+def test_an_axle_disconnect_opens_stops_the_carrier_and_closes_near_the_speed_of_the_wheel(coasting):
+    record, closed = coasting
+    rows = AXLE["changes"](record)
+    assert rows["right.dog_phase"].tolist()[:3] == [3, 0, 1] and rows["right.dog_phase"][-1] == 3
+    assert rows["time"][1:3] == pytest.approx([AXLE["OPENS"], AXLE["CLOSES"]], abs=2e-3)
+    # teeth engage up to a difference of 5 rad/s, the start value
+    assert abs(rows["right.speed"][-1] - rows["right.wheel_speed"][-1]) <= 5.0
+    late = (record["time"] > 10.0) & (record["time"] < AXLE["CLOSES"])
+    assert np.abs(record["carrier.speed"][late]).max() < 0.1 and not record["right.shaft_torque"][late].any()
+    assert record["right.speed"][late] == pytest.approx(-record["right.wheel_speed"][late], abs=0.2)
+    # both wheels have the drag of one side gear
+    drag = np.diff(record["heat.drag"][late][[0, -1]])[0]
+    turned = 2.0 * np.trapezoid(record["right.wheel_speed"][late], record["time"][late])
+    assert drag == pytest.approx(AXLE["SIDE"] * turned, rel=0.01)
+    assert np.ptp(closed["right.dog_phase"]) == 0.0
+
+
+def test_the_saved_drag_is_the_energy_of_the_faster_car(coasting):
+    """Energy of body, wheels and motor with the resistance of the road, of both cars, until the clutch closes."""
+    energies = []
+    for record in coasting:
+        record = record[record["time"] < AXLE["CLOSES"]]
+        time, speed, wheel, carrier = (record[name] for name in ("time", "body.speed", "right.wheel_speed", "carrier.speed"))
+        road = np.trapezoid((0.012 * 1455.0 * 9.80665 + 0.4 * speed**2) * speed, time)
+        kinetic = 0.5 * (1455.0 * speed**2 + 2.0 * TYRE.inertia * wheel**2 + 0.03 * 81.0 * carrier**2)
+        energies.append((kinetic[-1] - kinetic[0] + road, record["heat.drag"][-1]))
+    (gained, heat), (plain, more_heat) = energies
+    # slip of the tyres and the carrier's own inertia are left out
+    assert gained - plain == pytest.approx(more_heat - heat, rel=0.02)
+
+
+def test_the_axle_disconnect_prints_its_phases_and_draws(fmu_file, tmp_path, monkeypatch, capsys):
+    monkeypatch.setenv("BEVEL_DIFFERENTIAL_FMU", fmu_file)
+    monkeypatch.setattr("sys.argv", ["disconnect", str(tmp_path / "picture.png")])
+    runpy.run_path(str(EXAMPLES / "disconnect.py"), run_name="__main__")
+    printed = capsys.readouterr().out
+    assert [line[11:35].strip() for line in printed.splitlines()[1:4]] == ["closed", "open", "waits for equal speeds"]
+    assert (tmp_path / "picture.png").is_file()
