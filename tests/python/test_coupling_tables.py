@@ -9,6 +9,7 @@ from bevel_differential import DifferentialWarning, Scene
 from bevel_differential.losses import VARIABLES, losses
 from bevel_differential.losses.coupling import middle
 from bevel_differential.losses.grid import Bound
+from bevel_differential.losses.point import pressed
 from bevel_differential.losses.tables import save_for_simulink
 
 KAPPA, COAST, PRELOAD = 0.3, 0.25, 40.0
@@ -148,3 +149,9 @@ def test_the_command_says_what_it_leaves_out(switch, said, tmp_path):
     words = f"{file} has no tables of the coupling torque: effects.limited_slip is off"
     assert (words in printed) is said
     assert ("TTin" in file.read_text(encoding="utf-8")) is not said
+
+
+@pytest.mark.parametrize("command, sides", [(0.1, []), (0.3, ["left"])])
+def test_a_clutch_within_the_dead_band_of_its_actuator_is_not_pressed(fmu_file, command, sides):
+    with Scene(set={**ELECTRONIC, "left.clutch_command": command, "clutches.dead_band": 0.2}, fmu=fmu_file) as scene:
+        assert pressed(scene) == sides

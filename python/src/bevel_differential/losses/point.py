@@ -61,8 +61,9 @@ def benched(scene: Scene, given: Container[str] = ()) -> Scene:
 
 
 def pressed(scene: Scene) -> list[str]:
-    """Sides whose clutch on command is pressed."""
-    return [side for side in ("left", "right") if scene.value("effects.clutches") and scene.value(f"{side}.clutch_command")]
+    """Sides whose clutch on command is pressed, with a command above the dead band of its actuator."""
+    free = scene.value("clutches.dead_band")
+    return [side for side in ("left", "right") if scene.value("effects.clutches") and scene.value(f"{side}.clutch_command") > free]
 
 
 class PointTask:
