@@ -9,6 +9,7 @@ from bevel_differential.bench import bench
 from bevel_differential.lash import lash_by_source
 from bevel_differential.losses.point import benched
 from bevel_differential.report import dogs
+from bevel_differential.report.axle import natural_frequencies
 from bevel_differential.report.head import verdicts
 from bevel_differential.report.simulated import Simulated
 
@@ -55,6 +56,7 @@ def test_the_report_says_when_a_dog_clutch_is_open_and_gives_no_bias_then(fmu_fi
     # the clutch opens in the step after its command
     assert np.array_equal(dogs.connected(run), run.time <= 0.25)
     assert dogs.phases(run) in verdicts(run)[-1].text
+    assert "The right half-shaft has no stiffness here" in natural_frequencies(run)[-1].text
     with Scene(set=COASTS | {"right.dog_command": 0.0, "carrier.torque_command": 100.0, "left.load_torque": 20.0}, stop=0.05,
                outputs=["right.dog_phase"], accept_start_values=True, fmu=fmu_file) as scene:
         assert "no bias ratio, because a dog clutch is never closed" in verdicts(Simulated.of(scene))[-1].text

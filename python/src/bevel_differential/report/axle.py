@@ -6,7 +6,7 @@ from ..coupling.vibration import SHAFT, vibrations
 from ..drive_port import drive_ratio, port_name
 from ..lash import closed_dogs, lash_by_source
 from ..values import DifferentialError
-from . import words
+from . import dogs, words
 from .blocks import Block, Section, Table, Text
 from .simulated import Simulated, reason_of
 
@@ -33,9 +33,9 @@ def lash(run: Simulated) -> Block:
     rows.append(("total", "", "", *([] if at_carrier else [_degrees(total / ratio)]), _degrees(total)))
     head = ("source of lash", "lash, mm", "at radius, mm", "at the carrier, °", *([] if at_carrier else [f"at the {port}, °"]))
     times = "" if at_carrier else f", times the ratio {words.number(ratio)} at the {port}"
-    dogs = " A dog clutch counts with half of its lash, because only one side gear turns by it." if closed_dogs(run.value) else ""
+    half = " A dog clutch counts with half of its lash, because only one side gear turns by it." if closed_dogs(run.value) else ""
     return Table(head, rows, f"Angles through which the {port} turns freely while both wheels are held: lash over radius{times}. "
-                             f"The gears of the differential have their lash at the outer pitch radius of the side gears.{dogs}")
+                             f"The gears of the differential have their lash at the outer pitch radius of the side gears.{half}")
 
 
 def _length(source):
@@ -67,6 +67,8 @@ def natural_frequencies(run: Simulated) -> list[Block]:
     unloaded = [name for name in result.unloaded if _has_teeth(run, name)]
     if unloaded:
         found.append(Text(f"The teeth of the {words.listed(unloaded)} have no stiffness here, because they are not loaded at the start."))
+    for side in dogs.loose(run):
+        found.append(Text(f"The {side} half-shaft has no stiffness here, because its dog clutch is open or in its lash at the start."))
     return found
 
 

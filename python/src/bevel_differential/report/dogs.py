@@ -26,3 +26,11 @@ def phases(run: Simulated) -> str:
             shares = [(mean_over_time((phase == number).astype(float), run.time), name) for number, name in enumerate(PHASES)]
             said.append(f"The {side} dog clutch {words.listed([f'{name} {words.percent(share, 2)} of the time' for share, name in shares if share])}.")
     return " ".join(said)
+
+
+def loose(run: Simulated) -> list[str]:
+    """Sides whose dog clutch transmits no torque at the start."""
+    if not run.value("effects.disconnect"):
+        return []
+    sides = run.literal("disconnect.sides")
+    return [side for side in SIDES if sides in (side, "both") and run.series(f"{side}.shaft_torque")[0] == 0.0]
