@@ -144,8 +144,9 @@ def step_response(scene: Scene, drive: Mapping[str, Number], out: Path, of_torqu
     actuator, command = Actuator.of(scene), float(scene.value(PRESSED)) or 1.0
     if actuator.is_immediate:
         return "No actuator delays the torque", []
-    if command <= actuator.dead_band:
-        return f"There is no response to a step, because {PRESSED} = {command:g} is within the dead band", []
+    if command <= actuator.dead_band or not scene.value("clutches.torque"):
+        why = f"{PRESSED} = {command:g} is within the dead band" if command <= actuator.dead_band else "clutches.torque = 0"
+        return f"There is no response to a step, because {why}", []
     found = measured(scene, drive, actuator, command)
     text = _conclusion(found, of_torque)
     columns = (found.times, found.commands, found.torque, found.expected)
