@@ -33,7 +33,7 @@ pub use assembly::model::Given;
 pub use dynamics::event::{AdvanceOptions, Event, Events, Happening};
 pub use dynamics::state::State;
 pub use effect_kinds::effect::{Changes, Class, Heat, InputField, Needs, Reading, Refinement};
-pub use effects::{EFFECTS, EffectParameters, Effects, FinalDriveSpec, Hand, Memories, RingSide};
+pub use effects::{DogSides, EFFECTS, EffectParameters, Effects, FinalDriveSpec, Hand, Memories, RingSide};
 pub use exchange::{BODIES, Body, Direction, INDICATORS, STATES, StencilReadings, Update};
 pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};

@@ -11,7 +11,7 @@
 
 typedef enum { OK, WARNING, DISCARD, ERROR, FATAL, PENDING } Status;
 enum { MODEL_EXCHANGE, CO_SIMULATION };
-enum { STATES = 34, INDICATORS = 27 };
+enum { STATES = 34, INDICATORS = 29 };
 
 typedef struct {
     void (*logger)(void *, const char *, Status, const char *, const char *, ...);

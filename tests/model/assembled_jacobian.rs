@@ -3,7 +3,9 @@
 //! shorter.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{CarrierDrive, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start};
+use bevel_differential::model::{
+    CarrierDrive, DogSides, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start,
+};
 use bevel_differential::variables::{Access, named};
 
 /// Central differences of order 4: positions and weights.
@@ -89,6 +91,15 @@ fn clutches((mut p, mut inputs): (Parameters, Inputs), more: f64) -> (Parameters
     (p, inputs)
 }
 
+/// Dog clutches on both sides, under these commands.
+fn disconnected((mut p, mut inputs): (Parameters, Inputs), commands: [f64; 2]) -> (Parameters, Inputs) {
+    p.effects.disconnect = true;
+    p.specs.disconnect.sides = DogSides::Both;
+    (p.inertia.left_end, p.inertia.right_end) = (0.5, 0.7);
+    inputs.dog_command = commands;
+    (p, inputs)
+}
+
 /// Final drive with all its losses, and with an error of its mesh if this is elastic.
 fn final_drive(p: &mut Parameters, elastic: bool) {
     let drive = &mut p.specs.final_drive;
@@ -167,6 +178,11 @@ fn scenes() -> Vec<(&'static str, (Parameters, Inputs))> {
             clutches(turn(|p| (p.effects.half_shaft, p.scene.gear_contact) = (true, GearContact::Ideal)), 0.3),
         ),
         ("clutches that hold", clutches(turn(|p| (by_speed(p), p.specs.clutches.torque = 1e4).0), 0.0)),
+        ("dog clutches", disconnected(turn(|p| p.effects.half_shaft = true), [1.0, 0.0])),
+        (
+            "dog clutches, ideal",
+            disconnected(turn(|p| (p.effects.half_shaft, p.scene.gear_contact) = (true, GearContact::Ideal)), [1.0; 2]),
+        ),
         ("gears press the packs", turn(|p| (by_speed(p), p.specs.limited_slip.thrust_arm = 5e-3).0)),
         ("ramps", turn(|p| (ramps(p, 1), p.scene.gear_contact = GearContact::Lumped).0)),
         ("ramps of both sides", turn(|p| ramps(p, 2))),

@@ -131,7 +131,8 @@ class Momentum:
     def check_shaft(self, side, torque, wheel, rounding):
         """Asserts that the torque of a shaft equals that of its spring, and the torque that the wheel at its end needs."""
         one, speed = self.opened, self.opened.get(wheel)
-        if wheel.endswith("end_speed"):
+        # the lash of a dog clutch has tests of its own
+        if wheel.endswith("end_speed") and not self.on["effects.disconnect"]:
             spring, damper = one.read([f"half_shaft.{side}_stiffness", f"half_shaft.{side}_damping"])
             terms = [spring * one.get(f"{side}.shaft_twist"), damper * (one.get(f"{side}.speed") - speed)]
             assert abs(torque - sum(terms)) <= rounding + INSTANT * sum(map(abs, terms)), f"the spring at the {side} is off"

@@ -32,6 +32,9 @@ SHORT = 0.1
 BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
 # share of drives with clutches on command, and the ratios of their shafts: limited slip, superposition, brake of a side gear, blocking
 CLUTCHES, CLUTCH_RATIOS = 0.2, [(1.0, 1.0), (1.125, 0.875), (0.0, 0.0), (1.15, 1.1), (0.9, 1.0)]
+# share of actuators among these, of dog clutches among the drives with half-shafts whose wheels have inertia, and of gears that press
+# their packs among those with packs
+ACTUATORS, DISCONNECTS, PRESSED = 0.5, 0.3, 0.3
 # shortest hold that is checked [s]
 SHORTEST_HOLD = 0.2
 # variables that change their sign in a mirrored drive
@@ -82,7 +85,8 @@ def drive(seed, index, levels):
         "holds": [hold | {"from": hold["from"] + step} for hold in course.holds if hold["to"] - hold["from"] - step >= SHORTEST_HOLD]}
     # drawn separately, so that all other values are unchanged
     clutches, commands = commanded(np.random.default_rng([seed, index, 1]), driven, made["stop"])
-    made = readable(at_port(made | {"start": made["start"] | clutches, "inputs": made["inputs"] | commands}))
+    made |= {"start": made["start"] | clutches, "inputs": made["inputs"] | commands}
+    made = readable(at_port(disconnected(np.random.default_rng([seed, index, 2]), made)))
     return image(made) if mirrored else made
 
 
@@ -101,6 +105,31 @@ def commanded(random, vehicle, stop):
         at[3] = at[2]
         commands[f"{side}.clutch_command"] = [[float(time), float(value)] for time, value in zip(at, to)]
     return values, commands
+
+
+def disconnected(random, made):
+    """Drive with actuators at the clutches on command, dog clutches and gears that press their packs; none of these in most drives. An
+    axle coasts from the time at which it is disconnected, because the side gear of an open clutch takes no torque; the clutch closes
+    again if the speeds permit it."""
+    start, stop = made["start"], made["stop"]
+    added, inputs = {}, {}
+    if "effects.clutches" in start and random.random() < ACTUATORS:
+        added |= {"clutches.dead_band": random.uniform(0.0, 0.2), "clutches.stroke_time": random.uniform(0.0, 0.3),
+                  "clutches.response_time": random.uniform(0.0, 0.05), "clutches.response_damping": random.uniform(0.4, 1.5)}
+    if start.get("effects.limited_slip") and start["scene.gear_contact"] in ("lumped", "tooth") and random.random() < PRESSED:
+        added |= {"limited_slip.thrust_arm": random.uniform(1e-3, 0.02)}
+    wheels = [side for side in SIDES if start.get(f"inertia.{side}_end", 0.0) > 0.0]
+    if start.get("effects.half_shaft") and len(wheels) == 2 and random.random() < DISCONNECTS:
+        side = str(random.choice(["left", "right", "both"]))
+        added |= {"effects.disconnect": True, "disconnect.sides": side, "disconnect.lash": random.uniform(5e-3, 0.05),
+                  "disconnect.most_speed": random.uniform(2.0, 20.0), "disconnect.ratchet_torque": random.uniform(0.0, 10.0)}
+        opens = np.sort(random.uniform(0.0, stop, 2))
+        if DRIVE in made["inputs"]:
+            driven = [point for point in made["inputs"][DRIVE] if point[0] < opens[0]]
+            inputs[DRIVE] = [*driven, [opens[0], driven[-1][1]], [opens[0], 0.0]]
+        for name in SIDES if side == "both" else [side]:
+            inputs[f"{name}.dog_command"] = [[0.0, 1.0], [opens[0], 1.0], [opens[0], 0.0], [opens[1], 0.0], [opens[1], 1.0]]
+    return made | {"start": start | added, "inputs": made["inputs"] | inputs}
 
 
 def chosen(random, shares):

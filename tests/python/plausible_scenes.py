@@ -30,7 +30,8 @@ FACTORS = {
     "contact.reference_line_load": 10.0, "contact.mesh_stiffness": 100.0, "half_shaft.left_stiffness": 30.0,
     "half_shaft.right_stiffness": 30.0, "pin_compliance.pin_stiffness": 30.0, "pin_compliance.case_stiffness": 30.0,
     "thrust_friction.stiffness": 30.0, "limited_slip.stiffness": 30.0, "lock.stiffness": 30.0, "lock.torque": 30.0,
-    "clutches.torque": 10.0, "clutches.stiffness": 30.0, "clutches.friction_area": 3.0,
+    "clutches.torque": 10.0, "clutches.stiffness": 30.0, "clutches.friction_area": 3.0, "disconnect.teeth": 3.0, "disconnect.most_speed": 5.0,
+    "disconnect.most_torque": 10.0,
     "wheel_brake.stiffness": 30.0, "limited_slip.friction_area": 3.0, "wheel_brake.friction_area": 3.0,
     **{f"thrust_friction.{name}_area": 3.0 for name in ("planet_washer", "side_washer", "pin")},
     "tooth_friction.stribeck_speed": 30.0, "tooth_friction.regularisation_speed": 10.0,
@@ -65,6 +66,9 @@ BANDS = {
     "bearing_drag.seal_torque_per_diameter": (1.0, 6.0), "bearing_drag.bearing_load": (0.0, 5000.0),
     "bearing_drag.bearing_coefficient": (2e-4, 1e-3), "wheel_brake.temperature": (250.0, 900.0), "limited_slip.mean_radius": (0.02, 0.1),
     "clutches.mean_radius": (0.02, 0.1), "clutches.plate_coefficient": (0.05, 0.2), "clutches.static_ratio": (1.0, 2.0),
+    "disconnect.lash": (5e-3, 0.05), "disconnect.ratchet_torque": (0.0, 20.0),
+    **{f"{effect}.{name}": band for effect in ("clutches", "lock") for name, band in {
+        "dead_band": (0.0, 0.2), "stroke_time": (0.0, 0.3), "response_time": (0.0, 0.05), "response_damping": (0.3, 2.0)}.items()},
     "clutches.left_ratio": (0.8, 1.2), "clutches.right_ratio": (0.0, 1.2), "limited_slip.thrust_arm": (0.0, 0.02),
     "wheel_brake.mean_radius": (0.05, 0.2), "thrust_friction.static_ratio": (1.0, 2.0), "wheel_brake.static_ratio": (1.0, 2.0),
     "strength.scuffing_temperature": (450.0, 800.0), "warm_up.cycle": (3e-3, 2e-2), "warm_up.ambient_change": (-20.0, 20.0),
@@ -229,6 +233,12 @@ def effects(scene, u):
     if gear_contact not in (LUMPED, TOOTH) or u["limited_slip.thrust_arm"] < 0.5:
         scene["limited_slip.thrust_arm"] = 0.0
     clutches(scene, u)
+    # a dog clutch needs a wheel that turns apart from its side gear
+    apart = [s for s, side in ((1, "left"), (2, "right"))
+             if scene[f"scene.{side}_drive"] == 2 or scene["effects.half_shaft"] and scene[f"inertia.{side}_end"] > 0.0]
+    scene["effects.disconnect"] &= bool(apart)
+    if len(apart) == 1:
+        scene["disconnect.sides"] = apart[0]
     grade = int(u["tooth_errors.accuracy_grade"] * 10)
     scene["tooth_errors.accuracy_grade"] = grade + 1 if grade else 0
     scene["tooth_errors.runout_by_grade"] = bool(grade and scene["tooth_errors.runout_by_grade"])

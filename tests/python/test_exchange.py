@@ -61,7 +61,7 @@ def test_states_and_derivatives_are_in_the_model_structure(description):
     names = [variable.derivative.name for variable in derivatives]
     assert names[0] == "left.relative_angle" and names[17] == "left.speed" and len(set(names)) == 34
     assert all(variable.derivative.nominal for variable in derivatives)
-    assert description.numberOfEventIndicators == 27
+    assert description.numberOfEventIndicators == 29
 
 
 def test_states_are_read_in_the_order_of_the_model_structure(fmu, description):

@@ -5,6 +5,7 @@
 //! connects the terminal that fits the drive of the scene.
 
 use anyhow::{Context, Result, ensure};
+use bevel_differential::declaration::SIDES;
 use bevel_differential::variables::{Causality, named};
 
 use answers::text::xml::Element;
@@ -19,6 +20,8 @@ const MATCHING_RULE: &str = "plug";
 const TORQUE_DRIVEN: &str = "org.bevel-differential.rotational-flange.torque-driven";
 const SPEED_DRIVEN: &str = "org.bevel-differential.rotational-flange.speed-driven";
 const BRAKE: &str = "org.bevel-differential.wheel-brake";
+/// Side of a terminal in its texts.
+const SIDE: &str = "{side}";
 const COMMAND: &str = "org.bevel-differential.command";
 
 /// FMI's kind of a variable in a connection.
@@ -35,6 +38,7 @@ enum Kind {
 /// A variable of a terminal: name of the member, variable, kind.
 type Member = (&'static str, &'static str, Kind);
 
+/// A terminal. If its texts contain `{side}` or `{Side}`, there is one for each side.
 struct Terminal {
     name: &'static str,
     kind: &'static str,
@@ -44,7 +48,7 @@ struct Terminal {
 
 use Kind::{Inflow, Outflow, Signal};
 
-const TERMINALS: [Terminal; 17] = [
+const TERMINALS: [Terminal; 14] = [
     Terminal {
         name: "carrier_torque_driven",
         kind: TORQUE_DRIVEN,
@@ -82,40 +86,22 @@ const TERMINALS: [Terminal; 17] = [
         members: &[("tau", "propeller.torque", Inflow), ("w", "pinion.speed_command", Signal)],
     },
     Terminal {
-        name: "left_torque_driven",
+        name: "{side}_torque_driven",
         kind: TORQUE_DRIVEN,
-        description: "Left half-shaft with scene.left_drive = torque: the load is the input. Speed and angle are positive forward; \
+        description: "{Side} half-shaft with scene.{side}_drive = torque: the load is the input. Speed and angle are positive forward; \
                       a positive load resists forward rotation, and drives a standing wheel backward",
         members: &[
-            ("tau", "left.load_torque", Outflow),
-            ("w", "left.wheel_speed", Signal),
-            ("phi", "left.wheel_angle", Signal),
+            ("tau", "{side}.load_torque", Outflow),
+            ("w", "{side}.wheel_speed", Signal),
+            ("phi", "{side}.wheel_angle", Signal),
         ],
     },
     Terminal {
-        name: "left_speed_driven",
+        name: "{side}_speed_driven",
         kind: SPEED_DRIVEN,
-        description: "Left half-shaft with scene.left_drive = speed: the speed is the input. The speed is positive forward; a \
+        description: "{Side} half-shaft with scene.{side}_drive = speed: the speed is the input. The speed is positive forward; a \
                       positive shaft torque drives the wheel forward",
-        members: &[("tau", "left.shaft_torque", Outflow), ("w", "left.speed_command", Signal)],
-    },
-    Terminal {
-        name: "right_torque_driven",
-        kind: TORQUE_DRIVEN,
-        description: "Right half-shaft with scene.right_drive = torque: the load is the input. Speed and angle are positive \
-                      forward; a positive load resists forward rotation, and drives a standing wheel backward",
-        members: &[
-            ("tau", "right.load_torque", Outflow),
-            ("w", "right.wheel_speed", Signal),
-            ("phi", "right.wheel_angle", Signal),
-        ],
-    },
-    Terminal {
-        name: "right_speed_driven",
-        kind: SPEED_DRIVEN,
-        description: "Right half-shaft with scene.right_drive = speed: the speed is the input. The speed is positive forward; a \
-                      positive shaft torque drives the wheel forward",
-        members: &[("tau", "right.shaft_torque", Outflow), ("w", "right.speed_command", Signal)],
+        members: &[("tau", "{side}.shaft_torque", Outflow), ("w", "{side}.speed_command", Signal)],
     },
     Terminal {
         name: "planet_spin",
@@ -126,18 +112,11 @@ const TERMINALS: [Terminal; 17] = [
         members: &[("tau", "spin.torque", Inflow), ("w", "spin.command", Signal)],
     },
     Terminal {
-        name: "left_brake",
+        name: "{side}_brake",
         kind: BRAKE,
-        description: "Brake of the left wheel with effects.wheel_brake. The torque has no direction: it opposes rotation and holds \
+        description: "Brake of the {side} wheel with effects.wheel_brake. The torque has no direction: it opposes rotation and holds \
                       a standing wheel; the speed is positive forward",
-        members: &[("brake_torque", "left.brake_torque", Signal), ("w", "left.wheel_speed", Signal)],
-    },
-    Terminal {
-        name: "right_brake",
-        kind: BRAKE,
-        description: "Brake of the right wheel with effects.wheel_brake. The torque has no direction: it opposes rotation and \
-                      holds a standing wheel; the speed is positive forward",
-        members: &[("brake_torque", "right.brake_torque", Signal), ("w", "right.wheel_speed", Signal)],
+        members: &[("brake_torque", "{side}.brake_torque", Signal), ("w", "{side}.wheel_speed", Signal)],
     },
     Terminal {
         name: "lock",
@@ -146,24 +125,20 @@ const TERMINALS: [Terminal; 17] = [
         members: &[("command", "lock.command", Signal), ("held", "held.sides", Signal)],
     },
     Terminal {
-        name: "left_clutch",
+        name: "{side}_clutch",
         kind: COMMAND,
-        description: "Left clutch with effects.clutches: 0 opens it, 1 presses it with its full torque",
+        description: "{Side} clutch with effects.clutches: 0 opens it, 1 presses it with its full torque",
         members: &[
-            ("command", "left.clutch_command", Signal),
-            ("tau", "left.clutch_torque", Signal),
-            ("slip", "left.clutch_slip", Signal),
+            ("command", "{side}.clutch_command", Signal),
+            ("tau", "{side}.clutch_torque", Signal),
+            ("slip", "{side}.clutch_slip", Signal),
         ],
     },
     Terminal {
-        name: "right_clutch",
+        name: "{side}_dog",
         kind: COMMAND,
-        description: "Right clutch with effects.clutches: 0 opens it, 1 presses it with its full torque",
-        members: &[
-            ("command", "right.clutch_command", Signal),
-            ("tau", "right.clutch_torque", Signal),
-            ("slip", "right.clutch_slip", Signal),
-        ],
+        description: "{Side} dog clutch with effects.disconnect: above 0.5 it closes, otherwise it opens; the output is its phase",
+        members: &[("command", "{side}.dog_command", Signal), ("phase", "{side}.dog_phase", Signal)],
     },
     Terminal {
         name: "fault",
@@ -187,24 +162,36 @@ const TERMINALS: [Terminal; 17] = [
 
 /// Text of the file. Fails if a terminal names a variable that is neither input nor output.
 pub fn text() -> Result<String> {
-    let terminals = TERMINALS.iter().map(terminal).collect::<Result<Vec<_>>>()?;
+    let terminals = instances().map(|(of, side)| terminal(of, side)).collect::<Result<Vec<_>>>()?;
     let root = Element::new("fmiTerminalsAndIcons")
         .with("fmiVersion", VERSION)
         .child(Element::new("Terminals").children(terminals));
     root.document().context("the terminals cannot be written")
 }
 
-fn terminal(terminal: &Terminal) -> Result<Element> {
-    let members = terminal.members.iter().map(|member| variable(terminal.name, member)).collect::<Result<Vec<_>>>()?;
+/// Terminals with the side of each. The side of a terminal without one does not count.
+fn instances() -> impl Iterator<Item = (&'static Terminal, usize)> {
+    TERMINALS.iter().flat_map(|of| (0..if of.name.contains(SIDE) { 2 } else { 1 }).map(move |s| (of, s)))
+}
+
+/// Text of side `s`.
+fn on_side(text: &str, s: usize) -> String {
+    text.replace(SIDE, SIDES[s]).replace("{Side}", ["Left", "Right"][s])
+}
+
+fn terminal(terminal: &Terminal, s: usize) -> Result<Element> {
+    let name = on_side(terminal.name, s);
+    let member = |&(member, variable, kind): &Member| self::variable(&name, (member, &on_side(variable, s), kind));
+    let members = terminal.members.iter().map(member).collect::<Result<Vec<_>>>()?;
     Ok(Element::new("Terminal")
-        .with("name", terminal.name)
+        .with("name", &name)
         .with("matchingRule", MATCHING_RULE)
         .with("terminalKind", terminal.kind)
-        .with("description", terminal.description)
+        .with("description", on_side(terminal.description, s))
         .children(members))
 }
 
-fn variable(terminal: &str, &(member, name, kind): &Member) -> Result<Element> {
+fn variable(terminal: &str, (member, name, kind): (&str, &str, Kind)) -> Result<Element> {
     let row =
         named(name).with_context(|| format!("terminal {terminal}, member {member}: there is no variable {name}"))?;
     ensure!(
@@ -226,13 +213,15 @@ fn variable(terminal: &str, &(member, name, kind): &Member) -> Result<Element> {
 mod tests {
     use bevel_differential::variables::{Causality, table};
 
-    use super::{Kind, TERMINALS, text, variable};
+    use super::{Kind, instances, on_side, text, variable};
 
     #[test]
     fn every_input_belongs_to_one_terminal() {
-        let members = || TERMINALS.iter().flat_map(|terminal| terminal.members);
+        let names =
+            |(of, s): (&'static super::Terminal, usize)| of.members.iter().map(move |(_, name, _)| on_side(name, s));
+        let members = || instances().flat_map(names);
         for row in table().rows.iter().filter(|row| row.causality == Causality::Input) {
-            assert_eq!(members().filter(|(_, name, _)| *name == row.name).count(), 1, "{}", row.name);
+            assert_eq!(members().filter(|name| *name == row.name).count(), 1, "{}", row.name);
         }
         assert!(text().is_ok());
     }
@@ -240,7 +229,7 @@ mod tests {
     #[test]
     fn a_variable_that_cannot_be_connected_is_refused() {
         for (name, said) in [("left.wheel_sped", "no variable"), ("geometry.module", "neither input nor output")] {
-            let refused = variable("left", &("w", name, Kind::Signal)).err().map(|error| error.to_string());
+            let refused = variable("left", ("w", name, Kind::Signal)).err().map(|error| error.to_string());
             assert!(refused.as_deref().is_some_and(|text| text.contains(said) && text.contains(name)), "{refused:?}");
         }
     }

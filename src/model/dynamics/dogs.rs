@@ -23,7 +23,8 @@ pub trait DogEquations<const N: usize>: FrictionEquations<N> {
     fn dog_margins(&self, at: &Point<N>) -> [Option<f64>; 2] {
         let Dogs { closed, commanded } = &self.applied().dogs;
         [0, 1].map(|s| {
-            let margin = self.dog(s)?.margin(closed[s], commanded[s], &self.dog_motion(s, at));
+            let dog = self.dog(s)?;
+            let margin = dog.margin(closed[s], commanded[s], &self.dog_motion(s, at));
             Some(margin).filter(|margin| margin.is_finite())
         })
     }
@@ -32,8 +33,9 @@ pub trait DogEquations<const N: usize>: FrictionEquations<N> {
     fn dog_crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
         let Dogs { closed, commanded } = &self.applied().dogs;
         let of = |s: usize| {
+            let dog = self.dog(s)?;
             let motions = [start, end].map(|at| self.dog_motion(s, at.point));
-            self.dog(s)?.crossing(closed[s], commanded[s], motions.each_ref())
+            dog.crossing(closed[s], commanded[s], motions.each_ref())
         };
         (0..2).filter_map(of).reduce(f64::min)
     }

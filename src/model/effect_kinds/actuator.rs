@@ -22,6 +22,10 @@ const SETTLED: f64 = 1e-9;
 const EQUAL: f64 = 1e-12;
 /// Largest number of pieces within a step: a parabola enters and leaves dead band, limits and rate limit twice each.
 const MOST_PIECES: usize = 24;
+/// Time below which a time of an actuator counts as 0 [s].
+const SHORTEST: f64 = 1e-6;
+/// Shortest time after which a lock follows its actuator [s].
+const SHORTEST_FOLLOWING: f64 = 1e-5;
 /// Argument below which the hyperbolic functions of an overdamped filter follow from those without cancellation.
 const NEARLY_CRITICAL: f64 = 1e-3;
 
@@ -36,9 +40,9 @@ parameters! {
     pub struct Actuator of Owner: Actuates, by actuator {
         /// Command up to which nothing moves
         dead_band: f64 = 0.0, ONE, 0.0..=0.99;
-        /// Shortest time from no command to full command, which limits the rate; 0 = no limit
+        /// Shortest time from no command to full command, which limits the rate; below 1 us = no limit
         stroke_time: f64 = 0.0, SECOND, 0.0..=100.0;
-        /// Time constant of the response; 0 = immediate
+        /// Time constant of the response; below 1 us = immediate
         response_time: f64 = 0.0, SECOND, 0.0..=100.0;
         /// Damping ratio of the response
         response_damping: f64 = 1.0, ONE, 0.1..=10.0, when(test!(
@@ -76,6 +80,14 @@ struct Piece {
 }
 
 impl Actuator {
+    /// The actuator without times that are too short to have an effect.
+    pub fn effective(mut self) -> Self {
+        for time in [&mut self.stroke_time, &mut self.response_time] {
+            *time = if *time < SHORTEST { 0.0 } else { *time };
+        }
+        self
+    }
+
     /// True if the output is always the command.
     pub fn is_direct(&self) -> bool {
         self.is_immediate() && self.dead_band == 0.0
@@ -88,7 +100,7 @@ impl Actuator {
 
     /// Time in which the output changes by about one hundredth of the full command at its highest rate [s].
     pub fn hundredth(&self) -> f64 {
-        0.01 * self.stroke_time.max(2.0 * self.response_time)
+        (0.01 * self.stroke_time.max(2.0 * self.response_time)).max(SHORTEST_FOLLOWING)
     }
 
     /// State that has settled at the `command`.

@@ -22,6 +22,7 @@ mod tooth_friction;
 pub mod warm_up;
 mod wheel_brake;
 
+pub use disconnect::DogSides;
 pub use final_drive::{FinalDriveSpec, Hand, RingSide};
 
 use std::any::{Any, TypeId};

@@ -118,7 +118,9 @@ impl<'a> SceneEffects<'a> {
     pub fn actuators(&self) -> [Option<Actuator>; ACTUATED] {
         let mut all = [None; ACTUATED];
         for (_, _, effect) in self.acting() {
-            if let Some((actuator, commands)) = effect.actuator().filter(|(of, _)| !of.is_direct()) {
+            if let Some((actuator, commands)) =
+                effect.actuator().map(|(of, commands)| (of.effective(), commands)).filter(|(of, _)| !of.is_direct())
+            {
                 commands.iter().for_each(|&k| all[k] = Some(actuator));
             }
         }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use bevel_differential::contact::errors::FaultyGear;
-use bevel_differential::model::{FinalDriveSpec, GearContact, Hand, Inputs, Layout, RingSide, State};
+use bevel_differential::model::{DogSides, FinalDriveSpec, GearContact, Hand, Inputs, Layout, RingSide, State};
 use bevel_differential::variables::{Access, Variable, named, table};
 
 use super::scene::{Scene, output, outputs};
@@ -55,6 +55,14 @@ impl Scene {
             let clutch = &mut to.specs.limited_slip;
             clutch.torque_coefficient *= clutch.coast_ratio;
             clutch.coast_ratio = clutch.coast_ratio.recip();
+        }
+        if view == View::Swapped {
+            let sides = &mut to.specs.disconnect.sides;
+            *sides = match *sides {
+                DogSides::Left => DogSides::Right,
+                DogSides::Right => DogSides::Left,
+                DogSides::Both => DogSides::Both,
+            };
         }
         if matches!(view, View::Reversed | View::Swapped) {
             reflect_final_drive(&mut to.specs.final_drive, view == View::Reversed);
@@ -111,6 +119,11 @@ impl Scene {
             image.q.swap(left, right);
             image.v.swap(left, right);
         }
+        if let Some(actuated) = &mut image.inputs.actuated {
+            actuated.states.swap(0, 1);
+        }
+        image.dogs.closed.swap(0, 1);
+        image.dogs.commanded.swap(0, 1);
         image.friction.swap(0, 1);
         image.friction.swap(WHEELS, WHEELS + 1);
         image.friction.swap(CLUTCHES, CLUTCHES + 1);

@@ -5,7 +5,7 @@ use bevel_differential::contact::{ContactLaw, DampingModel};
 use bevel_differential::friction::FrictionLaw;
 use bevel_differential::geometry::AddendumSystem;
 use bevel_differential::model::{
-    CarrierDrive, GearContact, InputDerivatives, Inputs, Method, Parameters, PlanetSpin, SideDrive, Start,
+    CarrierDrive, DogSides, GearContact, InputDerivatives, Inputs, Method, Parameters, PlanetSpin, SideDrive, Start,
 };
 use bevel_differential::variables::{Access, named};
 
@@ -23,6 +23,8 @@ const MODULE: f64 = 4.5e-3;
 const LATER: u64 = 1 << 40;
 /// Bit of the seed for the separate generator of [`commanded`].
 const COMMANDED: u64 = 1 << 43;
+/// Bit of the seed for the separate generator of [`disconnected`].
+const DISCONNECTED: u64 = 1 << 44;
 /// Bit of the seed for the separate generator of [`rolling`].
 const ROLLING: u64 = 1 << 41;
 /// Bit of the seed for the separate generator of [`warm`].
@@ -43,9 +45,10 @@ pub fn scene(index: u64) -> Option<Scene> {
     let inputs = inputs(d, &p);
     let duration = d.between(3e-3, 8e-3);
     let mut steps = steps(d, &p, inputs, duration);
-    let inputs = Inputs { clutch_command: commands[0], ..inputs };
+    let dogs = disconnected(&mut Rng::with_seed(index ^ DISCONNECTED), &mut p);
+    let inputs = Inputs { clutch_command: commands[0], dog_command: dogs[0], ..inputs };
     for (k, step) in steps.iter_mut().enumerate() {
-        step.inputs.clutch_command = commands[2 * k / STEPS];
+        (step.inputs.clutch_command, step.inputs.dog_command) = (commands[(k / 2).min(1)], dogs[(k / 2).min(2)]);
     }
     Scene::new(p, inputs, steps).ok()
 }
@@ -192,7 +195,7 @@ fn later(d: &mut Rng, p: &mut Parameters) {
 }
 
 /// Sets clutches on command and the thrust of the gears on their packs, drawn with a separate generator. Returns the
-/// commands of both halves of the scene.
+/// first commands and the later ones.
 fn commanded(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 2] {
     p.effects.clutches = d.share(0.25);
     let clutches = &mut p.specs.clutches;
@@ -207,6 +210,33 @@ fn commanded(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 2] {
     p.specs.limited_slip.thrust_arm = if has_thrust && d.share(0.3) { d.between(2e-4, 2e-3) } else { 0.0 };
     let mut command = || [d.f64(), d.f64()].map(|u| if u < 0.3 { 0.0 } else { u });
     [command(), command()]
+}
+
+/// Sets the actuators of clutches and lock, and dog clutches at wheels that turn apart from their side gears, drawn with a
+/// separate generator. Returns three commands of the dog clutches: the first two act for two steps each.
+fn disconnected(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 3] {
+    for actuator in [&mut p.specs.clutches.actuator, &mut p.specs.lock.actuator] {
+        actuator.dead_band = if d.share(0.5) { d.between(0.0, 0.2) } else { 0.0 };
+        actuator.stroke_time = if d.share(0.5) { d.about(5e-3, 3.0) } else { 0.0 };
+        actuator.response_time = if d.share(0.5) { d.about(1e-3, 3.0) } else { 0.0 };
+        actuator.response_damping = d.between(0.3, 2.0);
+    }
+    let dog = &mut p.specs.disconnect;
+    (dog.teeth, dog.lash) = (d.whole(8, 60), d.between(5e-3, 0.05));
+    (dog.most_speed, dog.most_torque) = (d.about(10.0, 3.0), d.about(50.0, 5.0));
+    dog.ratchet_torque = d.between(0.0, 5.0);
+    let drives = [p.scene.left_drive, p.scene.right_drive];
+    let turns = |s: usize, inertia: f64| drives[s] == SideDrive::Speed || p.effects.half_shaft && inertia > 0.0;
+    let sides = match [turns(0, p.inertia.left_end), turns(1, p.inertia.right_end)] {
+        [true, true] => Some(d.pick(&[DogSides::Left, DogSides::Right, DogSides::Both])),
+        [true, false] => Some(DogSides::Left),
+        [false, true] => Some(DogSides::Right),
+        [false, false] => None,
+    };
+    p.effects.disconnect = sides.is_some() && d.share(0.4);
+    p.specs.disconnect.sides = sides.unwrap_or(DogSides::Both);
+    let mut command = || [d.f64(), d.f64()].map(f64::round);
+    [command(), command(), command()]
 }
 
 /// Sets mesh, error, losses and shaft of the final drive.

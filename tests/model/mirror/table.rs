@@ -19,6 +19,8 @@ pub enum Parity {
     Ramp,
     /// Flanks, hand, phases and side of the final drive change.
     Drive,
+    /// Left and right change places in the value.
+    Sides,
 }
 
 /// Line of the table.
@@ -38,6 +40,7 @@ fn parity(text: &str) -> Parity {
         "teeth" => Parity::Teeth,
         "ramp" => Parity::Ramp,
         "drive" => Parity::Drive,
+        "sides" => Parity::Sides,
         other => panic!("{other} is not a parity"),
     }
 }

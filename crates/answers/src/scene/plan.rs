@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use bevel_differential::model::{CostClass, Inputs, Parameters, Plan, Simulation};
+use bevel_differential::model::{CostClass, Inputs, Parameters, Plan, Simulation, effects};
 use bevel_differential::variables::{Causality, Variable, named, unset, value_of};
 use cpu_time::ThreadTime;
 
@@ -74,8 +74,10 @@ pub fn text(scene: &Scene, simulation: &Simulation) -> String {
     if let Some(cost) = cost(scene) {
         line("cost", &cost);
     }
-    let mut active: Vec<String> =
-        simulation.active_effects().map(|name| format!("{name}: {}", description(name))).collect();
+    let mut active: Vec<String> = simulation
+        .active_effects()
+        .map(|name| format!("{name}: {}{}", description(name), commands(scene, name)))
+        .collect();
     if scene.inputs.lock > 0.0 {
         active.push(format!("lock.command: the lock holds at {} of its torque", scene.inputs.lock));
     }
@@ -163,6 +165,14 @@ fn drives(scene: &Scene, plan: &Plan) -> Vec<String> {
     let command = if spin == "imposed" { format!(", {}", value("spin.command")) } else { String::new() };
     drives.push(format!("planet spin {spin}{command}"));
     drives
+}
+
+/// Inputs of the effect with the switch `name` that are not 0 at the start, for the end of a line.
+fn commands(scene: &Scene, name: &str) -> String {
+    let mut inputs = scene.inputs;
+    let rows = effects::inputs_of(name.trim_start_matches("effects."));
+    let acting = rows.iter().map(|row| (row.name, *(row.access)(&mut inputs))).filter(|(_, value)| *value != 0.0);
+    acting.fold(String::new(), |text, (name, value)| format!("{text}; {name} = {}", units::six_digits(value)))
 }
 
 /// Description of the effect of a switch.
