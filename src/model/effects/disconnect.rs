@@ -15,7 +15,7 @@
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{Class, Declare, Effect, Heat, InputField, Instant, Reading, Setting, readings};
-use crate::model::scene::{Dog, DogMotion, DogPhase, Requests};
+use crate::model::scene::{Dog, DogMotion, DogPhase, Dogs, Requests};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 
@@ -64,18 +64,12 @@ impl Declare for DisconnectSpec {
         &[("effects.half_shaft", 1.0), ("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
 
     fn inputs() -> Vec<Row<InputField>> {
-        let command = |name, at: InputField, description| row(name, description).command(ONE, 1.0, at);
+        let left = row("left.dog_command", "Command of the left dog clutch, with effects.disconnect: closed above 0.5");
+        let right =
+            row("right.dog_command", "Command of the right dog clutch, with effects.disconnect: closed above 0.5");
         vec![
-            command(
-                "left.dog_command",
-                |i| &mut i.dog_command[0],
-                "Command of the left dog clutch, with effects.disconnect: closed above 0.5",
-            ),
-            command(
-                "right.dog_command",
-                |i| &mut i.dog_command[1],
-                "Command of the right dog clutch, with effects.disconnect: closed above 0.5",
-            ),
+            left.when(is!(Self.sides, DogSides::Left, DogSides::Both)).command(ONE, 1.0, |i| &mut i.dog_command[0]),
+            right.when(is!(Self.sides, DogSides::Right, DogSides::Both)).command(ONE, 1.0, |i| &mut i.dog_command[1]),
         ]
     }
 }
@@ -85,7 +79,8 @@ fn phase(s: usize, at: &Instant) -> f64 {
     let (motion, Some(dog)) = (at.motion, &at.plan.dogs[s]) else { return f64::from(DogPhase::Closed as u8) };
     let end = motion.layout.end(s);
     let local = DogMotion { twist: motion.q[end], rate: motion.v[s] - motion.v[end], torque: at.shaft_torque[s] };
-    f64::from(dog.phase(motion.dogs.closed[s], motion.dogs.commanded[s], &local) as u8)
+    // a command acts from the next step on, but its phase is known before
+    f64::from(dog.phase(motion.dogs.closed[s], Dogs::commands(motion.inputs)[s], &local) as u8)
 }
 
 impl Effect for DisconnectSpec {

@@ -334,6 +334,16 @@ fn needs_history(requirements: &[Requirement]) -> bool {
     requirements.iter().any(|requirement| requirement.row.name == "effects.coupling_advice")
 }
 
+/// Opens dog clutches for two steps, with so many teeth that some pass each other before the clutches close.
+fn let_teeth_pass(run: &mut Run) {
+    let dog = &mut run.parameters.specs.disconnect;
+    (dog.teeth, dog.lash, dog.most_speed) = (400, 0.004, 1e3);
+    run.inputs.dog_command = [0.0; 2];
+    for (k, step) in run.steps.iter_mut().enumerate() {
+        step.inputs.dog_command = [f64::from(u8::from(k >= 2)); 2];
+    }
+}
+
 /// Cases by attempt, level, fault and requirements. They are cached, because many rows need the same cases.
 #[derive(Default)]
 struct Cases(HashMap<String, Option<Case>>);
@@ -366,6 +376,8 @@ impl Cases {
         if let Some(breaks) = fault {
             let fault = &mut run.parameters.specs.tooth_fault;
             (fault.at_onset, fault.onset, fault.tooth) = (breaks, 1e-6, 0);
+        } else if requirements.iter().any(|of| of.row.name == "effects.disconnect") && attempt % 2 == 1 {
+            let_teeth_pass(&mut run);
         } else if !needs_history(requirements) {
             run.steps.truncate(6);
         }

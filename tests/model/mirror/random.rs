@@ -1,5 +1,7 @@
 //! Random scenes of all kinds: gears, laws, drives, starts, inputs with derivatives, and all effects.
 
+use std::f64::consts::TAU;
+
 use bevel_differential::contact::errors::FaultyGear;
 use bevel_differential::contact::{ContactLaw, DampingModel};
 use bevel_differential::friction::FrictionLaw;
@@ -222,8 +224,10 @@ fn disconnected(d: &mut Rng, p: &mut Parameters) -> [[f64; 2]; 3] {
         actuator.response_damping = d.between(0.3, 2.0);
     }
     let dog = &mut p.specs.disconnect;
-    (dog.teeth, dog.lash) = (d.whole(8, 60), d.between(5e-3, 0.05));
-    (dog.most_speed, dog.most_torque) = (d.about(10.0, 3.0), d.about(50.0, 5.0));
+    // teeth so fine that some pass within milliseconds
+    dog.teeth = d.whole(60, 300);
+    dog.lash = d.between(0.1, 0.4) * TAU / f64::from(dog.teeth);
+    (dog.most_speed, dog.most_torque) = (d.about(30.0, 10.0), d.about(50.0, 5.0));
     dog.ratchet_torque = d.between(0.0, 5.0);
     let drives = [p.scene.left_drive, p.scene.right_drive];
     let turns = |s: usize, inertia: f64| drives[s] == SideDrive::Speed || p.effects.half_shaft && inertia > 0.0;
@@ -304,7 +308,8 @@ pub fn warm(d: &mut Rng, p: &mut Parameters) {
         *above = d.between(-20.0, 20.0);
     }
     warm_up.cycle = d.between(2e-3, 1e-2);
-    if p.effects.warm_up && d.share(0.2) {
+    // cycles of fixed steps would take a minute
+    if p.effects.warm_up && d.share(0.2) && p.solver.method != Method::FixedStep {
         p.scene.start = Start::SteadyHeat;
     }
     let drag = &mut s.bearing_drag;

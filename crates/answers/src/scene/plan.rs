@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use bevel_differential::model::{CostClass, Inputs, Parameters, Plan, Simulation, effects};
-use bevel_differential::variables::{Causality, Variable, named, unset, value_of};
+use bevel_differential::variables::effective::{Situation, acts};
+use bevel_differential::variables::{Causality, Variable, index_of, named, unset, value_of};
 use cpu_time::ThreadTime;
 
 use super::run::SceneRun;
@@ -167,11 +168,13 @@ fn drives(scene: &Scene, plan: &Plan) -> Vec<String> {
     drives
 }
 
-/// Inputs of the effect with the switch `name` that are not 0 at the start, for the end of a line.
+/// Inputs of the effect with the switch `name` that act and are not 0 at the start, for the end of a line.
 fn commands(scene: &Scene, name: &str) -> String {
     let mut inputs = scene.inputs;
     let rows = effects::inputs_of(name.trim_start_matches("effects."));
-    let acting = rows.iter().map(|row| (row.name, *(row.access)(&mut inputs))).filter(|(_, value)| *value != 0.0);
+    let acts = |name: &str| index_of(name).is_some_and(|index| acts(index, &scene.parameters, Situation::START));
+    let acting = rows.iter().map(|row| (row.name, *(row.access)(&mut inputs)));
+    let acting = acting.filter(|&(name, value)| value != 0.0 && acts(name));
     acting.fold(String::new(), |text, (name, value)| format!("{text}; {name} = {}", units::six_digits(value)))
 }
 
