@@ -125,8 +125,9 @@ def disconnected(random, made):
                   "disconnect.most_speed": random.uniform(2.0, 20.0), "disconnect.ratchet_torque": random.uniform(0.0, 10.0)}
         opens = np.sort(random.uniform(0.0, stop, 2))
         if DRIVE in made["inputs"]:
-            driven = [point for point in made["inputs"][DRIVE] if point[0] < opens[0]]
-            inputs[DRIVE] = [*driven, [opens[0], driven[-1][1]], [opens[0], 0.0]]
+            points = made["inputs"][DRIVE]
+            last = [opens[0], float(np.interp(opens[0], *zip(*points)))]
+            inputs[DRIVE] = [*(point for point in points if point[0] < opens[0]), last, [opens[0], 0.0]]
         for name in SIDES if side == "both" else [side]:
             inputs[f"{name}.dog_command"] = [[0.0, 1.0], [opens[0], 1.0], [opens[0], 0.0], [opens[1], 0.0], [opens[1], 1.0]]
     return made | {"start": start | added, "inputs": made["inputs"] | inputs}

@@ -82,6 +82,15 @@ def test_a_closed_clutch_is_a_shaft_with_lash_and_opens_at_low_torque(fmu):
     assert found["heat.disconnect"][-1] == pytest.approx(MOST_TORQUE**2 / (2.0 * STIFFNESS), rel=0.03)
 
 
+def test_radau_takes_a_light_gear_along_as_the_default_method_does(fmu):
+    """At rest, the wheel creeps through the lash. Its teeth touch those of a gear without load, whose acceleration jumps."""
+    values = RIG | {"right.dog_command": 1.0, "half_shaft.right_damping": 100.0, "left.speed_command": 0.0, "right.speed_command": 0.0,
+                    "inertia.carrier": 0.1}
+    wheel = {"right.speed_command": ([0.0, 0.01, 0.3], [0.0, 0.3, 0.3])}
+    twists = [record(fmu, values | {"solver.method": method}, 0.3, wheel)["right.twist"] for method in ("adaptive", "radau")]
+    assert np.ptp(twists[0]) > 0.5 * LASH and np.abs(twists[0] - twists[1]).max() < 1e-6
+
+
 def test_tooth_on_tooth_at_equal_speeds_waits_for_ever(fmu):
     """The wheel turns by half a pitch, and then as fast as its side gear."""
     back = PITCH / 0.1

@@ -37,16 +37,16 @@ SCENES = {
                                                    "propeller_shaft.joint_angle": 0.1, "scene.start": "rolling"},
     "clutches": BIAS | WARM | {"effects.clutches": True, "left.clutch_command": 0.2, "right.clutch_command": 0.1, "clutches.left_ratio": 1.1,
                                "clutches.stribeck_speed": 0.5, "clutches.static_ratio": 1.3, "effects.half_shaft": True},
-    "actuators": BIAS | {"effects.clutches": True, "clutches.response_time": 0.02, "clutches.stroke_time": 0.3, "clutches.dead_band": 0.05,
-                         "left.clutch_command": 0.2, "clutches.left_ratio": 1.1, "effects.half_shaft": True, "inertia.right_end": 0.5,
-                         "effects.disconnect": True, "disconnect.ratchet_torque": 3.0, "right.dog_command": 0.0},
+    "actuators": DRIVEN | {"scene.gear_contact": "ideal", "scene.start": "rolling", "effects.clutches": True, "clutches.response_time": 0.02, "clutches.stroke_time": 0.3, "clutches.dead_band": 0.05,
+                         "left.clutch_command": 0.2, "clutches.left_ratio": 1.1, "effects.half_shaft": True, "effects.disconnect": True,
+                         "disconnect.ratchet_torque": 3.0, "disconnect.most_speed": 1e-3, "right.dog_command": 0.0},
     "half-shafts that warm up": DRIVEN | WARM | RUBBING | {"effects.half_shaft": True, "scene.start": "rolling"},
 }
 # inputs that change within the steps, per second
 SLOPES = {"ideal": {"carrier.torque_command": 2e3, "left.brake_torque": 300.0, "warm_up.ambient_change": 5.0},
           "sump": {"warm_up.sump_change": 3.0, "right.load_torque": -1e3}, "lumped": {"left.load_torque": 1e3},
           "clutches": {"left.clutch_command": 2.0, "right.clutch_command": 1.0, "left.speed_command": 20.0},
-          "actuators": {"left.clutch_command": 2.0, "right.clutch_command": 6.0},
+          "actuators": {"left.clutch_command": 2.0, "right.clutch_command": 6.0, "right.dog_command": 200.0},
           "final drive": {"pinion.torque_command": 500.0}, "propeller shaft": {"pinion.speed_command": 50.0},
           "line": {"spin.command": 2.0, "carrier.speed_command": 10.0}}
 # outputs that jump by the documentation: with completed steps, at events, and from tooth pair to tooth pair

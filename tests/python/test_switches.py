@@ -60,7 +60,8 @@ def test_an_effect_that_is_on_balances_its_energy(run, plain, effect):
     assert changed or effect.name == "coupling_advice"
     for output in names:
         assert np.isfinite(record[output]).all()
-    if effect.heat:
+    # a dog clutch makes heat when it ratchets or opens, after a command
+    if effect.heat and effect.name != "disconnect":
         assert record[effect.heat][-1] > 0.0
 
 

@@ -29,11 +29,14 @@ impl Actuated {
         any.then(|| Self { states: std::array::from_fn(state), since: None })
     }
 
-    /// True if the output of any actuator changes under these inputs.
-    pub fn moves(&self, actuators: &Actuators, inputs: &Inputs, derivatives: Option<&InputDerivatives>) -> bool {
-        let commands = courses(inputs, derivatives);
-        let settled = |k: usize| actuators[k].is_none_or(|of| of.is_settled(&self.states[k], &commands[k]));
-        !(0..ACTUATED).all(settled)
+    /// True if the output of any actuator changes under these commands.
+    pub fn moves(&self, actuators: &Actuators, commands: &[Parabola; ACTUATED]) -> bool {
+        (0..ACTUATED).any(|k| self.moves_one(k, actuators, commands))
+    }
+
+    /// True if the output of actuator `k` changes under these commands.
+    pub fn moves_one(&self, k: usize, actuators: &Actuators, commands: &[Parabola; ACTUATED]) -> bool {
+        actuators[k].is_some_and(|of| !of.is_settled(&self.states[k], &commands[k]))
     }
 
     /// States `time` [s] later.
@@ -69,12 +72,6 @@ impl Actuated {
             }
         }
     }
-}
-
-/// Course of a command from `time` [s] later on.
-pub fn later(command: &Parabola, time: f64) -> Parabola {
-    let [value, first, second] = *command;
-    [value + time * (first + 0.5 * time * second), first + time * second, second]
 }
 
 /// Courses of the commands that may pass actuators.

@@ -1,10 +1,11 @@
 //! Inputs and dry friction, which act on gears with and without teeth.
 
-use super::actuated::{courses, later};
+use super::actuated::courses;
 use super::ledger_rates::LedgerRates;
 use super::{Actuated, PinionLoss, State};
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
+use crate::model::effect_kinds::actuator::moved;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
 use crate::model::effect_kinds::{
     BodyMotion, Friction, FrictionState, Mode, Parabola, RubbingSurface, Slip, SurfaceLoad,
@@ -91,7 +92,7 @@ impl InputsAndFriction {
         let actuators = &body_effects.actuators;
         let present = actuated.at(actuators, [&state.inputs.values, &self.inputs], state.time());
         let commands = courses(&self.inputs, state.inputs.derivatives.as_ref());
-        if present.moves(actuators, &self.inputs, state.inputs.derivatives.as_ref()) {
+        if present.moves(actuators, &commands) {
             self.actuated = Some((present, commands));
             self.driven = true;
         }
@@ -112,7 +113,7 @@ impl InputsAndFriction {
     pub fn inputs_after(&self, body_effects: Option<&BodyEffects>, time: f64) -> (Inputs, InputDerivatives) {
         let (mut inputs, mut derivatives) = self.input_derivatives.after(time, &self.inputs);
         if let (Some((actuated, commands)), Some(BodyEffects { actuators, .. })) = (&self.actuated, body_effects) {
-            let later = commands.each_ref().map(|command| later(command, time));
+            let later = commands.each_ref().map(|command| moved(command, time));
             actuated.after(actuators, commands, time).act(actuators, &later, &mut inputs, &mut derivatives);
         }
         (inputs, derivatives)

@@ -241,7 +241,7 @@ fn free(damping: f64, [x, slope]: [f64; 2], s: f64) -> [f64; 2] {
 }
 
 /// Parabola `time` [s] later.
-fn moved(of: &Parabola, time: f64) -> Parabola {
+pub fn moved(of: &Parabola, time: f64) -> Parabola {
     [of[0] + time * (of[1] + 0.5 * time * of[2]), of[1] + time * of[2], of[2]]
 }
 

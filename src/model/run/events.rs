@@ -3,13 +3,14 @@
 
 use crate::integrate::SecondOrder;
 use crate::model::assembly::Model;
+use crate::model::dynamics::acting_inputs::ActingInputs;
 use crate::model::dynamics::actuated::courses;
 use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, InputsAndFriction, State};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{ACTUATED, ACTUATED_LOCK, Dogs, InputDerivatives, Inputs, PAIRS, RubbingKind};
+use crate::model::scene::{ACTUATED_LOCK, Dogs, InputDerivatives, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
@@ -28,12 +29,10 @@ pub fn next_change(model: &Model, state: &State) -> Option<f64> {
 /// Time at which a lock whose actuator moves takes its next step [s]. The stiffness of a closed lock follows its command,
 /// so the lock is constant in between, within about one hundredth of the full command.
 fn next_step_of_lock(model: &Model, state: &State) -> Option<f64> {
-    let actuated = state.inputs.actuated.as_ref()?;
-    let actuator = model.body_effects().actuators[ACTUATED_LOCK].as_ref()?;
-    let mut only_lock = [None; ACTUATED];
-    only_lock[ACTUATED_LOCK] = Some(*actuator);
-    let moves = actuated.moves(&only_lock, &state.inputs.values, state.inputs.derivatives.as_ref());
-    (moves && !actuator.is_immediate()).then(|| state.time() + actuator.hundredth())
+    let (ActingInputs { values, derivatives, actuated }, all) = (&state.inputs, &model.body_effects().actuators);
+    let actuator = all[ACTUATED_LOCK].as_ref().filter(|of| !of.is_immediate())?;
+    let moves = actuated.as_ref()?.moves_one(ACTUATED_LOCK, all, &courses(values, derivatives.as_ref()));
+    moves.then(|| state.time() + actuator.hundredth())
 }
 
 /// Applies the command of the lock behind its actuator, if it has changed.
@@ -52,10 +51,10 @@ pub fn has_lock_moved(model: &Model, inputs: &Inputs, state: &State) -> bool {
 /// Inputs that act at `state`, behind the actuators.
 pub fn acting_inputs(model: &Model, inputs: &Inputs, state: &State) -> Inputs {
     let Some(actuated) = &state.inputs.actuated else { return *inputs };
-    let (actuators, mut acting) = (&model.body_effects().actuators, *inputs);
+    let (actuators, mut acting, mut derivatives) = (&model.body_effects().actuators, *inputs, InputDerivatives::ZERO);
     let commands = courses(inputs, state.inputs.derivatives.as_ref());
     let present = actuated.at(actuators, [&state.inputs.values, inputs], state.time());
-    present.act(actuators, &commands, &mut acting, &mut InputDerivatives::ZERO.clone());
+    present.act(actuators, &commands, &mut acting, &mut derivatives);
     acting
 }
 

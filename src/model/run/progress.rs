@@ -244,7 +244,7 @@ pub fn wrap_and_constrain(model: &Model, state: &mut State) {
 /// True if inputs have derivatives, or if actuators move behind them.
 pub fn inputs_move(model: &Model, state: &State) -> bool {
     let ActingInputs { values, derivatives, actuated } = &state.inputs;
-    let moves = |of: &Actuated| of.moves(&model.body_effects().actuators, values, derivatives.as_ref());
+    let moves = |of: &Actuated| of.moves(&model.body_effects().actuators, &courses(values, derivatives.as_ref()));
     derivatives.is_some() || actuated.as_ref().is_some_and(moves)
 }
 
