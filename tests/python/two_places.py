@@ -83,6 +83,17 @@ def geometry(scene, o):
     yield "lash of a wheel", o["geometry.wheel_lash"], 2.0 * lash / scene.lever[1], 1.0
 
 
+def dog_torque(p, o, side, shaft):
+    """Torque through a dog clutch, and the size of its parts. An open clutch has at most the torque of its ratcheting teeth."""
+    torque, (stiffness, damped) = o[f"{side}.shaft_torque"], shaft
+    if o[f"{side}.dog_phase"] < 3.0:
+        return min(max(torque, -p["disconnect.ratchet_torque"]), p["disconnect.ratchet_torque"]), 1.0
+    twist = o[f"{side}.twist"]
+    sign = np.sign(twist)
+    spring = stiffness * (abs(twist) - 0.5 * p["disconnect.lash"])
+    return (sign * max(spring + sign * damped, 0.0) if spring > 0.0 else 0.0), abs(spring) + abs(damped)
+
+
 def motion(scene, o):
     carrier, p = o["carrier.speed"], scene.p
     fastest = max(abs(o[f"{side}.speed"]) for side in SIDES) + abs(carrier)
@@ -96,9 +107,13 @@ def motion(scene, o):
         if scene.has_ends[s]:
             end = o[f"{side}.end_speed"]
             yield f"{side} rate of twist", o[f"der({side}.shaft_twist)"], speed - end, fastest
+            stiffness, damping = (p[f"half_shaft.{side}_{name}"] for name in ("stiffness", "damping"))
+            if p["effects.disconnect"] and p["disconnect.sides"] in (1 + s, 3):
+                torque, slack = dog_torque(p, o, side, (stiffness, damping * (speed - end)))
+                yield f"{side} torque through the dog clutch", o[f"{side}.shaft_torque"], torque, slack
+                continue
             if p["effects.half_shaft"]:
                 yield f"{side} twist", o[f"{side}.twist"], o[f"{side}.shaft_twist"], 1.0
-            stiffness, damping = (p[f"half_shaft.{side}_{name}"] for name in ("stiffness", "damping"))
             parts = stiffness * o[f"{side}.shaft_twist"], damping * (speed - end)
             yield f"{side} torque by twist", o[f"{side}.shaft_torque"], sum(parts), sum(map(abs, parts))
     if scene.contact == IDEAL:

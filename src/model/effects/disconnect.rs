@@ -15,7 +15,7 @@
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{Class, Declare, Effect, Heat, InputField, Instant, Reading, Setting, readings};
-use crate::model::scene::{Dog, DogMotion, DogPhase, Dogs, Requests};
+use crate::model::scene::{Dog, DogMotion, DogPhase, Requests};
 use crate::numeric::TAU;
 use crate::problem::Problem;
 
@@ -79,8 +79,7 @@ fn phase(s: usize, at: &Instant) -> f64 {
     let (motion, Some(dog)) = (at.motion, &at.plan.dogs[s]) else { return f64::from(DogPhase::Closed as u8) };
     let end = motion.layout.end(s);
     let local = DogMotion { twist: motion.q[end], rate: motion.v[s] - motion.v[end], torque: at.shaft_torque[s] };
-    // a command acts from the next step on, but its phase is known before
-    f64::from(dog.phase(motion.dogs.closed[s], Dogs::commands(motion.inputs)[s], &local) as u8)
+    f64::from(dog.phase(motion.dogs.closed[s], motion.dogs.commanded[s], &local) as u8)
 }
 
 impl Effect for DisconnectSpec {
