@@ -86,7 +86,7 @@ def drive(seed, index, levels):
     # drawn separately, so that all other values are unchanged
     clutches, commands = commanded(np.random.default_rng([seed, index, 1]), driven, made["stop"])
     made |= {"start": made["start"] | clutches, "inputs": made["inputs"] | commands}
-    made = readable(at_port(disconnected(np.random.default_rng([seed, index, 2]), made)))
+    made = readable(at_port(disconnected(np.random.default_rng([seed, index, 2]), driven, made)))
     return image(made) if mirrored else made
 
 
@@ -107,7 +107,7 @@ def commanded(random, vehicle, stop):
     return values, commands
 
 
-def disconnected(random, made):
+def disconnected(random, vehicle, made):
     """Drive with actuators at the clutches on command, dog clutches and gears that press their packs; none of these in most drives. An
     axle coasts from the time at which it is disconnected, because the side gear of an open clutch takes no torque; the clutch closes
     again if the speeds permit it."""
@@ -122,7 +122,8 @@ def disconnected(random, made):
     if start.get("effects.half_shaft") and len(wheels) == 2 and random.random() < DISCONNECTS:
         side = str(random.choice(["left", "right", "both"]))
         added |= {"effects.disconnect": True, "disconnect.sides": side, "disconnect.lash": random.uniform(5e-3, 0.05),
-                  "disconnect.most_speed": random.uniform(2.0, 20.0), "disconnect.ratchet_torque": random.uniform(0.0, 10.0)}
+                  "disconnect.most_speed": random.uniform(2.0, 20.0), "disconnect.ratchet_torque": vehicle.peak * random.uniform(0.0, 0.005),
+                  "disconnect.most_torque": vehicle.peak * random.uniform(0.002, 0.02)}
         opens = np.sort(random.uniform(0.0, stop, 2))
         if DRIVE in made["inputs"]:
             points = made["inputs"][DRIVE]

@@ -4,6 +4,9 @@
 use crate::contact::WORTHWHILE;
 use crate::numeric::Scalar;
 
+/// Displacement within a step, relative to half of the lash, up to which flanks creep.
+const CREEPING: f64 = 1e-4;
+
 /// Spring and damper with lash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LashSpring {
@@ -47,8 +50,12 @@ impl LashSpring {
         torque / self.stiffness + if torque == 0.0 { 0.0 } else { self.half_lash.copysign(torque) }
     }
 
-    /// Fraction of a step of `h` [s] after which flanks touch or separate, if the displacement keeps its rate.
+    /// Fraction of a step of `h` [s] after which flanks touch or separate, if the displacement keeps its rate. Flanks that
+    /// only creep at the edge of the lash need no step of their own.
     pub fn kink(&self, x: f64, rate: f64, h: f64) -> Option<f64> {
+        if (rate * h).abs() <= CREEPING * self.half_lash {
+            return None;
+        }
         let fraction = |edge: f64| (edge - x) / (rate * h);
         [self.half_lash, -self.half_lash]
             .map(fraction)
