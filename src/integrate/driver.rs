@@ -68,6 +68,8 @@ const LEDGER: f64 = 4.0;
 /// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a discontinuity is evaluated
 /// with two more points.
 const UNREFINED: f64 = 0.05;
+/// Shortest step that ends at a kink, in resolutions of time. Rounding may leave a point before its kink again and again.
+const KINK: f64 = 1e3;
 /// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
 /// attempt is accepted, because the remaining imbalance does not depend on the step size.
 const UNBALANCED: u32 = 8;
@@ -269,7 +271,8 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         if h > self.switch_at {
             return Size { h: self.switch_at, cut: true, to_kink: false };
         }
-        match self.system.kink(point, h).filter(|fraction| moves(point, h * fraction)) {
+        let is_worthwhile = |fraction: &f64| h * fraction > KINK * *resolution && moves(point, h * fraction);
+        match self.system.kink(point, h).filter(is_worthwhile) {
             Some(fraction) => Size { h: h * fraction, cut: true, to_kink: true },
             None => Size { h, cut, to_kink: false },
         }

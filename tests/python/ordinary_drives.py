@@ -118,6 +118,8 @@ def disconnected(random, vehicle, made):
                   "clutches.response_time": random.uniform(0.0, 0.05), "clutches.response_damping": random.uniform(0.4, 1.5)}
     if start.get("effects.limited_slip") and start["scene.gear_contact"] in ("lumped", "tooth") and random.random() < PRESSED:
         added |= {"limited_slip.thrust_arm": random.uniform(1e-3, 0.02)}
+        # the plates take the place of the washers
+        start = {name: value for name, value in start.items() if name != "thrust_friction.side_washer_radius"}
     wheels = [side for side in SIDES if start.get(f"inertia.{side}_end", 0.0) > 0.0]
     if start.get("effects.half_shaft") and len(wheels) == 2 and random.random() < DISCONNECTS:
         side = str(random.choice(["left", "right", "both"]))

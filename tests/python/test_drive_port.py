@@ -17,7 +17,7 @@ LUMPED = {"scene.gear_contact": "lumped"}
 SAME = 1e-6
 CYCLE = [HEAD, "start,2,4,20,,1500", "corner,1,4,20,20,300"]
 # scenes of the bench that command the carrier, and the time by which their tables begin [s]
-SCENES = {"bias": 0.1, "ramps": 0.1, "clutch_curve": 0.1, "judder": 0.5, "hot_lap": 18.0, "winter_start": 5.0}
+SCENES = {"bias": 0.1, "ramps": 0.1, "clutch_curve": 0.1, "judder": 0.5, "hot_lap": 18.0, "winter_start": 5.0, "clutch_command": 0.1}
 
 
 @pytest.fixture

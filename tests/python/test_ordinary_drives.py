@@ -87,7 +87,7 @@ def test_a_mirrored_drive_has_the_other_sign_and_the_same_brakes():
     for drive in drawn(24):
         image = ordinary_drives.image(drive)
         for name, points in drive["inputs"].items():
-            sign = 1.0 if any(of in name for of in ("brake", "lock", "clutch")) else -1.0
+            sign = 1.0 if any(of in name for of in ("brake", "lock", "clutch", "dog")) else -1.0
             assert image["inputs"][name] == [[time, sign * value] for time, value in points], name
         assert ordinary_drives.image(image) == drive
 

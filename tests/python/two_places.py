@@ -157,6 +157,9 @@ def forces(scene, o):
         yield "pairs of no teeth", len(pairs), 0, 0.0
     if scene.contact not in (IDEAL, LUMPED):
         return
+    if p["effects.pin_compliance"] and p["effects.disconnect"]:
+        # pins swing back when a dog clutch opens, and both flanks of a mesh may touch
+        return
     signs = {side: [1.0 if o[f"planet[{i}].{side}_transmission_error"] > 0.0 else -1.0 for i in scene.planets] for side in SIDES}
     if scene.contact == IDEAL:
         signs = {side: [1.0 if o[f"{side}.tangential_force"] > 0.0 else -1.0 for _ in scene.planets] for side in SIDES}
@@ -294,7 +297,9 @@ def compared(scene, o):
 def unbalanced(momentum, scene, o):
     """Side gears whose acceleration does not fit the torques of meshes, half-shaft, clutch on command and drag, unless other parts
     cause friction."""
-    if scene.contact == IDEAL or scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or scene.p["lock.command"] > 0.0:
+    # an actuator may still release the lock
+    locks = any(scene.p[f"lock.{name}"] > 0.0 for name in ("command", "stroke_time", "response_time"))
+    if scene.contact == IDEAL or scene.p["effects.thrust_friction"] or scene.p["effects.limited_slip"] or locks:
         return []
     drag = momentum.dragged(np.array([o["carrier.speed"], *(o[f"{side}.speed"] for side in SIDES)]))[1:]
     found = []

@@ -14,6 +14,7 @@
 
 pub mod acting_inputs;
 pub mod actuated;
+pub mod applied;
 mod closed_form;
 pub mod dogs;
 mod driven;
@@ -46,9 +47,10 @@ pub mod state;
 pub mod timeline;
 
 pub use actuated::{Actuated, Actuators};
+pub use applied::InputsAndFriction;
 pub use equations::{Equations, Largest};
 pub use ideal::{IdealEquations, IdealTorques};
-pub use inputs_and_friction::{FrictionEquations, InputsAndFriction, Jacobian};
+pub use inputs_and_friction::{FrictionEquations, Jacobian};
 pub use pinion_loss::PinionLoss;
 pub use shape::MAX_SIZE;
 pub use state::State;

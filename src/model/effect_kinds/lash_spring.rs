@@ -4,7 +4,9 @@
 use crate::contact::WORTHWHILE;
 use crate::numeric::Scalar;
 
-/// Displacement within a step, relative to half of the lash, up to which flanks creep.
+/// Rate below which flanks may creep [rad/s], and displacement within a step, relative to half of the lash, up to which they
+/// creep.
+const SLOW: f64 = 1e-3;
 const CREEPING: f64 = 1e-4;
 
 /// Spring and damper with lash.
@@ -53,7 +55,7 @@ impl LashSpring {
     /// Fraction of a step of `h` [s] after which flanks touch or separate, if the displacement keeps its rate. Flanks that
     /// only creep at the edge of the lash need no step of their own.
     pub fn kink(&self, x: f64, rate: f64, h: f64) -> Option<f64> {
-        if (rate * h).abs() <= CREEPING * self.half_lash {
+        if rate.abs() < SLOW && (rate * h).abs() <= CREEPING * self.half_lash {
             return None;
         }
         let fraction = |edge: f64| (edge - x) / (rate * h);

@@ -8,10 +8,10 @@ use crate::numeric::{Scalar, finite};
 
 /// Speed within which the torque of ratcheting teeth turns round [rad/s].
 const RATCHETING: f64 = 0.1;
-/// Share of the lash within which the engagement is located.
-const WITHIN: f64 = 0.02;
+/// Share of the lash, and of the limit of the speed, within which the engagement is located.
+const WITHIN: f64 = 1e-5;
 /// Share of the limit torque within which the disengagement is located.
-const NEAR_LIMIT: f64 = 0.01;
+const NEAR_LIMIT: f64 = 1e-5;
 
 /// Dog clutch.
 #[derive(Clone, Copy, Debug, PartialEq)]
