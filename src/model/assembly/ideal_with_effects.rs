@@ -9,7 +9,7 @@ use super::{BodyEffects, Ideal};
 use crate::integrate::{Matrix, size_for};
 use crate::model::effect_kinds::{BodyMotion, Slopes};
 use crate::model::scene::layout::LEFT;
-use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Inputs, Layout, PLANET, Plan};
+use crate::model::scene::{ATTACHED_COUNT, CARRIER, Dogs, ENDS, Inputs, Layout, PLANET, Plan};
 use crate::numeric::lanes;
 
 /// Size of vectors and matrices for side gears, carrier, planets in one group, and attached bodies.
@@ -131,7 +131,7 @@ impl IdealWithEffects {
             layout: &self.layout,
             inputs: &Inputs::ZERO,
             input_rates: &Inputs::ZERO,
-            dogs: &crate::model::scene::Dogs::default(),
+            dogs: &Dogs::default(),
             oil_viscosity: None,
         };
         self.body_effects.forces.iter().for_each(|effect| effect.slopes(&motion, &mut slopes));
