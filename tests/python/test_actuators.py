@@ -47,10 +47,10 @@ def expected(side, points, dead_band, stroke, damping):
 
 
 def inputs():
-    times = [time for time, *_ in COMMANDS]
-    held = [np.repeat(times, 2)[1:], None]
-    return {f"{name}.clutch_command": ([*held[0], STOP], list(np.repeat([pair[1 + s] for pair in COMMANDS], 2)))
-            for s, name in enumerate(("left", "right"))}
+    """Tables of both commands, which hold and jump."""
+    times = [*np.repeat([time for time, *_ in COMMANDS], 2)[1:], STOP]
+    return {f"{side}.clutch_command": (times, list(np.repeat([pair[1 + s] for pair in COMMANDS], 2)))
+            for s, side in enumerate(("left", "right"))}
 
 
 @pytest.mark.parametrize("method", [{}, {"solver.method": "fixed_step", "solver.fixed_step": TAU / 200}])

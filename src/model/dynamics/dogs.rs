@@ -29,21 +29,21 @@ pub trait DogEquations<const N: usize>: FrictionEquations<N> {
         })
     }
 
-    /// Fraction of a step after which a dog clutch switches, or `None` if none does.
-    fn dog_crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
+    /// Fraction of a step after which friction or a dog clutch switches, or `None` if neither does.
+    fn switch_crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
         let Dogs { closed, commanded } = &self.applied().dogs;
         let of = |s: usize| {
             let dog = self.dog(s)?;
             let motions = [start, end].map(|at| self.dog_motion(s, at.point));
             dog.crossing(closed[s], commanded[s], motions.each_ref())
         };
-        (0..2).filter_map(of).reduce(f64::min)
+        self.friction_crossing(start, end).into_iter().chain((0..2).filter_map(of)).reduce(f64::min)
     }
 
-    /// True if a dog clutch is due to switch at `at`.
+    /// True if friction or a dog clutch is due to switch at `at`, `time` [s] after the inputs were set.
     #[inline]
-    fn is_dog_due(&self, at: &Point<N>) -> bool {
-        (0..2).any(|s| self.dog(s).is_some()) && self.dog_margins(at).iter().flatten().any(|&margin| margin <= 0.0)
+    fn is_switch_due(&self, at: &Point<N>, time: f64) -> bool {
+        self.is_friction_due(at, time) || self.dog_margins(at).iter().flatten().any(|&margin| margin <= 0.0)
     }
 
     /// Switches the dog clutches that are due at `at`. The energy of a released twist becomes heat.

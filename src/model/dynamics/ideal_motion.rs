@@ -137,6 +137,6 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     }
 
     fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
-        self.friction_crossing(start, end).into_iter().chain(self.dog_crossing(start, end)).reduce(f64::min)
+        self.switch_crossing(start, end)
     }
 }

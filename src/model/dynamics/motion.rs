@@ -221,7 +221,6 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
 
     #[inline]
     fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
-        let crossings = || self.friction_crossing(start, end).into_iter().chain(self.dog_crossing(start, end));
-        if S::MAY_ACT { crossings().reduce(f64::min) } else { None }
+        if S::MAY_ACT { self.switch_crossing(start, end) } else { None }
     }
 }

@@ -128,7 +128,7 @@ impl Simulation {
                 let mut anchors = equations.applied().anchors();
                 equations.drag_anchors(&end, &last, &mut anchors);
                 equations.applied_mut().set_anchors(&anchors);
-                is_due = equations.is_friction_due(&end, 0.0) || equations.is_dog_due(&end);
+                is_due = equations.is_switch_due(&end, 0.0);
                 state.friction = equations.applied().friction_state;
                 outcome
             });

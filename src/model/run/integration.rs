@@ -181,7 +181,7 @@ fn integrate_equations<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Siz
             }
             equations.record(model, &step, &mut sums);
             equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
-            switched = equations.is_friction_due(step.end, step.time) || equations.is_dog_due(step.end);
+            switched = equations.is_switch_due(step.end, step.time);
             let is_warmer = depends_on_temperature && sums.thermal.is_update_due();
             Ok(if switched || is_warmer || step.time >= set_back_at { AfterStep::Stop } else { AfterStep::Continue })
         };

@@ -8,10 +8,8 @@ use crate::numeric::{Scalar, finite};
 
 /// Speed within which the torque of ratcheting teeth turns round [rad/s].
 const RATCHETING: f64 = 0.1;
-/// Share of the lash, and of the limit of the speed, within which the engagement is located.
+/// Fraction of the lash, and of the limits of speed and torque, within which a switch is located.
 const WITHIN: f64 = 1e-5;
-/// Share of the limit torque within which the disengagement is located.
-const NEAR_LIMIT: f64 = 1e-5;
 
 /// Dog clutch.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -172,10 +170,10 @@ impl Dog {
     /// Fraction of a step at which the torque has fallen to its limit, given the torques at both ends.
     fn disengagement(&self, [start, end]: [f64; 2]) -> Option<f64> {
         let (limit, falls) = (self.most_torque, end * start.signum());
-        let within = (1.0 - NEAR_LIMIT) * limit..=limit;
+        let within = (1.0 - WITHIN) * limit..=limit;
         if start.abs() <= limit || falls > limit || within.contains(&falls) {
             return None;
         }
-        Some((start.abs() - (1.0 - 0.5 * NEAR_LIMIT) * limit) / (start.abs() - falls))
+        Some((start.abs() - (1.0 - 0.5 * WITHIN) * limit) / (start.abs() - falls))
     }
 }
