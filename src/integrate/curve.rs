@@ -2,7 +2,7 @@
 
 use super::system::Point;
 use super::trajectory::{Extension, extended};
-use crate::numeric::quotient;
+use crate::numeric::quadratic_roots;
 
 /// Nodes and weights of the Gauss–Legendre quadrature with three points on [0, 1]. It is exact up to degree 5.
 const GAUSS: [(f64, f64); 3] =
@@ -104,16 +104,6 @@ impl Curve {
     }
 }
 
-/// Real roots of a quadratic whose coefficients `c` start with the constant. A missing root is replaced by 0.
-fn quadratic_roots(c: [f64; 3]) -> [f64; 2] {
-    let discriminant = c[1] * c[1] - 4.0 * c[2] * c[0];
-    if discriminant.is_nan() || discriminant <= 0.0 {
-        return [0.0; 2];
-    }
-    let q = -0.5 * (c[1] + libm::sqrt(discriminant).copysign(c[1]));
-    [quotient(q, c[2]), quotient(c[0], q)].map(Option::unwrap_or_default)
-}
-
 /// Root of `of` in a span at whose ends `of` has different signs, by bisection to the last bit.
 fn root(of: impl Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
     let begin = of(low);
@@ -160,19 +150,5 @@ mod tests {
     fn a_parabola_has_the_values_that_define_it() {
         let [start, middle, end] = [0.0, 0.5, 1.0].map(|at| Curve::parabola([3.0, -1.0, 4.0]).at(at));
         assert_eq!([start, middle, end], [3.0, -1.0, 4.0]);
-    }
-
-    #[test]
-    fn roots_of_quadratics_are_found() {
-        for [a, b] in [[1.0, 3.0], [-2.0, 0.5], [1e-3, 1e3], [-4.0, -0.25]] {
-            let mut found = quadratic_roots([a * b, -(a + b), 1.0]);
-            found.sort_by(f64::total_cmp);
-            let expected = [f64::min(a, b), f64::max(a, b)];
-            assert!((0..2).all(|i| (found[i] - expected[i]).abs() < 1e-14 * expected[i].abs()), "{a} {b}: {found:?}");
-        }
-        assert_eq!(quadratic_roots([1.0, 0.0, 1.0]), [0.0; 2]);
-        // a line, and a constant
-        assert_eq!(quadratic_roots([1.0, -2.0, 0.0]).map(f64::abs), [0.0, 0.5]);
-        assert_eq!(quadratic_roots([1.0, 0.0, 0.0]), [0.0; 2]);
     }
 }

@@ -14,5 +14,5 @@ pub use finite::Finite;
 pub(crate) use finite::finite;
 pub use jet::Jet;
 pub use minimum::{Landscape, Search};
-pub use root::rising_root;
+pub use root::{quadratic_roots, rising_root};
 pub use scalar::{Dual, Scalar};

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::declaration::Group;
 use crate::declaration::prelude::*;
-use crate::numeric::{cos, finite, sin, sqrt};
+use crate::numeric::{cos, finite, quadratic_roots, sin, sqrt};
 
 /// Distance from its target at which an actuator counts as settled, relative to the full command.
 const SETTLED: f64 = 1e-9;
@@ -263,17 +263,7 @@ fn within_limits(command: &Parabola) -> Parabola {
 
 /// First time after now at which the parabola is 0 [s]; now does not count.
 fn first_zero(&[value, first, second]: &Parabola) -> Option<f64> {
-    // a t² + b t + c
-    let (a, b, c) = (0.5 * second, first, value);
-    let times = if c == 0.0 {
-        [-b / a, f64::NAN]
-    } else if a == 0.0 {
-        [-c / b, f64::NAN]
-    } else {
-        let q = -0.5 * (b + sqrt(b * b - 4.0 * a * c).copysign(b));
-        [q / a, c / q]
-    };
-    times.into_iter().filter(|&time| time > 0.0 && time.is_finite()).reduce(f64::min)
+    quadratic_roots([value, first, 0.5 * second]).into_iter().filter(|&time| time > 0.0).reduce(f64::min)
 }
 
 #[cfg(test)]
