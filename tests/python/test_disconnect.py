@@ -55,7 +55,7 @@ def test_the_teeth_engage_in_the_first_gap_at_a_small_difference_of_speeds(fmu, 
     assert wanted - 1e-6 <= closed <= wanted + 1.1e-3
     waiting = phase[(time > commanded) & (time < wanted - 1e-3)]
     assert set(waiting) <= {SPEED, GAP}
-    # it carries no torque until the lash is taken up, and then that of the shaft
+    # it transmits no torque until the lash is taken up, and then the torque of the shaft
     after = np.flatnonzero(phase == CLOSED)
     twist, torque = found["right.twist"][after], found["right.shaft_torque"][after]
     assert abs(torque[0]) < 1e-6 or abs(twist[0]) > 0.5 * LASH
@@ -75,7 +75,7 @@ def test_a_closed_clutch_is_a_shaft_with_lash_and_opens_at_low_torque(fmu):
     assert torque[steady].max() > 10.0 * MOST_TORQUE
     assert set(phase[(time > 0.251) & (time < 0.3)]) == {TORQUE}
     assert phase[-1] == OPEN and not torque[-1] and not twist[-1]
-    # the damper carries a part of the limit torque
+    # a fraction of the limit torque is that of the damper
     released = torque[phase == TORQUE][-1]
     assert MOST_TORQUE < released < MOST_TORQUE + 1e-3 * 0.5 * STIFFNESS + 1.0
     assert found["heat.disconnect"][-1] == pytest.approx(MOST_TORQUE**2 / (2.0 * STIFFNESS), rel=0.03)

@@ -48,8 +48,8 @@ impl Actuated {
         Self { states: std::array::from_fn(state), ..*self }
     }
 
-    /// States at the time `now` [s] of the host's solver. Since the last completed step, the inputs have changed from
-    /// `before` to `inputs`, linearly as far as anybody knows.
+    /// States at the time `now` [s] of the host's solver. The inputs have changed from `before` to
+    /// `inputs` since the last completed step. This change is taken as linear, because only its ends are known.
     pub fn at(&self, actuators: &Actuators, [before, inputs]: [&Inputs; 2], now: f64) -> Self {
         let Some(time) = self.since.map(|since| now - since).filter(|&time| time > 0.0) else { return *self };
         let slopes = before.rates_to(inputs, time).actuated();

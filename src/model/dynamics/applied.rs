@@ -1,4 +1,4 @@
-//! What acts in the equations besides the gears: inputs behind their actuators, dry friction, dog clutches, oil.
+//! Inputs behind their actuators, dry friction, dog clutches and oil, which act in the equations in addition to the gears.
 
 use super::actuated::courses;
 use super::{Actuated, State};

@@ -47,7 +47,7 @@ impl LashSpring {
         0.5 * self.stiffness * depth * depth
     }
 
-    /// Displacement at which the spring carries the `torque` [N·m]; without torque, the middle of the lash.
+    /// Displacement at which the spring transmits the `torque` [N·m]; the middle of the lash without torque.
     pub fn displacement(&self, torque: f64) -> f64 {
         torque / self.stiffness + if torque == 0.0 { 0.0 } else { self.half_lash.copysign(torque) }
     }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! open      T = 0, or T_r sgn φ̇ while its teeth ratchet because it is to close
-//! closes    when |φ̇| ≤ Δω and the teeth face gaps, within the lash: it then carries no torque
+//! closes    when |φ̇| ≤ Δω and the teeth face gaps, within the lash, so it transmits no torque
 //! closed    T = max(0, k (φ − b/2) + c φ̇) and its mirror image: the half-shaft with the lash b of the teeth
 //! opens     when |T| falls to its limit; the energy of the twist becomes heat
 //! ```

@@ -1,5 +1,5 @@
 //! Dog clutch between a side gear and its half-shaft. Its teeth engage where they face gaps, if both sides turn at almost
-//! the same speed; it disengages when it carries almost no torque.
+//! the same speed; it disengages when it transmits almost no torque.
 
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +80,7 @@ pub enum DogPhase {
     WaitsForGap = 2,
     /// Closed, as commanded.
     Closed = 3,
-    /// It is to open, but carries torque.
+    /// It is to open, but transmits torque.
     WaitsForTorque = 4,
 }
 
