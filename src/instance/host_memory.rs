@@ -90,9 +90,9 @@ impl<'a, T> Output<'a, T> {
 }
 
 impl HostMemory {
-    /// Runs `body`, the part of a call that uses the host's pointers.
-    pub fn during_call<T>(body: impl FnOnce(&Self) -> T) -> T {
-        body(&Self(()))
+    /// Memory for one call. The caller drops it when the call ends.
+    pub(super) fn of_call() -> Self {
+        Self(())
     }
 
     /// Returns an array to read; `pointer` may be NULL if `count` is 0.

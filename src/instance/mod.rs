@@ -17,7 +17,6 @@ mod call_error;
 mod component;
 mod derivatives;
 mod exchange;
-mod exports;
 mod float_traps;
 mod host_memory;
 mod initial_derivatives;
@@ -25,7 +24,6 @@ mod input_ramp;
 #[allow(clippy::module_inception)]
 mod instance;
 mod log;
-mod panic_guard;
 mod phase;
 mod sensitivity;
 mod snapshot;
@@ -36,16 +34,15 @@ pub(crate) mod values;
 
 pub use basic::*;
 pub use call_error::{CallError, CallResult};
-pub use component::{Component, create, free, run};
+pub use component::{Component, catch, create, free, run};
+pub(crate) use component::{calls, export};
+#[cfg(feature = "full")]
+pub(crate) use component::{completed_step, filled};
 pub use derivatives::OUTPUT_ORDER;
 pub use exchange::EVENT_INDICATORS;
-pub(crate) use exports::{calls, export};
-#[cfg(feature = "full")]
-pub(crate) use exports::{completed_step, filled};
 pub use host_memory::{HostMemory, InputArray, Output, OutputArray};
 pub use instance::{Experiment, Instance};
 pub use log::{Category, Log, Sink};
-pub use panic_guard::catch;
 pub(crate) use phase::states;
 pub use phase::{Call, Phase};
 pub use snapshot::Snapshot;

@@ -1,13 +1,13 @@
-//! Adaptive stepping to a given time, with error control and statistics by cause. A step shortened by the end of the
-//! interval does not reduce the predicted step size.
+//! Adaptive steps with error control and statistics by cause: the parts of a loop that tries, judges and completes a
+//! step. A step shortened by the end of the interval does not reduce the predicted step size.
 
 use super::control::{Control, LARGEST_SHRINK, SAFETY};
 use super::{
-    ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Pending, Point, SecondOrder, Statistics,
-    StepOutput, TimedPoint, Trajectory, Trial,
+    ErrorNorm, Extension, Imbalance, Linearisation, Method, POSITION_ROUNDING, Part, Pending, Point, SecondOrder,
+    Statistics, StepOutput, TimedPoint, Trajectory, Trial,
 };
 
-/// A completed step, as passed to the observer.
+/// A completed step.
 pub struct Step<'a, const N: usize, P> {
     /// Step size [s].
     pub h: f64,
@@ -23,18 +23,9 @@ pub struct Step<'a, const N: usize, P> {
     pub dense_output: Option<(&'a Extension<N>, f64)>,
 }
 
-/// Decision of the observer after an accepted step.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AfterStep {
-    /// Continue to the end of the interval.
-    Continue,
-    /// Stop here: the equations change.
-    Stop,
-}
-
 /// Cause of an interval that could not be completed. The state is that of the last accepted step.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Failure<E> {
+pub enum Failure {
     /// The step size fell below the resolution of time.
     StepTooSmall {
         /// The step size required [s].
@@ -44,8 +35,6 @@ pub enum Failure<E> {
     TooManySteps,
     /// A step of fixed size could not be solved.
     Diverged,
-    /// The observer of accepted steps rejected one.
-    Refused(E),
     /// The ledger of a step does not close up to the time at which torques change.
     NotClosed,
 }
@@ -85,68 +74,17 @@ pub struct SolverContext<'a> {
     pub budget: &'a mut u64,
 }
 
-/// Integrates from `time` to `until` [s] with `method`. Calls `observe` after each completed step; the observer may end
-/// the integration early. Every attempt at a step is taken from the budget, so the caller bounds the work.
-pub fn advance<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
-    method: &M,
-    system: &S,
-    point: &mut Point<N>,
-    time: &mut f64,
-    until: f64,
-    context: SolverContext,
-    observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
-) -> Result<(), Failure<E>> {
-    let mut trajectory = Trajectory::new(*point, *time, until);
-    let outcome = proceed(method, system, &mut trajectory, until, context, observe);
-    (*point, *time) = (trajectory.point, trajectory.time);
-    outcome
-}
-
-/// Integrates until the pending step of `trajectory` contains `until` [s], or until the equations end. Calls `observe`
-/// after each completed step; the observer may end the integration early.
-///
-/// Steps, their sizes and their counts do not depend on the requested times. A step that ends beyond `until` is only
-/// pending, so it changes neither the state nor the counts of completed steps.
-#[inline]
-pub fn proceed<const N: usize, M: Method, S: SecondOrder<N> + ?Sized, E>(
-    method: &M,
-    system: &S,
-    trajectory: &mut Trajectory<N, S::Rates>,
-    until: f64,
-    context: SolverContext,
-    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
-) -> Result<(), Failure<E>> {
-    let resolution = trajectory.resolution;
-    let is_end_requested = until + resolution >= trajectory.end;
-    let mut solver = Solver::new(method, system, context, trajectory);
-    loop {
-        if let Some(pending) = &trajectory.pending {
-            let h = pending.h * trajectory.accepted_fraction;
-            let reached = trajectory.time + h;
-            let is_last = trajectory.end - reached <= resolution;
-            if reached + resolution >= until && !(is_last && is_end_requested) {
-                return Ok(());
-            }
-            let reached = if is_last { trajectory.end } else { reached };
-            let judged = solver.judge(trajectory, pending, (h, reached, is_last));
-            if judged.imbalance > 1.0 && pending.unbalanced < UNBALANCED {
-                solver.reject_ledger(trajectory, h, judged.imbalance)?;
-            } else if solver.complete(trajectory, (h, reached), judged, &mut observe)? == AfterStep::Stop || is_last {
-                return Ok(());
-            }
-        } else {
-            solver.attempt(trajectory)?;
-        }
-    }
-}
-
-/// State of the loop over steps within one call: method, equations, control, and circumstances of the next attempt.
-struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
+/// Parts of the loop over steps within one call, with its state: method, equations, control, and circumstances of the
+/// next attempt. Steps, their sizes and their counts do not depend on the requested times, because a step beyond them
+/// is only pending, and neither the motion nor the counts of completed steps change.
+pub struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
     method: &'a M,
     system: &'a S,
     context: SolverContext<'a>,
     /// Linearisation at the start of the next step.
     lin: Linearisation<N, S::Rates>,
+    /// Start of the last completed step.
+    start: Point<N>,
     /// Kinetic and stored energy at the start of the next step; `None` if `lin` is not known.
     energy: Option<[f64; 2]>,
     /// True if the evaluation at the start of the next step is counted. It is counted once, even if it is repeated.
@@ -170,13 +108,15 @@ struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
 }
 
 /// A pending step whose end is evaluated.
-struct Judged<const N: usize, P> {
+pub struct Judged<const N: usize, P> {
     /// State at the end.
     end: Point<N>,
     /// Ledger rates at the start, in the middle and at the end.
     ledger_rates: [P; 3],
     /// Imbalance of the ledger as a multiple of the allowed one.
     imbalance: f64,
+    /// True if the ledger of the step closes, or if shorter steps have not closed it either.
+    pub is_balanced: bool,
 }
 
 /// Size of an attempt.
@@ -190,14 +130,16 @@ struct Size {
 }
 
 impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M, S> {
-    /// Returns a solver that continues `trajectory`.
+    /// Returns a solver that continues `trajectory`. Every attempt at a step is taken from the budget of `context`, so
+    /// the caller bounds the work.
     #[inline(always)]
-    fn new(method: &'a M, system: &'a S, context: SolverContext<'a>, trajectory: &Trajectory<N, S::Rates>) -> Self {
+    pub fn new(method: &'a M, system: &'a S, context: SolverContext<'a>, trajectory: &Trajectory<N, S::Rates>) -> Self {
         Self {
             method,
             system,
             context,
             lin: Linearisation::default(),
+            start: Point::ZERO,
             energy: None,
             is_counted: trajectory.pending.is_some(),
             after_rejection: false,
@@ -211,9 +153,10 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         }
     }
 
-    /// Tries a step from the end of the last completed one. It becomes the pending step if its error is small enough.
+    /// Tries a step from the end of the last completed one. It becomes the pending step if its error is small enough,
+    /// and if no switch is inside.
     #[inline(always)]
-    fn attempt<E>(&mut self, trajectory: &mut Trajectory<N, S::Rates>) -> Result<(), Failure<E>> {
+    pub fn attempt(&mut self, trajectory: &mut Trajectory<N, S::Rates>) -> Result<(), Failure> {
         let system = self.system;
         *self.context.budget = self.context.budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let energy = match self.energy {
@@ -291,7 +234,7 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
     /// Shortens the next attempt because the `error` of an attempt of size `h` [s] is too large or not finite. Fails if
     /// time cannot resolve the next size.
     #[inline(always)]
-    fn reject_error<E>(&mut self, h: f64, error: f64, resolution: f64) -> Result<(), Failure<E>> {
+    fn reject_error(&mut self, h: f64, error: f64, resolution: f64) -> Result<(), Failure> {
         let SolverContext { statistics, control, .. } = &mut self.context;
         (self.after_rejection, self.is_retry) = (true, true);
         self.switch_at = f64::INFINITY;
@@ -308,14 +251,14 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         if control.next <= resolution { Err(Failure::StepTooSmall { size: control.next }) } else { Ok(()) }
     }
 
-    /// Evaluates the end of the `pending` step of size `h` [s], at the time `reached` [s], and the ledger of the step.
-    /// Unless the step `is_last`, the next step can start from this evaluation.
+    /// Evaluates the end of this `part` of the `pending` step, and its ledger. Unless the part is the last one, the next
+    /// step can start from this evaluation.
     #[inline(always)]
-    fn judge(
+    pub fn judge(
         &mut self,
         trajectory: &Trajectory<N, S::Rates>,
         pending: &Pending<S::Rates>,
-        (h, reached, is_last): (f64, f64, bool),
+        &Part { h, reached, is_last }: &Part,
     ) -> Judged<N, S::Rates> {
         let system = self.system;
         let Trajectory { accepted_fraction, acceleration_change, extension, .. } = trajectory;
@@ -362,18 +305,19 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
                 imbalance = imbalance.min(ledger.residual / floor);
             }
         }
-        Judged { end, ledger_rates, imbalance }
+        let is_balanced = imbalance.is_nan() || imbalance <= 1.0 || pending.unbalanced >= UNBALANCED;
+        Judged { end, ledger_rates, imbalance, is_balanced }
     }
 
-    /// Drops the pending step of size `h` [s] because its ledger has this `imbalance`, and shortens the next attempt.
-    /// Fails if torques change within the step.
+    /// Drops the pending step because the ledger of this `part` does not close, and shortens the next attempt. Fails if
+    /// torques change within the step.
     #[inline(always)]
-    fn reject_ledger<E>(
+    pub fn reject_ledger(
         &mut self,
         trajectory: &mut Trajectory<N, S::Rates>,
-        h: f64,
-        imbalance: f64,
-    ) -> Result<(), Failure<E>> {
+        &Part { h, .. }: &Part,
+        &Judged { imbalance, .. }: &Judged<N, S::Rates>,
+    ) -> Result<(), Failure> {
         if trajectory.acceleration_change.is_some() {
             return Err(Failure::NotClosed);
         }
@@ -392,35 +336,30 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
         Ok(())
     }
 
-    /// Completes the pending step of size `h` [s]: `trajectory` moves to its end at `reached` [s], the controller
-    /// predicts the next step, and `observe` decides whether the integration continues.
+    /// Completes this `part` of the pending step: `trajectory` moves to its end, and the controller predicts the next
+    /// step.
     #[inline(always)]
-    fn complete<E>(
-        &mut self,
-        trajectory: &mut Trajectory<N, S::Rates>,
-        (h, reached): (f64, f64),
-        judged: Judged<N, S::Rates>,
-        observe: &mut impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
-    ) -> Result<AfterStep, Failure<E>> {
-        let Judged { end, ledger_rates, .. } = judged;
+    pub fn complete<'s>(
+        &'s mut self,
+        trajectory: &'s mut Trajectory<N, S::Rates>,
+        &Part { h, reached, .. }: &Part,
+        Judged { end, ledger_rates, .. }: Judged<N, S::Rates>,
+    ) -> Step<'s, N, S::Rates> {
         let Trajectory { point, time, pending, extension, accepted_fraction, acceleration_change, .. } = trajectory;
-        let Some(Pending { h: size, error, cut, to_kink, after_rejection, short, .. }) = *pending else {
-            return Ok(AfterStep::Continue);
-        };
-        (self.unbalanced, self.after_rejection, self.is_retry, self.short) = (0, false, false, short);
         let control = &mut *self.context.control;
-        control.accept(self.method, size, cut, error, after_rejection);
-        control.on_kink = to_kink && *accepted_fraction == 1.0;
+        if let Some(Pending { h: size, error, cut, to_kink, after_rejection, short, .. }) = *pending {
+            (self.unbalanced, self.after_rejection, self.is_retry, self.short) = (0, false, false, short);
+            control.accept(self.method, size, cut, error, after_rejection);
+            control.on_kink = to_kink && *accepted_fraction == 1.0;
+        }
         if acceleration_change.is_some() {
             control.discontinuity(*acceleration_change);
         }
         self.context.statistics.accepted += 1;
-        let start = std::mem::replace(point, end);
-        *time = reached;
+        self.start = std::mem::replace(point, end);
+        (*time, *pending) = (reached, None);
         let dense_output = Some((&*extension, *accepted_fraction));
-        let flow = observe(Step { h, time: reached, start: &start, end: &end, ledger_rates, dense_output });
-        trajectory.pending = None;
-        flow.map_err(Failure::Refused)
+        Step { h, time: reached, start: &self.start, end: point, ledger_rates, dense_output }
     }
 
     /// Linearises the equations at the start of the next step, `point` at `time` [s], and returns the energies.

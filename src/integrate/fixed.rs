@@ -15,7 +15,7 @@
 //! contact that the linearisation does not contain yet.
 
 use super::linear::{Inverse, Shape};
-use super::{AfterStep, Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step, TimedPoint};
+use super::{Failure, Linearisation, Matrix, Point, SecondOrder, Statistics, Step, TimedPoint};
 
 /// γ = 1 − 1/√2.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -25,24 +25,50 @@ const ITERATIONS: u32 = 4;
 /// rounded.
 const ROUNDING: f64 = 1e-6;
 
-/// Integrates from `time` to `until` in equal steps of at most `step` [s]. Calls `observe` after each step; the
-/// observer may end the integration early. Every step is taken from the budget.
-pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
-    system: &S,
-    point: &mut Point<N>,
-    time: &mut f64,
-    until: f64,
-    step: f64,
-    (statistics, budget): (&mut Statistics, &mut u64),
-    mut observe: impl FnMut(Step<N, S::Rates>) -> Result<AfterStep, E>,
-) -> Result<(), Failure<E>> {
-    let begin = *time;
-    let steps = libm::ceil((until - begin) / step * (1.0 - ROUNDING)).max(1.0);
-    let h = (until - begin) / steps;
-    let mut at_begin = system.evaluate_at(point, begin).1;
-    statistics.evaluations += 1;
-    let mut done = 0.0;
-    while done < steps {
+/// Equal steps up to a given time.
+pub struct FixedSteps<'a, const N: usize, S: SecondOrder<N> + ?Sized> {
+    system: &'a S,
+    /// Time at the start and at the end of all steps [s].
+    between: [f64; 2],
+    /// Size of a step [s].
+    h: f64,
+    /// Number of steps.
+    steps: f64,
+    /// Number of completed steps.
+    done: f64,
+    /// Start of the last completed step.
+    start: Point<N>,
+    /// Ledger rates at the start of the next step.
+    at_begin: S::Rates,
+}
+
+impl<'a, const N: usize, S: SecondOrder<N> + ?Sized> FixedSteps<'a, N, S> {
+    /// Steps of at most `longest` [s] from `point` at `begin` to `until` [s].
+    pub fn new(
+        system: &'a S,
+        point: &Point<N>,
+        [begin, until]: [f64; 2],
+        longest: f64,
+        statistics: &mut Statistics,
+    ) -> Self {
+        let steps = libm::ceil((until - begin) / longest * (1.0 - ROUNDING)).max(1.0);
+        let at_begin = system.evaluate_at(point, begin).1;
+        statistics.evaluations += 1;
+        let h = (until - begin) / steps;
+        Self { system, between: [begin, until], h, steps, done: 0.0, start: *point, at_begin }
+    }
+
+    /// Moves `point` and `time` [s] by one step, which is taken from the budget. Returns `None` after the last step.
+    pub fn next<'s>(
+        &'s mut self,
+        point: &'s mut Point<N>,
+        time: &mut f64,
+        (statistics, budget): (&mut Statistics, &mut u64),
+    ) -> Result<Option<Step<'s, N, S::Rates>>, Failure> {
+        let Self { system, between: [begin, until], h, .. } = *self;
+        if self.done >= self.steps {
+            return Ok(None);
+        }
         *budget = budget.checked_sub(1).ok_or(Failure::TooManySteps)?;
         let end = sdirk(system, TimedPoint { point, time: *time }, h, statistics).ok_or(Failure::Diverged)?;
         let middle = Point {
@@ -50,21 +76,16 @@ pub fn advance_fixed<const N: usize, S: SecondOrder<N> + ?Sized, E>(
             v: std::array::from_fn(|i| 0.5 * (point.v[i] + end.v[i])),
         };
         let halfway = *time + 0.5 * h;
-        let ledger_rates = [at_begin, system.evaluate_at(&middle, halfway).1, system.evaluate_at(&end, *time + h).1];
+        let ledger_rates =
+            [self.at_begin, system.evaluate_at(&middle, halfway).1, system.evaluate_at(&end, *time + h).1];
         statistics.evaluations += 2;
         statistics.accepted += 1;
-        at_begin = ledger_rates[2];
-        done += 1.0;
-        let start = *point;
-        *point = end;
-        *time = if done < steps { begin + done * h } else { until };
-        let step = Step { h, time: *time, start: &start, end: point, ledger_rates, dense_output: None };
-        let flow = observe(step).map_err(Failure::Refused)?;
-        if flow == AfterStep::Stop {
-            break;
-        }
+        self.at_begin = ledger_rates[2];
+        self.done += 1.0;
+        self.start = std::mem::replace(point, end);
+        *time = if self.done < self.steps { begin + self.done * h } else { until };
+        Ok(Some(Step { h, time: *time, start: &self.start, end: point, ledger_rates, dense_output: None }))
     }
-    Ok(())
 }
 
 /// Computes one step. Returns `None` if a matrix is singular or a value is not finite.

@@ -19,11 +19,11 @@ mod trajectory;
 
 pub use control::Control;
 pub use curve::Curve;
-pub use driver::{AfterStep, Failure, SolverContext, Step, advance, proceed};
-pub use fixed::advance_fixed;
+pub use driver::{Failure, Judged, Solver, SolverContext, Step};
+pub use fixed::FixedSteps;
 pub use method::{ErrorNorm, Method, StepOutput, Trial, size_for};
 pub use radau::Radau;
 pub use rodas5p::Rodas5P;
 pub use statistics::Statistics;
 pub use system::{Imbalance, Linearisation, Matrix, POSITION_ROUNDING, Point, SecondOrder, TimedPoint};
-pub use trajectory::{Extension, Pending, Trajectory, extended};
+pub use trajectory::{Extension, Part, Pending, Trajectory, extended};

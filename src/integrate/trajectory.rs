@@ -107,6 +107,17 @@ impl<P: Finite> Pending<P> {
     }
 }
 
+/// Part of the pending step that is accepted.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// Size [s].
+    pub h: f64,
+    /// Time at its end [s].
+    pub reached: f64,
+    /// True if the equations end there.
+    pub is_last: bool,
+}
+
 /// Motion of an integration: the last completed step, and the pending step.
 #[derive(Clone, Copy, Debug)]
 pub struct Trajectory<const N: usize, P> {
@@ -149,6 +160,15 @@ impl<const N: usize, P> Trajectory<N, P> {
             longest: f64::INFINITY,
             resolution,
         }
+    }
+
+    /// Part of the `pending` step that is accepted.
+    #[inline(always)]
+    pub fn accepted_part(&self, pending: &Pending<P>) -> Part {
+        let h = pending.h * self.accepted_fraction;
+        let reached = self.time + h;
+        let is_last = self.end - reached <= self.resolution;
+        Part { h, reached: if is_last { self.end } else { reached }, is_last }
     }
 
     /// Ends the equations at `end` [s]. A pending step is accepted up to this time, or dropped if it starts there.

@@ -1,9 +1,8 @@
 //! Tests of dense output: steps continue beyond the requested times and do not depend on them.
 
-use bevel_differential::integrate::{
-    AfterStep, Control, Point, SecondOrder, SolverContext, Statistics, Step, Trajectory, proceed,
-};
+use bevel_differential::integrate::{Control, Point, SecondOrder, SolverContext, Statistics, Step, Trajectory};
 
+use super::follow::{AfterStep, proceed};
 use super::methods::{Known, with_every_method};
 use super::problems::{Logarithmic, distance, forced};
 
@@ -40,7 +39,7 @@ fn run_of<M: Known, S: SecondOrder<2>>(system: &S, start: Point<2>, times: &[f64
         let observe = |step: Step<2, S::Rates>| {
             assert!(step.time < time, "nothing beyond {time} is completed");
             steps.push([step.h, step.time, step.end.q[0], step.end.v[1]].map(f64::to_bits));
-            Ok::<_, ()>(AfterStep::Continue)
+            AfterStep::Continue
         };
         proceed(&M::METHOD, system, &mut trajectory, time, context, observe).unwrap();
         let pending = trajectory.pending.as_ref().unwrap();
@@ -100,7 +99,7 @@ fn a_step_is_completed_up_to_the_end_of_the_equations<M: Known>() {
             let context = SolverContext { tolerance: TOLERANCE, control, statistics, budget: &mut budget };
             proceed(&M::METHOD, &Logarithmic, trajectory, time, context, |step| {
                 completed += step.h;
-                Ok::<_, ()>(AfterStep::Continue)
+                AfterStep::Continue
             })
             .unwrap();
         };

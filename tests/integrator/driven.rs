@@ -3,10 +3,9 @@
 
 use std::cell::Cell;
 
-use bevel_differential::integrate::{
-    AfterStep, Control, Linearisation, Point, SecondOrder, SolverContext, Statistics, Step, advance, advance_fixed,
-};
+use bevel_differential::integrate::{Control, Linearisation, Point, SecondOrder, SolverContext, Statistics, Step};
 
+use super::follow::{AfterStep, advance, advance_fixed};
 use super::methods::{Known, step_from, with_every_method};
 use super::problems::{forced, forced_exact};
 
@@ -83,7 +82,7 @@ fn the_driver_passes_the_time_to_the_system<M: Known>() {
     for until in [0.3, 0.31, 1.0] {
         let context =
             SolverContext { tolerance: 1e-9, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-        let proceed = |_: Step<1, ()>| Ok::<_, ()>(AfterStep::Continue);
+        let proceed = |_: Step<1, ()>| AfterStep::Continue;
         advance(&M::METHOD, &Driven::new(50.0), &mut point, &mut time, until, context, proceed).unwrap();
     }
     assert!((point.v[0] - 1f64.cos()).abs() < 1e-7, "{:e}", point.v[0] - 1f64.cos());
@@ -95,10 +94,7 @@ fn steps_of_fixed_size_keep_their_order_when_driven() {
         let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
         let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
         let counts = (&mut statistics, &mut budget);
-        advance_fixed(&Driven::new(5.0), &mut point, &mut time, 1.0, step, counts, |_| {
-            Ok::<_, ()>(AfterStep::Continue)
-        })
-        .unwrap();
+        advance_fixed(&Driven::new(5.0), &mut point, &mut time, 1.0, step, counts).unwrap();
         (point.v[0] - 1f64.cos()).abs()
     };
     let order = (error(0.01) / error(0.005)).log2();
@@ -111,6 +107,6 @@ fn steps_of_fixed_size_count_their_evaluations() {
     let (mut point, mut time) = (Point { q: [0.0], v: [1.0] }, 0.0);
     let (mut statistics, mut budget) = (Statistics::default(), 1_000_000);
     let counts = (&mut statistics, &mut budget);
-    advance_fixed(&system, &mut point, &mut time, 1.0, 0.01, counts, |_| Ok::<_, ()>(AfterStep::Continue)).unwrap();
+    advance_fixed(&system, &mut point, &mut time, 1.0, 0.01, counts).unwrap();
     assert_eq!((statistics.accepted, statistics.evaluations), (100, system.evaluations.get()));
 }

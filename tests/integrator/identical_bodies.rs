@@ -1,9 +1,9 @@
 //! Identical bodies may be simulated once and counted several times. The default method then gives the same bits as for
 //! separately simulated bodies.
 
-use bevel_differential::integrate::{
-    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
-};
+use bevel_differential::integrate::{Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics};
+
+use super::follow::{AfterStep, advance};
 
 /// A body surrounded by four identical bodies. `N` − 1 of these are simulated, each counted as often as needed to
 /// represent four.
@@ -80,7 +80,7 @@ fn run<const N: usize>() -> (Vec<[u64; 7]>, Statistics) {
             [q[0], q[1], v[0], v[1], step.ledger_rates[0], step.ledger_rates[1], step.ledger_rates[2]]
                 .map(f64::to_bits),
         );
-        Ok::<_, ()>(AfterStep::Continue)
+        AfterStep::Continue
     })
     .unwrap();
     (bits, statistics)

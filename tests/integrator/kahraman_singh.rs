@@ -19,9 +19,9 @@ use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::spring::{ImpactSpring, Resultant};
 use bevel_differential::contact::{AnySpring, Damping};
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::integrate::{
-    AfterStep, Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics, advance,
-};
+use bevel_differential::integrate::{Control, Linearisation, Point, Rodas5P, SecondOrder, SolverContext, Statistics};
+
+use super::follow::{AfterStep, advance};
 
 /// ζ.
 const ZETA: f64 = 0.05;
@@ -140,7 +140,7 @@ impl Sweep {
                 for i in 0..2 {
                     sums[i] += weight * step.h / 6.0 * (begin[i] + 4.0 * middle[i] + end[i]);
                 }
-                Ok::<_, ()>(AfterStep::Continue)
+                AfterStep::Continue
             })
             .unwrap();
         }

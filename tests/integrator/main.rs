@@ -5,6 +5,7 @@ mod continuation;
 mod curve;
 mod dense_output;
 mod driven;
+mod follow;
 mod identical_bodies;
 mod impact;
 mod kahraman_singh;

@@ -1,9 +1,11 @@
 //! All methods with their theoretical properties, and generic runs.
 
 use bevel_differential::integrate::{
-    AfterStep, Control, ErrorNorm, Extension, Failure, Method, Point, Radau, Rodas5P, SecondOrder, SolverContext,
-    Statistics, StepOutput, TimedPoint, advance,
+    Control, ErrorNorm, Extension, Failure, Method, Point, Radau, Rodas5P, SecondOrder, SolverContext, Statistics,
+    StepOutput, TimedPoint,
 };
+
+use super::follow::{AfterStep, advance};
 
 /// Theoretical properties of a method.
 pub trait Known: Method {
@@ -93,10 +95,10 @@ pub fn run<M: Known, const N: usize, S: SecondOrder<N>>(
     point: &mut Point<N>,
     until: f64,
     tolerance: f64,
-) -> Result<Statistics, Failure<()>> {
+) -> Result<Statistics, Failure> {
     let (mut time, mut control, mut statistics) = (0.0, Control::new(1e-6), Statistics::default());
     let mut budget = 1_000_000;
     let context = SolverContext { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut budget };
-    advance(&M::METHOD, s, point, &mut time, until, context, |_| Ok(AfterStep::Continue))?;
+    advance(&M::METHOD, s, point, &mut time, until, context, |_| AfterStep::Continue)?;
     Ok(statistics)
 }

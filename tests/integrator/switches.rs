@@ -1,8 +1,9 @@
 //! Tests that steps end where the equations switch.
 
-use bevel_differential::integrate::{AfterStep, Control, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
+use bevel_differential::integrate::{Control, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
 
 use super::continuation::State;
+use super::follow::AfterStep;
 use super::methods::{Known, with_every_method};
 
 with_every_method!(steps_land_on_switches_in_a_few_attempts a_system_at_rest_on_a_kink_is_not_held_there);

@@ -6,9 +6,10 @@ use super::dogs::DogEquations;
 use super::energy_floor::energy_floor;
 use super::ledger_rates::LedgerRates;
 use super::shape::{MAX_SIZE, Shape};
-use super::{Equations, FrictionEquations};
+use super::{Equations, FrictionEquations, Jacobian, PinionLoss};
 use crate::contact::planet::Q;
 use crate::integrate::{Imbalance, Linearisation, Matrix, Point, SecondOrder, TimedPoint};
+use crate::model::effect_kinds::{Action, Slopes};
 use crate::model::scene::{CARRIER, InputDerivatives, Inputs};
 
 /// Approach below which errors of positions are absolute instead of relative [rad on the unit sphere].
@@ -222,5 +223,200 @@ impl<const N: usize, S: Shape<N>> SecondOrder<N> for Equations<'_, S, N> {
     #[inline]
     fn crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
         if S::MAY_ACT { self.switch_crossing(start, end) } else { None }
+    }
+}
+
+impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
+    /// Returns the accelerations and completes the ledger rates.
+    #[inline]
+    pub(super) fn accelerate(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) -> [f64; N] {
+        let mut sum = [0.0; N];
+        self.act(at, &mut sum, ledger_rates);
+        // a small copy stays in registers
+        let mut sum = if S::HAS_OWN_STEPS { std::array::from_fn(|i| sum[i]) } else { sum };
+        self.finish(at, &mut sum, ledger_rates);
+        sum
+    }
+
+    /// Adds all forces except commanded torques.
+    #[inline]
+    pub(in crate::model) fn act(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        self.add_mesh_forces(at, sum, ledger_rates);
+        if S::MAY_ACT {
+            self.act_on_bodies(at, sum, ledger_rates);
+        }
+    }
+
+    /// Adds the forces of the effects on bodies.
+    pub(in crate::model) fn act_on_bodies(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        let motion = self.body_motion(at);
+        let mut out = Action { force: sum, heat: &mut ledger_rates.heat };
+        for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+            effect.act(&motion, &mut out);
+        }
+        if self.has_ends() {
+            ledger_rates.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
+        }
+    }
+
+    /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]. It is the load torque if the shaft has no
+    /// degree of freedom.
+    pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
+        if !self.has_ends() || !self.teeth.plan.shafts[s] {
+            return self.applied.inputs.load_torque[s];
+        }
+        let end = self.end(s);
+        let motion = [at.q[end], at.v[s] - at.v[end]];
+        self.teeth.effect_terms.body_effects.half_shafts.torque(s, motion, &self.applied.dogs)
+    }
+
+    /// Adds the torques of inputs, converts sums of forces to accelerations, and completes the ledger rates.
+    #[inline(always)]
+    pub(in crate::model) fn finish(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        let (plan, inverse) = (&self.teeth.plan, &self.teeth.inverse_inertia);
+        let rates = &self.applied.input_derivatives.rates[0];
+        let mut input = 0.0;
+        for s in 0..2 {
+            let wheel = if S::MAY_ACT { self.wheel(s) } else { s };
+            if S::MAY_ACT && plan.side_imposed[s] {
+                input += (self.teeth.inertia[wheel] * rates.side_speed[s] - sum[wheel]) * at.v[wheel];
+            } else {
+                sum[wheel] -= self.applied.inputs.load_torque[s];
+                input -= self.applied.inputs.load_torque[s] * at.v[wheel];
+            }
+        }
+        if S::MAY_ACT && self.teeth.effect_terms.body_effects.loss.is_some() {
+            self.brake_pinion(at, sum, ledger_rates);
+        }
+        let (port, drive) = (self.port(), self.drive_under(sum));
+        input += drive * at.v[port];
+        sum[port] += drive;
+        if plan.spin_imposed {
+            let inertial = if S::MAY_ACT { self.teeth.inertia[self.planet(0)] * rates.planet_spin } else { 0.0 };
+            input -= self.sum(|g| self.members(g) * (sum[self.planet(g)] - inertial) * at.v[self.planet(g)]);
+        }
+        for (sum, inverse) in sum.iter_mut().zip(inverse) {
+            *sum *= inverse;
+        }
+        if S::MAY_ACT && self.applied.driven {
+            if plan.drive_imposed {
+                sum[port] = rates.drive_speed;
+            }
+            for g in (0..self.groups()).filter(|_| plan.spin_imposed) {
+                sum[self.planet(g)] = rates.planet_spin;
+            }
+            for s in (0..2).filter(|&s| plan.side_imposed[s]) {
+                sum[self.end(s)] = rates.side_speed[s];
+            }
+        }
+        ledger_rates.input += input;
+    }
+
+    /// Torque of the drive, given the `sum` of all other torques. Only an imposed speed depends on them.
+    #[inline(always)]
+    pub(in crate::model) fn drive_under(&self, sum: &[f64; N]) -> f64 {
+        let (port, rates) = (self.port(), &self.applied.input_derivatives.rates[0]);
+        let imposed = if S::MAY_ACT { rates.drive_speed } else { 0.0 };
+        if self.teeth.plan.drive_imposed {
+            self.teeth.inertia[port] * imposed - sum[port]
+        } else {
+            self.applied.inputs.drive_torque
+        }
+    }
+
+    /// Subtracts the friction of a rigid pinion under the torque of its mesh.
+    #[inline(never)]
+    pub(in crate::model) fn brake_pinion(&self, at: &Point<N>, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
+        if let Some(pinion) = self.sliding_pinion() {
+            let of = self.driven_carrier(at, sum);
+            pinion.brake((of[0], of[1], at.v[CARRIER]), sum, ledger_rates);
+        }
+    }
+
+    /// Torque in front of a rigid pinion, and the acceleration of the carrier without friction under the torque of the
+    /// mesh, given the `sum` of all torques but that of the drive.
+    fn driven_carrier(&self, at: &Point<N>, sum: &[f64; N]) -> [f64; 2] {
+        let (in_front, inertia) = (self.torque_in_front(at), self.teeth.inertia[CARRIER]);
+        let inputs = &self.applied;
+        match (self.port() == CARRIER, self.teeth.plan.drive_imposed) {
+            (true, true) => {
+                let acceleration = inputs.input_derivatives.rates[0].drive_speed;
+                [in_front + inertia * acceleration - sum[CARRIER], acceleration]
+            }
+            (true, false) => {
+                [in_front + inputs.inputs.drive_torque, (sum[CARRIER] + inputs.inputs.drive_torque) / inertia]
+            }
+            (false, _) => [in_front, sum[CARRIER] / inertia],
+        }
+    }
+
+    /// Adds the derivatives of the friction of a rigid pinion under the torque of its mesh, given those of all forces.
+    #[inline(never)]
+    fn brake_pinion_slopes(&self, at: &Point<N>, sum: &[f64; N], [by_position, by_velocity]: [&mut Matrix<N>; 2]) {
+        let Some(pinion) = self.sliding_pinion() else { return };
+        let (of, inverse) = (self.driven_carrier(at, sum), self.teeth.inverse_inertia[CARRIER]);
+        let [driven_by_position, driven_by_velocity] = self.slopes_in_front(at);
+        let [a, b] = [&*by_position, &*by_velocity].map(|matrix| matrix[CARRIER].map(|torque| inverse * torque));
+        let slopes = [(&driven_by_position, &a), (&driven_by_velocity, &b)];
+        pinion.brake_slopes((of[0], of[1]), slopes, [by_position, by_velocity]);
+    }
+
+    /// Writes the linearised equations to `lin`. Returns the elastic energy of all meshes [J].
+    #[inline]
+    pub(in crate::model) fn linearise_and_store(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        (lin.acceleration, lin.ledger_rates) = ([0.0; N], LedgerRates::default());
+        // rows beyond the last degree of freedom are always zero
+        for i in 0..self.count() {
+            (lin.by_position[i], lin.by_velocity[i]) = ([0.0; N], [0.0; N]);
+        }
+        if S::MAY_ACT { self.linearise_all(at, lin) } else { self.linearise_teeth(at, lin) }
+    }
+
+    /// Adds the linearised equations of teeth without effects to `lin`. Returns the elastic energy of all meshes [J].
+    #[inline]
+    fn linearise_teeth(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
+        let mut unused = [[0.0; N]; N];
+        let mut j = Jacobian { by_position, by_rate: by_velocity, by_velocity: &mut unused };
+        let energy = self.linearise_contact(at, acceleration, ledger_rates, &mut j);
+        // α̇ = ω_s − ω_c
+        self.times_rates(j.by_rate);
+        self.divide_by_inertia(j.by_position);
+        self.divide_by_inertia(j.by_rate);
+        self.finish(at, acceleration, ledger_rates);
+        energy
+    }
+
+    /// Adds the linearised equations with all effects to `lin`. Returns the elastic energy of all meshes [J].
+    #[inline]
+    fn linearise_all(&self, at: &Point<N>, lin: &mut Linearisation<N, LedgerRates>) -> f64 {
+        let Linearisation { acceleration, by_position, by_velocity, ledger_rates } = lin;
+        let mut by_rate = [[0.0; N]; N];
+        let j = &mut Jacobian { by_position: &mut *by_position, by_rate: &mut by_rate, by_velocity: &mut *by_velocity };
+        let energy = self.linearise_contact(at, acceleration, ledger_rates, j);
+        self.act_on_bodies(at, acceleration, ledger_rates);
+        let mut out = Slopes::new([&mut *by_position, &mut *by_velocity]);
+        for effect in self.teeth.effect_terms.body_effects.forces.iter() {
+            effect.slopes(&self.body_motion(at), &mut out);
+        }
+        self.times_rates(&mut by_rate);
+        for i in 0..self.count() {
+            for j in 0..N {
+                by_velocity[i][j] += by_rate[i][j];
+            }
+        }
+        if self.teeth.effect_terms.body_effects.loss.is_some() {
+            self.brake_pinion_slopes(at, acceleration, [&mut *by_position, &mut *by_velocity]);
+        }
+        self.divide_by_inertia(by_position);
+        self.divide_by_inertia(by_velocity);
+        self.finish(at, acceleration, ledger_rates);
+        energy
+    }
+
+    fn divide_by_inertia(&self, m: &mut Matrix<N>) {
+        for (row, inverse) in m[..self.count()].iter_mut().zip(&self.teeth.inverse_inertia) {
+            row.iter_mut().for_each(|x| *x *= inverse);
+        }
     }
 }

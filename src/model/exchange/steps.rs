@@ -9,10 +9,10 @@ use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{Actuated, FrictionEquations, State};
 use crate::model::run::events::{
-    acting_inputs, apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, has_dog_command_changed,
-    has_lock_moved, next_change, record_holds,
+    apply_changes, break_tooth, breaks_tooth, energy, has_commanded_changed, has_dog_command_changed, has_lock_moved,
+    next_change, record_holds,
 };
-use crate::model::run::progress::complete;
+use crate::model::run::moving_inputs::acting_inputs;
 use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
 use crate::model::scene::{InputDerivatives, Inputs, MAX_DOF};
 
@@ -52,7 +52,7 @@ impl Simulation {
     /// Moves to `states`, except imposed motions, which follow their commands. If a step is pending, it is first
     /// completed up to the present time.
     pub fn set_states(&mut self, states: &[f64; STATES]) {
-        complete(&self.model, (&mut self.state, Some(&mut self.memories)));
+        self.complete_pending();
         let (mut q, mut v) = (self.state.q, self.state.v);
         self.set_from_states(states, &mut q, &mut v);
         for i in 0..MAX_DOF {

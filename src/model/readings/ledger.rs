@@ -1,5 +1,6 @@
 //! The ledger, and statistics of the solver.
 
+use super::present::PresentSums;
 use crate::model::dynamics::State;
 use crate::model::outputs::LedgerReadings;
 use crate::model::run::Simulation;
@@ -18,29 +19,28 @@ impl Simulation {
     /// Ledger and solver statistics.
     pub fn ledger(&mut self) -> LedgerReadings {
         self.remember_damage();
-        self.read_completed(Self::ledger_at)
+        self.read_present(Self::ledger_of)
     }
 
-    /// Ledger in `state`, in which the pending step is completed up to the present.
-    fn ledger_at(&self, state: &State) -> LedgerReadings {
+    /// Ledger with the `sums` at the present.
+    fn ledger_of(&self, sums: &PresentSums) -> LedgerReadings {
         let s = &self.state.statistics;
         let mut readings = [0.0; STEP_READINGS];
         self.read_damage_and_history(&mut readings);
         let network = self.model.thermal.as_deref();
-        let heat = network.map(|network| [network.stored(&state.thermal), state.thermal.given_off]);
-        of_scene::set_readings(&mut readings, &state.thermal.temperatures(), heat);
+        let heat = network.map(|network| [network.stored(&sums.thermal), sums.thermal.given_off]);
+        of_scene::set_readings(&mut readings, &sums.thermal.temperatures(), heat);
         self.read_coupling(&mut readings);
-        // held bodies follow the recorded events, because completing the step may switch friction before its event is
-        // recorded
         let held = |kind: RubbingKind| {
             let friction = self.state.friction[kind.numbers()].iter();
             friction.filter(|friction| friction.holds()).count() as f64
         };
+        let energy = sums.energy.unwrap_or_else(|| self.energy(&self.state));
         LedgerReadings {
-            heat: state.heat,
+            heat: sums.heat,
             readings,
             held: [RubbingKind::Side, RubbingKind::Planet, RubbingKind::Wheel, RubbingKind::Clutch].map(held),
-            energy_residual: self.energy(state) - state.energy_at_start - state.work + state.heat.iter().sum::<f64>(),
+            energy_residual: energy - self.state.energy_at_start - sums.work + sums.heat.iter().sum::<f64>(),
             steps: s.accepted as f64,
             rejected: (s.rejected_error + s.rejected_ledger + s.rejected_invalid + s.rejected_switch) as f64,
             rhs_calls: s.evaluations as f64,

@@ -1,10 +1,95 @@
-//! Simulation as its outputs show it: under the present inputs, which the next step will apply.
+//! Simulation as its outputs show it: under the present inputs, which the next step will apply, and with sums up to the
+//! present, which follow from the dense output of the pending step.
 
+use crate::integrate::{Rodas5P, Solver, SolverContext};
+use crate::model::assembly::Model;
 use crate::model::dynamics::State;
+use crate::model::dynamics::shaft_means::TorqueMeans;
+use crate::model::dynamics::shape::Shape;
+use crate::model::effects::Memories;
+use crate::model::run::by_shape::{InShape, in_shape};
 use crate::model::run::events::{has_commanded, with_commanded};
-use crate::model::run::progress::complete;
-use crate::model::run::{Simulation, imposed};
+use crate::model::run::interval::resumed;
+use crate::model::run::{LedgerEquations, LedgerSums, Simulation, imposed};
 use crate::model::scene::Inputs;
+use crate::model::setup::HEATS;
+use crate::model::thermal::Thermal;
+
+/// Sums of the ledger and of effects at the present.
+#[derive(Clone, Copy)]
+pub(in crate::model) struct PresentSums {
+    /// Work of all inputs [J].
+    pub work: f64,
+    /// Heat by cause [J].
+    pub heat: [f64; HEATS],
+    /// Temperatures.
+    pub thermal: Thermal,
+    /// Means of the shaft torques over mesh cycles.
+    pub torque_means: TorqueMeans,
+    /// Kinetic and stored energy [J]; `None` if the state is the end of a completed step.
+    pub energy: Option<f64>,
+}
+
+/// Reads the sums at the present from the dense output of the pending step.
+struct Reader<'a> {
+    model: &'a Model,
+    state: &'a State,
+    memories: Option<&'a mut Memories>,
+}
+
+impl PresentSums {
+    /// Sums of `state`. Also adds the step up to the present to the `memories`.
+    fn new(model: &Model, state: &State, memories: Option<&mut Memories>) -> Self {
+        if state.pending_step.is_none() {
+            return Self::at_completed(state);
+        }
+        // derivatives that are set now belong to the next step
+        let constant = state.inputs.derivatives.is_some().then(|| {
+            let mut constant = *state;
+            constant.inputs.derivatives = None;
+            constant
+        });
+        in_shape(model, Reader { model, state: constant.as_ref().unwrap_or(state), memories })
+    }
+
+    /// Sums at the end of the last completed step.
+    fn at_completed(&State { work, heat, thermal, torque_means, .. }: &State) -> Self {
+        Self { work, heat, thermal, torque_means, energy: None }
+    }
+}
+
+impl InShape for Reader<'_> {
+    type Output = PresentSums;
+
+    fn inputs_and_state(&self) -> (&Inputs, &State) {
+        (&self.state.inputs.values, self.state)
+    }
+
+    fn run<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(self, equations: &mut E) -> PresentSums {
+        let Self { model, state, memories } = self;
+        let mut sums = PresentSums::at_completed(state);
+        let Some(mut clock) = state.pending_step.as_ref().map(|step| step.clock) else { return sums };
+        clock.end = clock.now;
+        let mut trajectory = resumed::<N>(state, &clock);
+        let Some(pending) = &trajectory.pending else { return sums };
+        // the step up to the present, as if it were completed
+        let (mut control, mut statistics) = (state.control, state.statistics);
+        let tolerance = model.parameters.solver.relative_tolerance;
+        let context = SolverContext { tolerance, control: &mut control, statistics: &mut statistics, budget: &mut 0 };
+        let mut solver = Solver::new(&Rodas5P, &*equations, context, &trajectory);
+        let part = trajectory.accepted_part(pending);
+        let judged = solver.judge(&trajectory, pending, &part);
+        let step = solver.complete(&mut trajectory, &part, judged);
+        let PresentSums { work, heat, thermal, torque_means, .. } = &mut sums;
+        let begin = state.time() - clock.now;
+        equations.record(model, &step, &mut LedgerSums { begin, work, heat, thermal, torque_means, memories });
+        let mut anchors = equations.applied().anchors();
+        equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
+        equations.applied_mut().set_anchors(&anchors);
+        sums.energy = Some(equations.energy(&trajectory.point).iter().sum());
+        sums
+    }
+}
 
 impl Simulation {
     /// Returns the simulation with its inputs applied, or `None` if this changes nothing. Speeds follow commands that
@@ -51,22 +136,19 @@ impl Simulation {
     pub fn shown(&self) -> Option<Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
-            let mut completed = self.state;
-            complete(&self.model, (&mut completed, None));
+            let sums = PresentSums::new(&self.model, &self.state, None);
             let state = &mut shown.get_or_insert_with(|| self.clone()).state;
-            state.torque_means = completed.torque_means;
-            state.thermal.rises = completed.thermal.rises;
+            state.torque_means = sums.torque_means;
+            state.thermal.rises = sums.thermal.rises;
         }
         shown
     }
 
-    /// Reads the state and the memories with the pending step completed up to the present. The simulation itself
-    /// is unchanged.
-    pub(in crate::model) fn read_completed<T>(&mut self, read: impl FnOnce(&Self, &State) -> T) -> T {
-        let mut state = self.state;
+    /// Reads sums and memories at the present. The simulation itself is unchanged.
+    pub(in crate::model) fn read_present<T>(&mut self, read: impl FnOnce(&Self, &PresentSums) -> T) -> T {
         let checkpoint = self.memories.checkpoint();
-        complete(&self.model, (&mut state, Some(&mut self.memories)));
-        let found = read(self, &state);
+        let sums = PresentSums::new(&self.model, &self.state, Some(&mut self.memories));
+        let found = read(self, &sums);
         self.memories.roll_back(checkpoint);
         found
     }

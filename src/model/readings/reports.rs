@@ -229,7 +229,7 @@ impl Simulation {
     /// factors.
     fn counted_start(&mut self) -> Option<Problem> {
         self.model.strength.as_ref()?;
-        let tally = self.read_completed(|simulation, _| simulation.memories.strength.get().map(|of| of.tally));
+        let tally = self.read_present(|simulation, _| simulation.memories.strength.get().map(|of| of.tally));
         let Tally { utilisation, counts_start, .. } = tally?;
         if !counts_start || utilisation.root.share == 0.0 {
             return None;

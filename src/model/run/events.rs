@@ -1,7 +1,9 @@
 //! Changes at the start of a step or at an event: a tooth breaks, lock and brakes move, friction starts and ends. Also
 //! the time of the next change that the host does not cause.
 
-use crate::integrate::SecondOrder;
+use super::LedgerEquations;
+use super::moving_inputs::acting_inputs;
+use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::Model;
 use crate::model::dynamics::acting_inputs::ActingInputs;
 use crate::model::dynamics::actuated::courses;
@@ -10,7 +12,7 @@ use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, InputsAndFriction, State};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{ACTUATED_LOCK, Dogs, InputDerivatives, Inputs, PAIRS, RubbingKind};
+use crate::model::scene::{ACTUATED_LOCK, Dogs, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
 /// Kinetic and stored energy [J].
@@ -46,16 +48,6 @@ pub fn follow_lock(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn has_lock_moved(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let lock = acting_inputs(model, inputs, state).lock;
     lock != state.lock && next_step_of_lock(model, state).is_none()
-}
-
-/// Inputs that act at `state`, behind the actuators.
-pub fn acting_inputs(model: &Model, inputs: &Inputs, state: &State) -> Inputs {
-    let Some(actuated) = &state.inputs.actuated else { return *inputs };
-    let (actuators, mut acting, mut derivatives) = (&model.body_effects().actuators, *inputs, InputDerivatives::ZERO);
-    let commands = courses(inputs, state.inputs.derivatives.as_ref());
-    let present = actuated.at(actuators, [&state.inputs.values, inputs], state.time());
-    present.act(actuators, &commands, &mut acting, &mut derivatives);
-    acting
 }
 
 /// True if a tooth of the scene may break.
@@ -116,6 +108,23 @@ pub fn switch_dogs(model: &Model, inputs: &Inputs, state: &mut State) {
 pub fn has_dog_command_changed(model: &Model, inputs: &Inputs, state: &State) -> bool {
     let commands = Dogs::commands(inputs);
     (0..2).any(|s| model.body_effects().half_shafts.dogs[s].is_some() && commands[s] != state.dogs.commanded[s])
+}
+
+/// Switches the friction and the dog clutches that are due at the `end` of the last completed step, whose time on the
+/// clock is `at` [s]. Simulation time is `begin` [s] when the clock is zero. Returns true if this is an event.
+pub fn switch<const N: usize, E: LedgerEquations<N> + ?Sized>(
+    equations: &mut E,
+    state: &mut State,
+    end: &Point<N>,
+    (begin, at): (f64, f64),
+) -> bool {
+    let before = equations.applied().friction_state;
+    equations.settle_friction(end, at, false, &mut state.heat);
+    equations.settle_dogs(end, &mut state.heat);
+    let (after, time) = (equations.applied(), begin + at);
+    let engages = state.events.record_dogs([&state.dogs, &after.dogs], time);
+    state.dogs = after.dogs;
+    state.events.record_friction([&before, &after.friction_state], time) || engages
 }
 
 /// Records an event for each body that friction starts or stops holding, compared with the friction `before`.

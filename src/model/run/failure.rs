@@ -2,9 +2,13 @@
 
 use std::fmt;
 
-use super::hints;
+use super::budget::budget;
+use super::{effort, hints};
 use crate::declaration::SIDES;
+use crate::integrate::{Failure, Statistics};
 use crate::model::assembly::{Gears, Model};
+use crate::model::dynamics::State;
+use crate::model::scene::Inputs;
 
 /// Error of a step that could not be completed. The simulation is at the last good time.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +42,63 @@ impl fmt::Display for StepFailure {
 /// Rounds `value` to six significant digits, for messages.
 pub fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
+}
+
+/// Cause of a step that could not be completed.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Cause {
+    /// The solver found no step.
+    Solver(Failure),
+    /// A tooth bends too far in the step.
+    Deflection(ExcessiveDeflection),
+}
+
+impl From<Failure> for Cause {
+    fn from(failure: Failure) -> Self {
+        Self::Solver(failure)
+    }
+}
+
+impl From<ExcessiveDeflection> for Cause {
+    fn from(tooth: ExcessiveDeflection) -> Self {
+        Self::Deflection(tooth)
+    }
+}
+
+impl Cause {
+    /// Error at `time` [s] with this cause and a remedy. `before` are the statistics at the start of the integration.
+    #[cold]
+    pub fn explain(
+        self,
+        time: f64,
+        (model, inputs, state): (&Model, &Inputs, &State),
+        before: &Statistics,
+    ) -> StepFailure {
+        let solver = &model.parameters.solver;
+        let tolerance = solver.relative_tolerance;
+        let message = match self {
+            Cause::Deflection(tooth) => tooth.message(model),
+            Cause::Solver(Failure::NotClosed) => {
+                "the energy balance of the step before a change of torques does not close".into()
+            }
+            Cause::Solver(Failure::StepTooSmall { size }) => format!(
+                "the step size fell to {size:.3e} s, below the resolution of time; look at the inputs, \
+                 or loosen solver.relative_tolerance = {tolerance:e}"
+            ),
+            Cause::Solver(Failure::Diverged) => format!(
+                "a step of solver.fixed_step = {:e} s could not be solved; make it shorter, or take solver.method = adaptive",
+                solver.fixed_step
+            ),
+            Cause::Solver(Failure::TooManySteps) => format!(
+                "{} attempts at steps, and a tenth of them for each second, were not enough for one communication step: {}; \
+                 shorten it, loosen solver.relative_tolerance = {tolerance:e}, or {}",
+                budget(model),
+                effort::too_many_steps(model, inputs, state, before),
+                effort::fewer_steps(model, state)
+            ),
+        };
+        StepFailure { time, message }
+    }
 }
 
 /// Error of a tooth that bends beyond the limit.

@@ -1,16 +1,15 @@
-//! A running simulation and its steps. In the order of a call of `Simulation::advance_by`:
+//! A running simulation and its steps.
 //!
-//! 1. `simulation` applies changed inputs. If only torques change, the pending step is completed and the integration
-//!    continues (`change`). After any other change, the integration restarts (`progress::restart` with `imposed` and
-//!    `events`).
-//! 2. If the pending step contains the requested time, the state moves within this step, and the call is finished.
-//! 3. Otherwise, `progress` integrates from stop to stop. Stops are given by `dynamics::timeline`: the requested time, a
-//!    change of the equations, or a reset of the integrator's clock.
-//! 4. `integration` integrates one interval. Its module comment gives the order of a single step.
-//! 5. `ledger` records each completed step: work, heat and temperatures. `watching` adds its fatigue damage and its
-//!    mesh history, along the dense output of the step (`completed_step`).
-//! 6. `progress` checks that the integration has reached the stop. Errors are explained by `failure`, `effort` and
-//!    `hints`.
+//! `step` shows a step from the inputs of the host to the requested time; its comment lists the parts in their order.
+//! The other files contain the details:
+//!
+//! - `change`, `imposed`, `events`, `moving_inputs`: changes of torques and of imposed speeds, other changes of the
+//!   equations, and inputs that change during a step;
+//! - `interval`: start and end of an interval of the integrator's clock; `without_solver`: motion that needs no new step;
+//! - `by_shape`: equations in the shape of the scene;
+//! - `ledger`: work, heat and temperatures of a completed step; `watching`: its fatigue damage and its mesh history,
+//!   along its dense output (`completed_step`);
+//! - `budget`, `failure`, `effort`, `hints`: limit of attempts; errors, their causes and remedies.
 //!
 //! `coupling` records the exchange with the host, in scenes with advice about the communication step.
 //!
@@ -18,6 +17,8 @@
 //! last step of the host's solver.
 
 pub mod accepted;
+mod budget;
+pub mod by_shape;
 mod change;
 mod completed_step;
 pub mod coupling;
@@ -27,11 +28,13 @@ pub mod failure;
 pub mod hints;
 pub mod imposed;
 mod input_ramp;
-mod integration;
+pub mod interval;
 pub mod ledger;
-pub mod progress;
+pub mod moving_inputs;
 mod simulation;
+mod step;
 pub mod watching;
+mod without_solver;
 
 pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};

@@ -77,6 +77,12 @@ def zero_cost(work):
              sections=[("docs/inside/cost.md", "off", "")])
 
 
+@command()
+def trace(work):
+    """Checks through which files a torque passes on its way to a tooth pair, by backtraces of a debug build (needs gdb)."""
+    work.run("crates/lab/python/trace.py", TARGET / "trace", "docs/inside/architecture.md", doing="building without optimisation")
+
+
 def effects():
     """Names of all effects."""
     listed = packaged().with_name("effects.json").read_text(encoding="utf-8")
