@@ -1,6 +1,6 @@
 """Questions to the library of answers: it reads scenes and gears, and calculates what needs no FMU.
 
-Each question is a dict with the key "ask"; the repository has all questions in crates/answers/src/ask."""
+Each question is a dict with the key "ask"; the repository has all questions in crates/answers/src/ask/mod.rs."""
 
 import json
 import os

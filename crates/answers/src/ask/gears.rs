@@ -1,8 +1,10 @@
 //! Questions about gears without a scene.
 
+use std::collections::BTreeMap;
+
 use anyhow::{Result, anyhow};
 use serde::Deserialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::geometry::design::Design;
 use crate::geometry::interference::InterferenceCheck;
@@ -33,7 +35,6 @@ pub struct GeometryQuestion {
     #[serde(default)]
     solids: bool,
     /// Check interference with teeth thicker by this length.
-    #[serde(default)]
     thicken: Option<String>,
 }
 
@@ -49,14 +50,13 @@ impl GeometryQuestion {
         // the reply contains the warnings, and files contain them separately
         let (dimensions, found) = (text::dimensions(&design), check.text());
         progress.warn(&design.warnings);
-        let mut files = Map::new();
-        let mut add = |name: String, content: String| files.insert(name, Value::String(content));
-        add("dimensions.txt".into(), text::text(&design));
-        add("dimensions.json".into(), json::text(&design, Some(&check))?);
-        add("interference.txt".into(), found.clone());
-        for curve in xyz::curves(&design.pair, &design.spec, self.facets + 1) {
-            add(format!("{}.txt", curve.name), curve.text());
-        }
+        let mut files = BTreeMap::from([
+            ("dimensions.txt".to_owned(), text::text(&design)),
+            ("dimensions.json".to_owned(), json::text(&design, Some(&check))?),
+            ("interference.txt".to_owned(), found.clone()),
+        ]);
+        let curves = xyz::curves(&design.pair, &design.spec, self.facets + 1);
+        files.extend(curves.iter().map(|curve| (format!("{}.txt", curve.name), curve.text())));
         let mut answer = json!({"text": format!("{dimensions}\n{found}"), "interference": check.any(), "verdict": check.verdict(), "files": files});
         if self.solids {
             progress.begin_task(1.0, "making solids");

@@ -21,7 +21,6 @@ pub struct Source {
     /// A file, or the name of a scene in the folder `scenes`. With `given`, it is the name that the scene gets.
     name: String,
     /// The contents of a scene file.
-    #[serde(default)]
     given: Option<Box<load::File>>,
     /// Changes, each `name=value`.
     #[serde(default)]

@@ -1,6 +1,5 @@
-//! Questions about texts of users: CSV files, units, and misspelt names.
+//! Questions about texts of users: CSV files and values.
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -8,11 +7,8 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::problem::question_error;
-use crate::scene::display_units::DisplayUnits;
-use crate::scene::set::how_to_find;
-use crate::scene::{units, value};
+use crate::scene::value;
 use crate::text::csv_input;
-use crate::text::near::near;
 
 /// Request to read a CSV file.
 #[derive(Deserialize)]
@@ -20,7 +16,6 @@ use crate::text::near::near;
 pub struct TableQuestion {
     file: PathBuf,
     /// Text of the file as CSV, if the caller has read it.
-    #[serde(default)]
     content: Option<String>,
     /// Name of the file in messages.
     shown: String,
@@ -29,29 +24,12 @@ pub struct TableQuestion {
     texts: Vec<String>,
 }
 
-/// Request about a wrong name.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct NearQuestion {
-    word: String,
-    /// Valid names.
-    known: Vec<String>,
-}
-
-/// Request about display units.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DisplayUnitsQuestion {
-    names: Vec<String>,
-}
-
 /// Request to read a value.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ValueQuestion {
     kind: Kind,
     /// SI unit of a real number; none if it has no unit.
-    #[serde(default)]
     unit: Option<String>,
     /// True for a difference, whose units have no offset.
     #[serde(default)]
@@ -72,20 +50,6 @@ enum Kind {
     Enumeration,
 }
 
-/// Request for the number and the unit in a text.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SplitQuestion {
-    text: String,
-}
-
-/// Request for the units of an SI unit's values.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct UnitsQuestion {
-    unit: String,
-}
-
 impl ValueQuestion {
     pub(super) fn answer(&self) -> Result<Value> {
         let written = match &self.value {
@@ -95,29 +59,12 @@ impl ValueQuestion {
         };
         let choices = || self.literals.iter().map(|(name, number)| (name.as_str(), *number)).collect::<Vec<_>>();
         let read = match self.kind {
-            Kind::Real => {
-                value::real(&written, self.unit.as_deref(), self.is_relative).map(|number| json!({"value": number}))
-            }
-            Kind::Integer => value::whole(&written).map(|number| json!({"value": number})),
-            Kind::Boolean => value::truth(&written).map(|truth| json!({"value": truth})),
-            Kind::Enumeration => value::literal(&written, &choices()).map(|number| json!({"value": number})),
+            Kind::Real => value::real(&written, self.unit.as_deref(), self.is_relative).map(Value::from),
+            Kind::Integer => value::whole(&written).map(Value::from),
+            Kind::Boolean => value::truth(&written).map(Value::from),
+            Kind::Enumeration => value::literal(&written, &choices()).map(Value::from),
         };
-        read.map_err(question_error)
-    }
-}
-
-impl SplitQuestion {
-    pub(super) fn answer(&self) -> Result<Value> {
-        let (number, unit) = units::split(&self.text).map_err(question_error)?;
-        Ok(json!({"number": number, "unit": unit}))
-    }
-}
-
-impl UnitsQuestion {
-    /// Units by name, each with the number of it in one SI unit, and its value for 0 in SI.
-    pub(super) fn answer(&self) -> Value {
-        let others = units::others(&self.unit).map(|shown| (shown.name, [shown.factor, shown.offset]));
-        json!({"units": others.collect::<BTreeMap<_, _>>()})
+        Ok(json!({"value": read.map_err(question_error)?}))
     }
 }
 
@@ -132,19 +79,5 @@ impl TableQuestion {
         let cells = |record: &csv::StringRecord| record.iter().map(str::to_owned).collect::<Vec<_>>();
         let rows: Vec<_> = found.rows.iter().map(|(line, record)| (line, cells(record))).collect();
         Ok(json!({"header": [found.header_line, cells(&found.header)], "rows": rows}))
-    }
-}
-
-impl NearQuestion {
-    /// Returns the most similar names, and a hint on how to find an unknown variable.
-    pub(super) fn answer(&self) -> Value {
-        json!({"near": near(&self.word, self.known.iter().map(String::as_str)), "find": how_to_find(&self.word)})
-    }
-}
-
-impl DisplayUnitsQuestion {
-    pub(super) fn answer(&self) -> Result<Value> {
-        let preferred = DisplayUnits::of(&self.names).map_err(|found| question_error(found.join("\n")))?;
-        Ok(json!({"units": preferred.by_si_unit().collect::<BTreeMap<_, _>>()}))
     }
 }

@@ -75,7 +75,6 @@ pub struct File {
     accept_start_values: Option<Value>,
     #[serde(default)]
     display_units: Vec<String>,
-    #[serde(default)]
     clutch: Option<Table>,
     #[serde(default)]
     set: Table,

@@ -1,8 +1,8 @@
-//! Questions about accuracy: the cheapest sufficient model of a scene, statistics of given series, names of statistics.
+//! Question about the cheapest model of a scene that is accurate enough.
 
 use std::path::PathBuf;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -10,12 +10,9 @@ use super::scenes::changed;
 use super::source::{Source, seconds};
 use crate::accuracy::answer::{Answer, Role, answer};
 use crate::accuracy::fraction::fraction;
-use crate::accuracy::record::Record;
-use crate::accuracy::statistic::{Rotation, Statistic};
 use crate::accuracy::switches::Switch;
 use crate::accuracy::words::difference;
 use crate::accuracy::{Question, chosen, report, table};
-use crate::problem::{Problem, Problems, question_error};
 use crate::progress::Progress;
 use crate::scene::acting::acting;
 use crate::scene::{script, ssv};
@@ -31,55 +28,13 @@ pub struct AccuracyQuestion {
     /// Wanted accuracy, such as "1%" or "0.01".
     within: String,
     /// Time from which outputs count, in seconds or with a unit; the start of the run by default.
-    #[serde(default)]
     from: Option<String>,
     /// Path at which the caller saves the scene file with the chosen setting. Relative paths in that file start from there.
-    #[serde(default)]
     file: Option<PathBuf>,
-}
-
-/// Request for statistics of series over time. The numbers are passed next to the question: all times, then one series
-/// after another.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StatisticsQuestion {
-    /// Number of samples in the times and in each series.
-    points: usize,
-    /// Requested statistics.
-    figures: Vec<FigureQuestion>,
-}
-
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct FigureQuestion {
-    statistic: String,
-    /// Index of the series, from 0.
-    series: usize,
-    /// Index of the series with the angle [rad] by which an order is counted.
-    #[serde(default)]
-    phase: Option<usize>,
 }
 
 /// Reason to leave out quantities that the caller calculates.
 const NOT_EXAMINED: &str = "it is calculated from outputs after a run, and only the accuracy of outputs is examined";
-
-/// Request for the canonical name of a statistic and for the angle by which an order is counted.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct StatisticNameQuestion {
-    statistic: String,
-}
-
-impl StatisticNameQuestion {
-    pub(super) fn answer(&self) -> Result<Value> {
-        let statistic = Statistic::parse(&self.statistic).map_err(question_error)?;
-        let angle = match statistic {
-            Statistic::Order { of, .. } => Some(of.word()),
-            _ => None,
-        };
-        Ok(json!({"word": statistic.to_string(), "angle": angle}))
-    }
-}
 
 impl AccuracyQuestion {
     pub(super) fn answer(&self, progress: &mut Progress) -> Result<Value> {
@@ -144,32 +99,4 @@ fn role_json(answer: &Answer, switch: &Switch, role: &Role) -> Value {
         Role::Refused(why) => ("refused", None, Some(why)),
     };
     json!({"name": switch.name(), "role": word, "by": by, "why": why})
-}
-
-impl StatisticsQuestion {
-    pub(super) fn answer(&self, numbers: &[f64]) -> Result<Value> {
-        let points = self.points.max(1);
-        let series: Vec<Vec<f64>> = numbers.chunks_exact(points).map(<[f64]>::to_vec).collect();
-        if self.points == 0 || numbers.len() != points * series.len() || series.is_empty() {
-            let wanted = "send the times, then each series; each has `points` numbers, at least 1";
-            let message = format!("points = {}: {} numbers do not fit; {wanted}", self.points, numbers.len());
-            return Err(Problems::from(Problem::of("points", self.points.to_string(), message)).into());
-        }
-        let mut record = Record { times: series[0].clone(), values: series[1..].to_vec(), ..Record::default() };
-        let figures = self.figures.iter().map(|figure| {
-            let statistic = Statistic::parse(&figure.statistic).map_err(question_error)?;
-            let values = |i: usize| record.values.get(i).with_context(|| format!("there is no series {i}"));
-            values(figure.series)?;
-            if let Statistic::Order { of, .. } = statistic {
-                let phase = figure.phase.with_context(|| {
-                    format!("{statistic}: an order needs `phase`, the index of the series with its angle")
-                })?;
-                let phase = values(phase)?.clone();
-                record.phases[usize::from(of == Rotation::Shaft)] = phase;
-            }
-            statistic.of(&record, figure.series).map_err(question_error)
-        });
-        let figures: Vec<f64> = figures.collect::<Result<_>>()?;
-        Ok(json!({"figures": figures}))
-    }
 }
