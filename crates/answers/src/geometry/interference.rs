@@ -11,10 +11,10 @@ use bevel_differential::geometry::assembly::phases;
 use bevel_differential::geometry::solid::Part;
 use bevel_differential::geometry::solid::interference::{Approach, FACETS, Interference, POSITIONS, Stance, Verdict};
 use bevel_differential::geometry::{GearSpec, Pair};
+use serde_json::{Value, json};
 
 use super::design::Design;
 use crate::progress::Progress;
-use crate::text::ordered::Ordered;
 use crate::text::table::{labelled, wrapped};
 
 const MM: f64 = 1e3;
@@ -192,48 +192,44 @@ impl InterferenceCheck {
     }
 
     /// Results for programs: lengths in mm, angles in degrees.
-    pub fn report(&self) -> Ordered {
+    pub fn report(&self) -> Value {
         let [middle, driving] = &self.stances;
         let [planets, sides] = middle.between_tips.map(f64::to_degrees);
-        Ordered::Object(vec![
-            ("found", self.any().into()),
-            ("thicken", (self.thicken * MM).into()),
-            ("backlash", (self.spec.backlash * MM).into()),
-            ("middle", self.stance_report(middle)),
-            ("driving", self.stance_report(driving)),
-            ("between_tip_cones_of_neighbouring_planets", planets.into()),
-            ("between_tip_cones_of_side_gears", sides.into()),
-        ])
+        json!({
+            "found": self.any(),
+            "thicken": self.thicken * MM,
+            "backlash": self.spec.backlash * MM,
+            "middle": self.stance_report(middle),
+            "driving": self.stance_report(driving),
+            "between_tip_cones_of_neighbouring_planets": planets,
+            "between_tip_cones_of_side_gears": sides,
+        })
     }
 
-    fn stance_report(&self, found: &Interference) -> Ordered {
+    fn stance_report(&self, found: &Interference) -> Value {
         let near = |a: &&Approach| a.gap * self.pair.outer_cone < NEAR * self.pair.module;
         let verdict = match found.worst().map_or(Verdict::Clear, |worst| found.verdict(worst.gap)) {
             Verdict::Clear => "clear",
             Verdict::Touching => "touching",
             Verdict::Interfering => "interfering",
         };
-        let approaches = found.approaches.iter().filter(near).map(|a| self.approach_report(a));
-        Ordered::Object(vec![
-            ("verdict", verdict.into()),
-            ("resolution", self.heel(found.resolution).into()),
-            ("approaches", Ordered::List(approaches.collect())),
-        ])
+        let approaches: Value = found.approaches.iter().filter(near).map(|a| self.approach_report(a)).collect();
+        json!({"verdict": verdict, "resolution": self.heel(found.resolution), "approaches": approaches})
     }
 
-    fn approach_report(&self, a: &Approach) -> Ordered {
-        Ordered::Object(vec![
-            ("planet", part(a.parts[0]).into()),
-            ("side_gear", part(a.parts[1]).into()),
-            ("at_heel", self.heel(a.gap).into()),
-            ("at_toe", (a.gap * self.pair.inner_cone * MM).into()),
-            ("angle_from_planet_axis", a.polar[0].to_degrees().into()),
-            ("angle_from_side_gear_axis", a.polar[1].to_degrees().into()),
-            ("angle_from_plane_of_axes", a.azimuth.to_degrees().into()),
-            ("planet_turned", a.turn.to_degrees().into()),
-            ("planet_tooth", a.teeth[0].into()),
-            ("side_gear_tooth", a.teeth[1].into()),
-        ])
+    fn approach_report(&self, a: &Approach) -> Value {
+        json!({
+            "planet": part(a.parts[0]),
+            "side_gear": part(a.parts[1]),
+            "at_heel": self.heel(a.gap),
+            "at_toe": a.gap * self.pair.inner_cone * MM,
+            "angle_from_planet_axis": a.polar[0].to_degrees(),
+            "angle_from_side_gear_axis": a.polar[1].to_degrees(),
+            "angle_from_plane_of_axes": a.azimuth.to_degrees(),
+            "planet_turned": a.turn.to_degrees(),
+            "planet_tooth": a.teeth[0],
+            "side_gear_tooth": a.teeth[1],
+        })
     }
 }
 

@@ -4,7 +4,6 @@ pub mod csv_file;
 pub mod csv_input;
 pub mod near;
 pub mod numbers;
-pub mod ordered;
 pub mod table;
 pub mod whole_file;
 pub mod xml;
