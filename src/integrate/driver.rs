@@ -110,7 +110,7 @@ pub struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
 /// A pending step whose end is evaluated.
 pub struct Judged<const N: usize, P> {
     /// State at the end.
-    end: Point<N>,
+    pub end: Point<N>,
     /// Ledger rates at the start, in the middle and at the end.
     ledger_rates: [P; 3],
     /// Imbalance of the ledger as a multiple of the allowed one.

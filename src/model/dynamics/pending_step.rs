@@ -61,7 +61,7 @@ impl PendingStep {
 
     /// Writes the first `n` positions and velocities at the present to `q` and `v`.
     #[inline]
-    pub fn motion(&self, n: usize, [q, v]: [&mut [f64; MAX_DOF]; 2]) {
+    pub fn write_motion(&self, n: usize, [q, v]: [&mut [f64; MAX_DOF]; 2]) {
         let fraction = (self.clock.now - self.clock.time) / self.step.h;
         for (k, to) in [q, v].into_iter().enumerate() {
             if fraction >= 1.0 {

@@ -113,7 +113,7 @@ impl State {
         }
         pending_step.clock.now = now;
         (self.timeline.now, self.timeline.pause) = (until, pauses.then_some(last));
-        pending_step.motion(n, [&mut self.q, &mut self.v]);
+        pending_step.write_motion(n, [&mut self.q, &mut self.v]);
         true
     }
 

@@ -161,26 +161,23 @@ impl HalfShafts {
     /// Torque that the shaft of side `s` delivers to the wheel [N·m], at a twist [rad] and its rate [rad/s].
     #[inline]
     pub fn torque<T: Scalar>(&self, s: usize, [twist, rate]: [T; 2], dogs: &Dogs) -> T {
-        match &self.dogs[s] {
+        match self.dogs[s] {
             None => self.springs[s].force(twist, rate, None),
-            Some(dog) => self.through_dog((s, dog), [twist, rate], dogs),
+            Some(_) => self.link(s, dogs).torque([twist, rate]),
         }
     }
 
-    /// Torque through a dog clutch.
-    #[inline(never)]
-    fn through_dog<T: Scalar>(&self, (s, dog): (usize, &Dog), [twist, rate]: [T; 2], dogs: &Dogs) -> T {
+    /// Link of side `s` between side gear and wheel.
+    fn link(&self, s: usize, dogs: &Dogs) -> Link<'_> {
+        let spring = &self.springs[s];
+        let Some(dog) = &self.dogs[s] else { return Link::Shaft(spring) };
         match dogs.closed[s] {
-            Some(gap) => self.behind(s, dog).torque(twist - gap, rate),
-            None if dogs.commanded[s] => dog.ratcheting(rate),
-            None => T::constant(0.0),
+            Some(gap) => {
+                let Spring { stiffness, damping } = *spring;
+                Link::Closed { spring: LashSpring { stiffness, damping, half_lash: dog.half_lash }, gap }
+            }
+            None => Link::Open { dog, ratchets: dogs.commanded[s] },
         }
-    }
-
-    /// The shaft of side `s` with the lash of its closed dog clutch.
-    fn behind(&self, s: usize, dog: &Dog) -> LashSpring {
-        let Spring { stiffness, damping } = self.springs[s];
-        LashSpring { stiffness, damping, half_lash: dog.half_lash }
     }
 
     /// Power that damping of the shaft of side `s` turns into heat [W], at the `rate` of its twist [rad/s].
@@ -191,10 +188,10 @@ impl HalfShafts {
 
     /// Static twist of the shaft of side `s` [rad] under `torque` [N·m].
     pub fn static_twist(&self, s: usize, torque: f64, dogs: &Dogs) -> f64 {
-        match (&self.dogs[s], dogs.closed[s]) {
-            (None, _) => torque / self.springs[s].stiffness,
-            (Some(dog), Some(gap)) => gap + self.behind(s, dog).displacement(torque),
-            (Some(_), None) => 0.0,
+        match self.link(s, dogs) {
+            Link::Shaft(spring) => torque / spring.stiffness,
+            Link::Closed { spring, gap } => gap + spring.displacement(torque),
+            Link::Open { .. } => 0.0,
         }
     }
 
@@ -208,6 +205,46 @@ impl HalfShafts {
                  inertia.{0}_end above 0, or scene.{0}_drive = speed",
                 SIDES[s]
             )),
+        }
+    }
+}
+
+/// Link between side gear and wheel.
+enum Link<'a> {
+    /// Half-shaft without dog clutch.
+    Shaft(&'a Spring),
+    /// Half-shaft behind a closed dog clutch, whose teeth are in the middle of their `gap` at this twist [rad].
+    Closed { spring: LashSpring, gap: f64 },
+    /// Open dog clutch.
+    Open { dog: &'a Dog, ratchets: bool },
+}
+
+impl Link<'_> {
+    /// Torque on the wheel [N·m].
+    fn torque<T: Scalar>(&self, [twist, rate]: [T; 2]) -> T {
+        match self {
+            Self::Shaft(spring) => spring.force(twist, rate, None),
+            Self::Closed { spring, gap } => spring.torque(twist - *gap, rate),
+            Self::Open { dog, ratchets: true } => dog.ratcheting(rate),
+            Self::Open { .. } => T::constant(0.0),
+        }
+    }
+
+    /// Heat [W], and its index in the ledger; `shaft` is the index of the heat of half-shafts.
+    fn heat(&self, [twist, rate]: [f64; 2], shaft: usize) -> (usize, f64) {
+        match self {
+            Self::Shaft(spring) => (shaft, spring.heat(rate, 0.0)),
+            Self::Closed { spring, gap } => (shaft, spring.heat(twist - gap, rate)),
+            Self::Open { dog, .. } => (dog.heat_index, self.torque([twist, rate]) * rate),
+        }
+    }
+
+    /// Elastic energy [J].
+    fn energy(&self, twist: f64) -> f64 {
+        match self {
+            Self::Shaft(spring) => spring.energy(twist),
+            Self::Closed { spring, gap } => spring.energy(twist - gap),
+            Self::Open { .. } => 0.0,
         }
     }
 }
@@ -231,17 +268,12 @@ impl ShaftsWithDogs {
 impl BodyEffect for ShaftsWithDogs {
     fn act(&self, at: &BodyMotion, out: &mut Action) {
         for s in 0..2 {
-            let [twist, rate] = self.local(s, at);
-            let torque = self.shafts.torque(s, [twist, rate], at.dogs);
+            let (link, motion) = (self.shafts.link(s, at.dogs), self.local(s, at));
+            let torque = link.torque(motion);
             out.force[s] -= torque;
             out.force[self.end[s]] += torque;
-            match (&self.shafts.dogs[s], at.dogs.closed[s]) {
-                (None, _) => out.heat[self.heat_index] += self.shafts.heat(s, rate),
-                (Some(dog), Some(gap)) => {
-                    out.heat[self.heat_index] += self.shafts.behind(s, dog).heat(twist - gap, rate);
-                }
-                (Some(dog), None) => out.heat[dog.heat_index] += torque * rate,
-            }
+            let (index, heat) = link.heat(motion, self.heat_index);
+            out.heat[index] += heat;
         }
     }
 
@@ -260,21 +292,15 @@ impl BodyEffect for ShaftsWithDogs {
 
     fn kink(&self, at: &BodyMotion, h: f64) -> Option<f64> {
         let of = |s: usize| {
-            let ([twist, rate], dog, gap) = (self.local(s, at), self.shafts.dogs[s].as_ref()?, at.dogs.closed[s]?);
-            self.shafts.behind(s, dog).kink(twist - gap, rate, h)
+            let Link::Closed { spring, gap } = self.shafts.link(s, at.dogs) else { return None };
+            let [twist, rate] = self.local(s, at);
+            spring.kink(twist - gap, rate, h)
         };
         (0..2).filter_map(of).reduce(f64::min)
     }
 
     fn energy(&self, at: &BodyMotion) -> f64 {
-        let of = |s: usize| {
-            let [twist, _] = self.local(s, at);
-            match (&self.shafts.dogs[s], at.dogs.closed[s]) {
-                (None, _) => self.shafts.springs[s].energy(twist),
-                (Some(dog), Some(gap)) => self.shafts.behind(s, dog).energy(twist - gap),
-                (Some(_), None) => 0.0,
-            }
-        };
+        let of = |s: usize| self.shafts.link(s, at.dogs).energy(self.local(s, at)[0]);
         of(0) + of(1)
     }
 }

@@ -1,7 +1,10 @@
-//! An interval of the integrator's clock: its start, the trajectory in it, and the arrival at a stop.
+//! An interval of the integrator's clock: its start, the trajectory in it, and the arrival at a
+//! stop. Also completes the pending step, in an interval that ends at the present.
 
-use super::StepFailure;
+use super::budget::budget;
+use super::by_shape::in_shape;
 use super::events::next_change;
+use super::{Simulation, StepFailure};
 use crate::integrate::Trajectory;
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::ledger_rates::LedgerRates;
@@ -31,15 +34,51 @@ pub struct Interval<'a> {
     pub budget: &'a mut u64,
     /// Simulation time at which the clock is zero [s].
     pub begin: f64,
-    /// True if outputs at the target time were already returned to the host. A tooth that bends too far can then no
-    /// longer be rejected.
-    pub is_returned: bool,
+    /// True if the host has already read outputs at the target time. A tooth that bends too far can then no longer be
+    /// rejected, and impacts in the rest of the pending step are not counted.
+    pub was_read: bool,
     /// True if the motion pauses at an event. The clock's `now` becomes the time of the event, and the pending step
     /// starts there.
     pub pauses: bool,
     /// Time on the clock [s] and change of the accelerations [rad/s²], if only torques have changed within the pending
     /// step.
     pub change: Option<(f64, f64)>,
+}
+
+impl Simulation {
+    /// Completes the pending step up to the present, under the inputs that acted in it, and switches the friction that
+    /// is due there. If its ledger does not close, shorter steps replace it, and the motion changes within the tolerance.
+    pub(in crate::model) fn complete_pending(&mut self) {
+        let Self { model, state, memories, .. } = self;
+        let Some(pending_step) = &state.pending_step else { return };
+        let (inputs, mut clock) = (state.inputs.values, pending_step.clock);
+        clock.end = clock.now;
+        let before = *state;
+        state.inputs.derivatives = None;
+        let begin = state.time() - clock.now;
+        let (clock, budget) = (&mut clock, &mut budget(model));
+        let work = Interval {
+            model,
+            state,
+            inputs: &inputs,
+            memories,
+            clock,
+            budget,
+            begin,
+            was_read: true,
+            pauses: false,
+            change: None,
+        };
+        let outcome = in_shape(model, work);
+        if outcome.is_err() || clock.time != clock.now {
+            // no shorter step closes the ledger either: the motion that the host has seen is kept, and the residual of
+            // the ledger shows the missing energy
+            *state = before;
+            state.pending_step = None;
+        }
+        state.inputs.derivatives = before.inputs.derivatives;
+        wrap_and_constrain(model, state);
+    }
 }
 
 /// Clock of the pending step, or a new clock that starts now.

@@ -1,17 +1,30 @@
 //! A step of a simulation, from the inputs of the host to the requested time. In the order of its parts:
 //!
-//! 1. Changed inputs are applied. If only torques change, the integration continues; otherwise, it restarts.
-//! 2. If the pending step already contains the requested time, its dense output gives the motion there.
+//! 1. Changed inputs are applied. Torques that change within a pending step let the integration continue; after any
+//!    other change, it restarts.
+//! 2. If the pending step already contains the requested time, its dense output gives the motion there
+//!    (`without_solver`).
 //! 3. Otherwise, the simulation moves from stop to stop. Stops are the requested time, a change of the equations, and a
 //!    reset of the integrator's clock (`dynamics::timeline`).
-//! 4. The solver evaluates and linearises the equations and tries a step.
-//! 5. It judges the step by its error, by switches in it and by its energy ledger, and shortens it if necessary.
-//! 6. The completed step adds to the ledger, drags sliding friction, and adds to the memories of effects.
-//! 7. Switches change the equations, and the loop continues.
+//! 4. The solver evaluates and linearises the equations and tries a step. If its error is small and no switch is inside,
+//!    the step is *pending*; otherwise, the next attempt is shorter, or ends at the switch (`integrate::driver`).
+//! 5. Before a time beyond it is reached, the pending step is judged by its energy ledger, and replaced by shorter steps
+//!    if the ledger does not close. Outputs that the host has read from it are not revised.
+//! 6. The completed step adds to the ledger and to the memories of effects, such as fatigue damage.
+//! 7. Friction and dog clutches switch, effects use new temperatures, and the loop continues.
 //!
-//! While inputs are constant, the solver's steps do not depend on the times that the host requests. The *pending step*
-//! ends beyond the present. It has passed the test of its error, but is only completed when a time beyond it is
-//! requested, or up to the present when something changes.
+//! While inputs are constant, the solver's steps do not depend on the times that the host requests, because the pending
+//! step ends beyond the present. Times on the integrator's clock, which is zero at the simulation time `begin`:
+//!
+//! ```text
+//!   clock.time            clock.now                 clock.time + h           clock.end
+//!       |------ pending step ------------------------------|                     |
+//!   last completed    the present, or the target                        the equations end
+//! ```
+//!
+//! Inputs exist twice: `Simulation::inputs` are those that the host has set, `State::inputs` those that act. The *anchor*
+//! of dry friction is the position at which its spring is relaxed; it is fixed while a body sticks, and dragged while it
+//! slides. A *shape* is a type of the equations with its number of degrees of freedom.
 
 use super::budget::{self, budget};
 use super::by_shape::{InShape, in_shape, in_shape_of};
@@ -21,7 +34,7 @@ use super::failure::{Cause, ExcessiveDeflection};
 use super::interval::{Interval, LONGEST, RESOLUTION, arrive, clock, resumed, store, wrap_and_constrain};
 use super::moving_inputs::{advance_inputs, inputs_move};
 use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
-use crate::integrate::{self, FixedSteps, Radau, Rodas5P, Solver, SolverContext, Step, Trajectory};
+use crate::integrate::{self, FixedSteps, Point, Radau, Rodas5P, Solver, SolverContext, Step, Trajectory};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::event::AdvanceOptions;
@@ -53,10 +66,10 @@ impl Simulation {
         self.advance_by(until, AdvanceOptions::default())
     }
 
-    /// Integrates to `until` [s], or to the first event if `options.pauses`. If `options.is_part`, `until` precedes the
-    /// next communication point. The next call continues with the same bits as without the stop. An event at the start
-    /// (see [`Self::begin`]) does not pause the motion. Fails if a step cannot be completed; the simulation is then at
-    /// the last good time.
+    /// Integrates to `until` [s], or to the first event if `options.pauses`. Inputs with derivatives and steps of fixed
+    /// size only pause at stops. If `options.is_part`, `until` precedes the next communication point, and the next call
+    /// continues with the same bits as without this call. An event at the start (see [`Self::begin`]) does not pause the
+    /// motion. Fails if a step cannot be completed; the simulation is then at the last good time.
     #[inline]
     pub fn advance_by(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         if self.records_exchange() {
@@ -82,12 +95,13 @@ impl Simulation {
         if matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state)) {
             return self.advance_in_closed_form(until);
         }
-        // 3. move from stop to stop; on failure, try once more from the present
+        // 3. move from stop to stop
         let before = (self.inputs, self.state);
         let checkpoint = self.memories.checkpoint();
         let mut outcome = self.move_to(until, options, acceleration_change);
         if outcome.as_ref().is_err_and(|failure| failure.time < before.1.time()) {
-            // the pending step cannot be completed: restart at the present, from where another step may succeed
+            // only a pending step starts before the present, and it cannot be completed: restart at the present, from
+            // where another step may succeed
             (self.inputs, self.state) = before;
             self.memories.roll_back(checkpoint);
             self.restart();
@@ -103,8 +117,8 @@ impl Simulation {
 
     // ---- 1. take the inputs
 
-    /// Applies changed inputs at the present time, as the next step would at its start. Returns true if this causes an
-    /// event. The next step continues from here, with the same bits as if it had applied the inputs itself.
+    /// Applies changed inputs at the present time, as [`Self::advance_by`] does at its start, unless only torques change.
+    /// Returns true if this causes an event. The next call continues with the same bits as without this call.
     pub fn begin(&mut self) -> bool {
         self.begin_step() == Beginning::Event
     }
@@ -114,7 +128,7 @@ impl Simulation {
         if self.inputs_act() { Beginning::None } else { self.begin_under_inputs() }
     }
 
-    /// True if the inputs already act.
+    /// True if the inputs already act: a pending step was computed with them, or a restart has applied them.
     fn inputs_act(&self) -> bool {
         let State { inputs, timeline, pending_step, .. } = &self.state;
         let has_begun = if pending_step.is_some() { inputs.derivatives.is_none() } else { timeline.pause.is_some() };
@@ -134,10 +148,11 @@ impl Simulation {
 
     /// Restarts the integration at the present, because inputs or something else have changed.
     fn restart(&mut self) {
-        let is_discontinuous = self.state.pending_step.is_some();
+        let interrupts_step = self.state.pending_step.is_some();
         self.complete_pending();
         let Self { model, inputs, state, .. } = self;
-        if is_discontinuous {
+        if interrupts_step {
+            // the next steps are as long as those after the last discontinuity
             state.control.discontinuity(None);
         }
         state.timeline.pause = None;
@@ -145,40 +160,6 @@ impl Simulation {
         apply_changes(model, inputs, state);
         state.timeline.begin_constant_inputs();
         state.inputs.values = *inputs;
-    }
-
-    /// Completes the pending step up to the present, under the inputs that acted in it. Also switches friction that is
-    /// due to switch at the present.
-    pub(in crate::model) fn complete_pending(&mut self) {
-        let Self { model, state, memories, .. } = self;
-        let Some(pending_step) = &state.pending_step else { return };
-        let (inputs, mut clock) = (state.inputs.values, pending_step.clock);
-        clock.end = clock.now;
-        let before = *state;
-        state.inputs.derivatives = None;
-        let begin = state.time() - clock.now;
-        let (clock, budget) = (&mut clock, &mut budget(model));
-        let work = Interval {
-            model,
-            state,
-            inputs: &inputs,
-            memories,
-            clock,
-            budget,
-            begin,
-            is_returned: true,
-            pauses: false,
-            change: None,
-        };
-        let outcome = in_shape(model, work);
-        if outcome.is_err() || clock.time != clock.now {
-            // outputs of this motion were already returned, so it is kept; the residual of the ledger shows the missing
-            // energy
-            *state = before;
-            state.pending_step = None;
-        }
-        state.inputs.derivatives = before.inputs.derivatives;
-        wrap_and_constrain(model, state);
     }
 
     // ---- 3. from stop to stop
@@ -204,20 +185,21 @@ impl Simulation {
             } else {
                 self.step_past_stop(stop, options, acceleration_change.take(), &mut budget)
             };
+            // inputs move to the time that was reached, also if a step has failed
             let Self { model, inputs, state, .. } = self;
             advance_inputs(model, inputs, state, state.time() - begin);
             outcome?;
-            // an event has paused the motion
+            // an event has paused the motion, and `step_past_stop` has stored the pause
             if state.time() < stop.time {
                 return Ok(());
             }
-            // change the equations
+            // change the equations at the stop
             break_tooth(model, inputs, state);
             follow_lock(model, inputs, state);
             let pauses = if state.time() < until {
                 options.pauses && state.events.count() != events
             } else {
-                // no step is pending, so the next part starts a new clock, and the pause is stored at its time 0
+                // without a pending step, the next part starts a new clock, on which the pause is at time 0
                 options.is_part && state.pending_step.is_none()
             };
             if pauses {
@@ -269,7 +251,7 @@ impl Simulation {
             let Self { model, state, .. } = self;
             let mut reached = clock.time;
             if let Some(pending_step) = &state.pending_step {
-                pending_step.motion(model.layout.count(), [&mut state.q, &mut state.v]);
+                pending_step.write_motion(model.layout.count(), [&mut state.q, &mut state.v]);
                 reached = clock.now.min(pending_step.end());
             }
             wrap_and_constrain(model, state);
@@ -278,7 +260,7 @@ impl Simulation {
                 (state.timeline.pause, state.timeline.now) = (Some(last), begin + clock.now);
                 return Ok(());
             }
-            // the pending step contains the stop, the equations change there, or a step has failed
+            // a step has failed, the pending step contains the stop, or the equations change there
             if outcome.is_err() || state.pending_step.is_some() || clock.time >= clock.end {
                 let arrived = arrive(state, stop, begin + reached, outcome);
                 if options.is_part && state.pending_step.is_some() {
@@ -294,15 +276,15 @@ impl Simulation {
         }
     }
 
-    /// Integrates up to the stop, or up to the next reset of the clock. Planets that move identically are integrated as
-    /// one group.
+    /// Integrates up to the target on the `clock`, an event that pauses, or the next reset of the clock. Planets that move
+    /// identically are integrated as one group.
     fn integrate_interval(
         &mut self,
         (clock, begin, pauses, change): (&mut Clock, f64, bool, Option<(f64, f64)>),
         budget: &mut u64,
     ) -> Result<(), StepFailure> {
         let Self { model, state, inputs, memories, .. } = self;
-        let merged = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout));
+        let grouped = model.merged.as_deref().filter(|teeth| state.planets_move_alike(teeth, &model.layout));
         let work = Interval {
             model,
             state: &mut *state,
@@ -311,11 +293,11 @@ impl Simulation {
             clock,
             budget,
             begin,
-            is_returned: false,
+            was_read: false,
             pauses,
             change,
         };
-        let Some(teeth) = merged else { return in_shape(model, work) };
+        let Some(teeth) = grouped else { return in_shape(model, work) };
         let outcome = in_shape_of(teeth, model, work);
         state.let_others_follow(&model.layout);
         outcome
@@ -335,18 +317,18 @@ impl InShape for Interval<'_> {
         self,
         equations: &mut E,
     ) -> Result<(), StepFailure> {
-        let Self { model, state, inputs, memories, clock, budget, begin, is_returned, pauses, change } = self;
+        let Self { model, state, inputs, memories, clock, budget, begin, was_read, pauses, change } = self;
         let before = state.statistics;
         let mut trajectory = resumed(state, clock);
         if let Some((time, acceleration_change)) = change {
-            // from now on, accelerations contain the new torques
+            // the equations contain the new torques; `change` takes them back for the part of the step before the change
             equations.applied_mut().change = inputs.torques_since(&state.inputs.values);
             if !trajectory.change_at(time, acceleration_change) {
                 // no part of the pending step precedes the change
                 state.control.discontinuity(Some(acceleration_change));
             }
         }
-        // a clock that runs to the end of the equations is not reset, because that end is near
+        // no reset if the target is the end of the equations, which is at most one and a half intervals away
         let reset_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
         let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
         if depends_on_temperature {
@@ -359,7 +341,7 @@ impl InShape for Interval<'_> {
             let mut recorder = Recorder {
                 model,
                 sums: LedgerSums { begin, work, heat, thermal, torque_means, memories: Some(memories) },
-                rattle: (!is_returned).then_some(rattle),
+                rattle: (!was_read).then_some(rattle),
                 anchors: &mut anchors,
                 depends_on_temperature,
                 reset_at,
@@ -372,8 +354,8 @@ impl InShape for Interval<'_> {
             let switches = recorder.switches;
             // 7. change the equations: effects use new temperatures, friction and dog clutches switch
             equations.applied_mut().set_anchors(&anchors);
-            let is_warmer = depends_on_temperature && state.thermal.is_update_due();
-            if is_warmer {
+            let temperatures_change = depends_on_temperature && state.thermal.is_update_due();
+            if temperatures_change {
                 state.thermal.use_temperatures();
                 equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
                 trajectory.longest = LONGEST.min(state.thermal.longest);
@@ -381,11 +363,13 @@ impl InShape for Interval<'_> {
             if switches {
                 let is_event = switch(equations, state, &trajectory.point, (begin, trajectory.time));
                 if is_event && pauses && trajectory.time < clock.now {
-                    clock.now = trajectory.time;
+                    // the next step that becomes pending starts at the event; if shorter steps have replaced a pending
+                    // step, they may find an event before the present, at which the host cannot pause any more
+                    clock.now = trajectory.time.max(state.time() - begin);
                 }
             }
             let is_over = trajectory.time >= reset_at || trajectory.end - trajectory.time <= RESOLUTION;
-            continues = (switches || is_warmer) && !is_over;
+            continues = (switches || temperatures_change) && !is_over;
         }
         state.inputs.values = *inputs;
         state.friction = equations.applied().friction_state;
@@ -398,7 +382,7 @@ impl InShape for Interval<'_> {
 struct Recorder<'a> {
     model: &'a Model,
     sums: LedgerSums<'a>,
-    /// Counts of impacts between flanks; `None` if outputs at the end were already returned.
+    /// Counts of impacts between flanks; `None` if the host has already read outputs at the end.
     rattle: Option<&'a mut Rattle>,
     /// Anchors of the springs of dry friction.
     anchors: &'a mut [f64; PAIRS],
@@ -446,6 +430,7 @@ impl Recorder<'_> {
                 solver.attempt(trajectory)?;
                 continue;
             };
+            // the pending step contains the requested time, unless this time is the end of the equations
             let part = trajectory.accepted_part(pending);
             if part.reached + resolution >= until && !(part.is_last && is_end_requested) {
                 return Ok(());
@@ -457,8 +442,9 @@ impl Recorder<'_> {
                 continue;
             }
             // 6. complete it
+            self.check_deflection(equations, &judged.end)?;
             let step = solver.complete(trajectory, &part, judged);
-            if self.record(equations, &step)? || part.is_last {
+            if self.record(equations, &step) || part.is_last {
                 return Ok(());
             }
         }
@@ -473,29 +459,45 @@ impl Recorder<'_> {
     ) -> Result<(), Cause> {
         let size = self.model.parameters.solver.fixed_step;
         let mut steps = FixedSteps::new(equations, point, [*time, *end], size, statistics);
-        while let Some(step) = steps.next(point, time, (statistics, budget))? {
-            if self.record(equations, &step)? {
-                break;
+        loop {
+            let before = (*point, *time);
+            let Some(step) = steps.next(point, time, (statistics, budget))? else { return Ok(()) };
+            if let Err(tooth) = self.check_deflection(equations, step.end) {
+                (*point, *time) = before;
+                return Err(tooth.into());
             }
+            if self.record(equations, &step) {
+                return Ok(());
+            }
+        }
+    }
+
+    /// Counts impacts at the `end` of a step. Fails if a tooth bends too far there.
+    #[inline(always)]
+    fn check_deflection<const N: usize, E: LedgerEquations<N> + ?Sized>(
+        &mut self,
+        equations: &E,
+        end: &Point<N>,
+    ) -> Result<(), ExcessiveDeflection> {
+        if let Some(rattle) = &mut self.rattle {
+            rattle.add_step(equations.check_deflection(end)?);
         }
         Ok(())
     }
 
     /// Adds a completed step to the ledger and to the memories of effects, and lets sliding friction drag its anchors.
-    /// Returns true if the equations change at its end, or if the clock must be reset. Fails if a tooth bends too far.
+    /// Returns true if the equations change at its end, or if the clock must be reset.
     #[inline(always)]
     fn record<const N: usize, E: LedgerEquations<N> + ?Sized>(
         &mut self,
         equations: &E,
         step: &Step<N, LedgerRates>,
-    ) -> Result<bool, ExcessiveDeflection> {
-        if let Some(rattle) = &mut self.rattle {
-            rattle.add_step(equations.check_deflection(step.end)?);
-        }
+    ) -> bool {
+        let [.., at_end] = &step.ledger_rates;
         equations.record(self.model, step, &mut self.sums);
-        equations.drag_anchors(step.end, &step.ledger_rates[2], self.anchors);
+        equations.drag_anchors(step.end, at_end, self.anchors);
         self.switches = equations.is_switch_due(step.end, step.time);
-        let is_warmer = self.depends_on_temperature && self.sums.thermal.is_update_due();
-        Ok(self.switches || is_warmer || step.time >= self.reset_at)
+        let temperatures_change = self.depends_on_temperature && self.sums.thermal.is_update_due();
+        self.switches || temperatures_change || step.time >= self.reset_at
     }
 }
