@@ -43,7 +43,7 @@ fn bits() {
             simulation.advance(f64::from(k) * 1e-3).unwrap();
         }
         let (state, forces) = (*simulation.state(), *simulation.forces());
-        let bits: Vec<u64> = state.q.iter().chain(&state.v).chain(&state.heat).map(|x| x.to_bits()).collect();
+        let bits: Vec<u64> = state.q.iter().chain(&state.v).chain(&state.sums.heat).map(|x| x.to_bits()).collect();
         println!("bits of {name}: {bits:x?} {:x} {:?}", forces.carrier_torque.to_bits(), state.statistics);
     }
 }

@@ -15,7 +15,7 @@ use crate::variables::{Access, Range, check_ranges, check_value, fnv1a, guid, ta
 
 const MAGIC: [u8; 8] = *b"BEVELDIF";
 /// Format version, incremented whenever the payload changes in meaning or layout.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 const HEADER: usize = MAGIC.len() + size_of::<u32>() + 2 * size_of::<u64>();
 
 /// Data of an instance that change. Cloning copies the state and shares the constants.

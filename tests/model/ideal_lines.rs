@@ -133,7 +133,7 @@ fn the_work_of_all_inputs_is_the_gain_of_kinetic_energy() {
         }
         let gained = kinetic_energy(&s) - before;
         assert!(gained.abs() > 100.0, "{gained} J: the scene moves");
-        assert_near(s.state().work, gained, kinetic_energy(&s));
+        assert_near(s.state().sums.work, gained, kinetic_energy(&s));
     }
 }
 
@@ -160,7 +160,7 @@ fn the_work_of_torques_is_the_integral_of_their_power() {
             weight * power(H * f64::from(k) / f64::from(n))
         })
         .sum();
-    assert_near(s.state().work, sum * H / f64::from(3 * n), 1e4);
+    assert_near(s.state().sums.work, sum * H / f64::from(3 * n), 1e4);
 }
 
 #[test]
@@ -188,7 +188,7 @@ fn the_mirror_image_has_the_same_bits_with_opposite_signs() {
             s.advance(t).unwrap();
             mirrored.advance(t).unwrap();
             assert_eq!(motion(&s), motion(&mirrored).map(|x| x.map(|x| -x)));
-            assert_eq!(s.state().work, mirrored.state().work);
+            assert_eq!(s.state().sums.work, mirrored.state().sums.work);
         }
     }
 }

@@ -53,12 +53,12 @@ impl InputsAndFriction {
     /// Adds the contribution of effects on bodies at `state`: dry friction, if there may be any, and the viscosity of
     /// the oil.
     pub fn add(&mut self, body_effects: &BodyEffects, state: &State) {
-        self.oil_viscosity = body_effects.oil_viscosity(&state.thermal.used);
+        self.oil_viscosity = body_effects.oil_viscosity(&state.sums.thermal.used);
         if let Some(actuated) = &state.inputs.actuated {
             self.actuate(body_effects, actuated, state);
         }
         if body_effects.may_have_dry_friction(state) {
-            let friction = self.friction_at(body_effects, (state.lock, &state.thermal.used));
+            let friction = self.friction_at(body_effects, (state.lock, &state.sums.thermal.used));
             self.has_dry_friction = friction.is_any();
             self.friction = Some(friction);
         }

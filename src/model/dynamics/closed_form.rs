@@ -16,7 +16,7 @@ impl Ideal {
         let (carrier, spin) = (turn(v[CARRIER], m.carrier), turn(v[PLANET], m.spin));
         let relative = self.turn(state, carrier, spin);
         let [left, right] = inputs.load_torque;
-        state.work += m.carrier_torque * carrier + m.spin_torque * spin
+        state.sums.work += m.carrier_torque * carrier + m.spin_torque * spin
             - left * (carrier + relative)
             - right * (carrier - relative);
         state.v[CARRIER] += h * m.carrier;
@@ -32,7 +32,7 @@ impl Ideal {
         let spin = SpeedCubic { speed: state.v[PLANET], acceleration: motions.each_ref().map(|m| m.spin) };
         let (by_carrier, by_spin) = (carrier.moments(h), spin.moments(h));
         for (k, m) in motions.iter().enumerate() {
-            state.work += m.net[0] * by_carrier[k] + m.net[1] * by_spin[k];
+            state.sums.work += m.net[0] * by_carrier[k] + m.net[1] * by_spin[k];
         }
         self.turn(state, by_carrier[0], by_spin[0]);
         (state.v[CARRIER], state.v[PLANET]) = (carrier.speed_at(h), spin.speed_at(h));

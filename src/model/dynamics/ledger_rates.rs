@@ -73,15 +73,6 @@ pub fn simpson<const N: usize>(step: &Step<N, LedgerRates>, of: impl Fn(&LedgerR
     step.h / 6.0 * (of(a) + 4.0 * of(m) + of(b))
 }
 
-/// Adds work and heat of a step to the ledger. Without `all`, only contact produces heat.
-#[inline]
-pub fn add_to_ledger<const N: usize>(step: &Step<N, LedgerRates>, work: &mut f64, heat: &mut [f64; HEATS], all: bool) {
-    *work += simpson(step, |p| p.input);
-    for i in 0..if all { HEATS } else { CONTACT_HEAT + 1 } {
-        heat[i] += simpson(step, |p| p.heat[i]);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

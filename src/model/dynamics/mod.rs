@@ -10,7 +10,8 @@
 //!   ideal gears without effects, in closed form;
 //! - `ledger_rates`, `energy_floor`: powers that are computed with the forces, and the energy that a step does not
 //!   resolve;
-//! - `state`, `acting_inputs`, `timeline`, `pending_step`, `shaft_means`, `event`, `rattle`: results of the steps.
+//! - `state`, `acting_inputs`, `timeline`, `pending_step`, `sums`, `shaft_means`, `event`, `rattle`: results of
+//!   the steps.
 
 pub mod acting_inputs;
 pub mod actuated;
@@ -44,6 +45,7 @@ pub mod rattle;
 pub mod shaft_means;
 pub mod shape;
 pub mod state;
+pub mod sums;
 pub mod timeline;
 
 pub use actuated::{Actuated, Actuators};
@@ -54,6 +56,7 @@ pub use inputs_and_friction::{FrictionEquations, Jacobian};
 pub use pinion_loss::PinionLoss;
 pub use shape::MAX_SIZE;
 pub use state::State;
+pub use sums::Sums;
 pub use timeline::{Clock, CommunicationPoint, Stop};
 
 /// Evaluates an expression with the equations of any model bound to `$equations`. `N` is their maximum number of

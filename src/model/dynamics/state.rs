@@ -7,14 +7,12 @@ use super::acting_inputs::ActingInputs;
 use super::event::Events;
 use super::pending_step::PendingStep;
 use super::rattle::Rattle;
-use super::shaft_means::TorqueMeans;
+use super::sums::Sums;
 use super::timeline::Timeline;
 use crate::integrate::{Control, Point, Statistics};
 use crate::model::assembly::{BodyEffects, Teeth};
 use crate::model::effect_kinds::FrictionState;
-use crate::model::scene::{Dogs, Inputs, Layout, MAX_DOF, OilSpec, PAIRS, PLANET, RubbingPair};
-use crate::model::setup::HEATS;
-use crate::model::thermal::Thermal;
+use crate::model::scene::{Dogs, Inputs, Layout, MAX_DOF, PAIRS, PLANET, RubbingPair};
 use crate::numeric::Finite;
 
 /// Number of periods above which a double no longer resolves a single period.
@@ -37,16 +35,10 @@ pub struct State {
     pub statistics: Statistics,
     /// Impacts of flanks, and the steps spent on them.
     pub rattle: Rattle,
-    /// Work of all inputs since the start [J].
-    pub work: f64,
-    /// Heat since the start by cause [J].
-    pub heat: [f64; HEATS],
-    /// Temperatures.
-    pub thermal: Thermal,
+    /// Sums to which completed steps add.
+    pub sums: Sums,
     /// State of the dry friction, by the number of the pair.
     pub friction: [FrictionState; PAIRS],
-    /// Means of the shaft torques over whole mesh cycles, for the torque bias.
-    pub torque_means: TorqueMeans,
     /// True if the tooth of the tooth fault is broken.
     pub is_tooth_broken: bool,
     /// Lock command that acted in the last step, from 0 to 1.
@@ -75,11 +67,8 @@ impl State {
             control: Control::new(first_step),
             statistics: Statistics::default(),
             rattle: Rattle::default(),
-            work: 0.0,
-            heat: [0.0; HEATS],
-            thermal: Thermal::uniform(OilSpec::default().temperature),
+            sums: Sums::default(),
             friction: [FrictionState::default(); PAIRS],
-            torque_means: TorqueMeans::default(),
             is_tooth_broken: false,
             lock: 0.0,
             dogs: Dogs::default(),
@@ -183,7 +172,7 @@ impl State {
     pub fn is_motion_finite(&self) -> bool {
         // a sum is not finite if a term is not
         let sum = |x: &[f64]| x.iter().sum::<f64>();
-        (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.work).is_finite()
+        (sum(&self.q[..PLANET + 1]) + sum(&self.v[..PLANET + 1]) + self.sums.work).is_finite()
     }
 
     /// True if a simulation can continue from this state: all numbers, including those of the pending step, are finite
@@ -208,11 +197,8 @@ impl State {
             control,
             statistics: _,
             rattle: _,
-            work,
-            heat,
-            thermal,
+            sums,
             friction,
-            torque_means,
             is_tooth_broken: _,
             lock,
             dogs,
@@ -222,13 +208,11 @@ impl State {
             events: _,
         } = self;
         timeline.is_valid()
-            && [*work, *energy_at_start].is_finite()
+            && sums.is_valid()
+            && Finite::is_finite(energy_at_start)
             && [q, v].into_iter().all(Finite::is_finite)
-            && heat.is_finite()
-            && thermal.is_valid()
             && friction.is_finite()
             && friction.iter().all(|body| body.stiffness >= 0.0)
-            && torque_means.is_finite()
             && dogs.is_finite()
             && inputs.derivatives.is_finite()
             && inputs.actuated.is_finite()
@@ -283,8 +267,8 @@ mod tests {
             states[0].friction[2].stiffness = bad;
             states[1].friction[2].stiffness = -1.0;
             states[2].friction[0].anchor = bad;
-            states[3].torque_means.sum[1] = bad;
-            states[4].torque_means.last = Some(([0.0, bad], 1.0));
+            states[3].sums.torque_means.sum[1] = bad;
+            states[4].sums.torque_means.last = Some(([0.0, bad], 1.0));
             assert!(states.iter().all(|state| !state.is_valid()), "{bad}");
         }
     }

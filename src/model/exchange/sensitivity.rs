@@ -207,7 +207,7 @@ impl Simulation {
         let around = network.around.changed(changes);
         let is_limited = around.sump != network.around.commanded(changes).sump;
         let sump = if is_limited { 0.0 } else { self.input_derivatives().map_or(0.0, |of| of.rates[0].sump_change) };
-        network.rates(&self.state.thermal, heat, self.state.v[CARRIER].abs(), (around, sump))
+        network.rates(&self.state.sums.thermal, heat, self.state.v[CARRIER].abs(), (around, sump))
     }
 
     /// Moves `displaced` to the point at `factor` times `direction`.
@@ -227,7 +227,7 @@ impl Simulation {
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
         for (to, (from, change)) in
-            state.thermal.rises.iter_mut().zip(from.thermal.rises.iter().zip(&direction.temperatures))
+            state.sums.thermal.rises.iter_mut().zip(from.sums.thermal.rises.iter().zip(&direction.temperatures))
         {
             *to = from + factor * change;
         }

@@ -13,7 +13,7 @@ use crate::model::run::events::{
     next_change, record_holds,
 };
 use crate::model::run::moving_inputs::acting_inputs;
-use crate::model::run::{Accepted, LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
+use crate::model::run::{Accepted, LedgerEquations, Simulation, StepFailure, imposed};
 use crate::model::scene::{InputDerivatives, Inputs, MAX_DOF};
 
 /// Result of an event in model exchange.
@@ -75,7 +75,7 @@ impl Simulation {
         self.set_states(states);
         if let (Some(before), Some(mut from)) = (before, self.accepted) {
             from.q = self.state.q;
-            self.state.work += stored(self, &from) - before;
+            self.state.sums.work += stored(self, &from) - before;
             self.accepted = Some(from);
         }
         Ok(())
@@ -100,7 +100,7 @@ impl Simulation {
             let before = energy(model, inputs, &begin);
             imposed::set(model, inputs, &mut begin);
             // the energy of a jump of imposed speeds is impulsive work of the input
-            state.work += energy(model, inputs, &begin) - before;
+            state.sums.work += energy(model, inputs, &begin) - before;
             let outcome = with_equations!(model, state, inputs, |equations| {
                 let (start, end): (Point<N>, Point<N>) = (begin.point(), state.point());
                 let before = acting_inputs(model, &state.inputs.values, &begin);
@@ -109,20 +109,11 @@ impl Simulation {
                 // the motion in between is unknown: for stiff teeth, no curve through both ends describes it
                 let ledger_rates = [first, first.mean(&last), last];
                 let step = Step { h, time: h, start: &start, end: &end, ledger_rates, dense_output: None };
-                let State { work, heat, thermal, torque_means, .. } = state;
                 let outcome = equations.check_deflection(&end).map(drop);
                 if outcome.is_ok() {
-                    let sums = &mut LedgerSums {
-                        begin: from.time,
-                        work,
-                        heat,
-                        thermal,
-                        torque_means,
-                        memories: Some(memories),
-                    };
-                    equations.record(model, &step, sums);
-                    if sums.thermal.is_update_due() {
-                        sums.thermal.use_temperatures();
+                    equations.record(model, &step, (from.time, &mut state.sums, Some(memories)));
+                    if state.sums.thermal.is_update_due() {
+                        state.sums.thermal.use_temperatures();
                     }
                 }
                 let mut anchors = equations.applied().anchors();
@@ -178,12 +169,12 @@ impl Simulation {
         imposed::follow_impulse(model, &followed, inputs, state);
         imposed::set(model, inputs, state);
         // the energy of a jump of imposed speeds is impulsive work of the input
-        state.work += energy(model, inputs, state) - energy(model, inputs, &before);
+        state.sums.work += energy(model, inputs, state) - energy(model, inputs, &before);
         apply_changes(model, inputs, state);
         let friction = state.friction;
         with_equations!(model, state, inputs, |equations| {
             if equations.is_friction_due(&state.point(), 0.0) {
-                equations.settle_friction(&state.point(), 0.0, false, &mut state.heat);
+                equations.settle_friction(&state.point(), 0.0, false, &mut state.sums.heat);
                 state.friction = equations.applied().friction_state;
             }
         });

@@ -171,7 +171,7 @@ fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat
     out.power_fed = drives.iter().map(|power| power.max(0.0)).sum::<f64>()
         + wheels.iter().map(|power| (-power).max(0.0)).sum::<f64>();
     out.power_loss = heat;
-    let torque = state.torque_means.mean().filter(|_| plan.layout().has_ends()).unwrap_or(out.shaft_torque);
+    let torque = state.sums.torque_means.mean().filter(|_| plan.layout().has_ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
 }
 
@@ -189,7 +189,7 @@ fn read_effects(
     (held, clutches): (f64, [f64; 2]),
 ) {
     let (p, plan, layout) = (&model.parameters, &model.ideal.plan, &model.layout);
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.sums.thermal.used);
     let (State { q, v, dogs, .. }, input_rates) = (state, &Inputs::ZERO);
     let motion = BodyMotion { q, v, layout, inputs, input_rates, dogs, oil_viscosity };
     let (ratio, effects) = (plan.drive_ratio.unwrap_or(1.0), &model.body_effects().forces);
@@ -209,7 +209,7 @@ fn read_effects(
     scene_effects::read(&p.effects, &p.specs, &at, &mut out.readings);
     // without a computed flash temperature, flanks are as warm as their gears
     let strength = &mut out.readings[const { indices_of("strength", Changes::Always) }];
-    strength[CONTACT_TEMPERATURE] = state.thermal.temperatures()[GEARS];
+    strength[CONTACT_TEMPERATURE] = state.sums.thermal.temperatures()[GEARS];
 }
 
 /// Raises the readings of p·v to the largest value over each effect's surfaces. It is `inline(never)` to keep stack
@@ -311,7 +311,7 @@ fn read_stresses(out: &mut Forces, (model, strength): (&Model, &GearStrength), e
     }
     let readings = &mut out.readings[const { indices_of("strength", Changes::Always) }];
     strength.read_stresses(stress[..groups].iter().flatten().copied(), readings);
-    strength.read_flash(flash, &state.thermal.temperatures(), readings);
+    strength.read_flash(flash, &state.sums.thermal.temperatures(), readings);
 }
 
 /// Accelerations and torques at an instant, from one evaluation.

@@ -1,7 +1,6 @@
 //! The ledger, and statistics of the solver.
 
-use super::present::PresentSums;
-use crate::model::dynamics::State;
+use crate::model::dynamics::{State, Sums};
 use crate::model::outputs::LedgerReadings;
 use crate::model::run::Simulation;
 use crate::model::run::events::energy;
@@ -22,8 +21,8 @@ impl Simulation {
         self.read_present(Self::ledger_of)
     }
 
-    /// Ledger with the `sums` at the present.
-    fn ledger_of(&self, sums: &PresentSums) -> LedgerReadings {
+    /// Ledger with the sums and the energy at the present.
+    fn ledger_of(&self, (sums, energy): (Sums, Option<f64>)) -> LedgerReadings {
         let s = &self.state.statistics;
         let mut readings = [0.0; STEP_READINGS];
         self.read_damage_and_history(&mut readings);
@@ -35,7 +34,7 @@ impl Simulation {
             let friction = self.state.friction[kind.numbers()].iter();
             friction.filter(|friction| friction.holds()).count() as f64
         };
-        let energy = sums.energy.unwrap_or_else(|| self.energy(&self.state));
+        let energy = energy.unwrap_or_else(|| self.energy(&self.state));
         LedgerReadings {
             heat: sums.heat,
             readings,

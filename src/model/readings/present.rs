@@ -3,32 +3,14 @@
 
 use crate::integrate::{Rodas5P, Solver, SolverContext};
 use crate::model::assembly::Model;
-use crate::model::dynamics::State;
-use crate::model::dynamics::shaft_means::TorqueMeans;
 use crate::model::dynamics::shape::Shape;
+use crate::model::dynamics::{State, Sums};
 use crate::model::effects::Memories;
 use crate::model::run::by_shape::{InShape, in_shape};
 use crate::model::run::events::{has_commanded, with_commanded};
 use crate::model::run::interval::resumed;
-use crate::model::run::{LedgerEquations, LedgerSums, Simulation, imposed};
+use crate::model::run::{LedgerEquations, Simulation, imposed};
 use crate::model::scene::Inputs;
-use crate::model::setup::HEATS;
-use crate::model::thermal::Thermal;
-
-/// Sums of the ledger and of effects at the present.
-#[derive(Clone, Copy)]
-pub(in crate::model) struct PresentSums {
-    /// Work of all inputs [J].
-    pub work: f64,
-    /// Heat by cause [J].
-    pub heat: [f64; HEATS],
-    /// Temperatures.
-    pub thermal: Thermal,
-    /// Means of the shaft torques over mesh cycles.
-    pub torque_means: TorqueMeans,
-    /// Kinetic and stored energy [J]; `None` if the state is the end of a completed step.
-    pub energy: Option<f64>,
-}
 
 /// Reads the sums at the present from the dense output of the pending step.
 struct Reader<'a> {
@@ -37,41 +19,35 @@ struct Reader<'a> {
     memories: Option<&'a mut Memories>,
 }
 
-impl PresentSums {
-    /// Sums of `state`. Also adds the step up to the present to the `memories`.
-    fn new(model: &Model, state: &State, memories: Option<&mut Memories>) -> Self {
-        if state.pending_step.is_none() {
-            return Self::at_completed(state);
-        }
-        // derivatives that are set now belong to the next step
-        let constant = state.inputs.derivatives.is_some().then(|| {
-            let mut constant = *state;
-            constant.inputs.derivatives = None;
-            constant
-        });
-        in_shape(model, Reader { model, state: constant.as_ref().unwrap_or(state), memories })
+/// Sums at the present, and kinetic and stored energy [J]; no energy if the state is the end of a completed step. Also
+/// adds the step up to the present to the `memories`.
+fn present_sums(model: &Model, state: &State, memories: Option<&mut Memories>) -> (Sums, Option<f64>) {
+    if state.pending_step.is_none() {
+        return (state.sums, None);
     }
-
-    /// Sums at the end of the last completed step.
-    fn at_completed(&State { work, heat, thermal, torque_means, .. }: &State) -> Self {
-        Self { work, heat, thermal, torque_means, energy: None }
-    }
+    // derivatives that are set now belong to the next step
+    let constant = state.inputs.derivatives.is_some().then(|| {
+        let mut constant = *state;
+        constant.inputs.derivatives = None;
+        constant
+    });
+    in_shape(model, Reader { model, state: constant.as_ref().unwrap_or(state), memories })
 }
 
 impl InShape for Reader<'_> {
-    type Output = PresentSums;
+    type Output = (Sums, Option<f64>);
 
     fn inputs_and_state(&self) -> (&Inputs, &State) {
         (&self.state.inputs.values, self.state)
     }
 
-    fn run<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(self, equations: &mut E) -> PresentSums {
+    fn run<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(self, equations: &mut E) -> Self::Output {
         let Self { model, state, memories } = self;
-        let mut sums = PresentSums::at_completed(state);
-        let Some(mut clock) = state.pending_step.as_ref().map(|step| step.clock) else { return sums };
+        let mut sums = state.sums;
+        let Some(mut clock) = state.pending_step.as_ref().map(|step| step.clock) else { return (sums, None) };
         clock.end = clock.now;
         let mut trajectory = resumed::<N>(state, &clock);
-        let Some(pending) = &trajectory.pending else { return sums };
+        let Some(pending) = &trajectory.pending else { return (sums, None) };
         // the step up to the present, as if it were completed
         let (mut control, mut statistics) = (state.control, state.statistics);
         let tolerance = model.parameters.solver.relative_tolerance;
@@ -80,14 +56,11 @@ impl InShape for Reader<'_> {
         let part = trajectory.accepted_part(pending);
         let judged = solver.judge(&trajectory, pending, &part);
         let step = solver.complete(&mut trajectory, &part, judged);
-        let PresentSums { work, heat, thermal, torque_means, .. } = &mut sums;
-        let begin = state.time() - clock.now;
-        equations.record(model, &step, &mut LedgerSums { begin, work, heat, thermal, torque_means, memories });
+        equations.record(model, &step, (state.time() - clock.now, &mut sums, memories));
         let mut anchors = equations.applied().anchors();
         equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
         equations.applied_mut().set_anchors(&anchors);
-        sums.energy = Some(equations.energy(&trajectory.point).iter().sum());
-        sums
+        (sums, Some(equations.energy(&trajectory.point).iter().sum()))
     }
 }
 
@@ -136,19 +109,19 @@ impl Simulation {
     pub fn shown(&self) -> Option<Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
-            let sums = PresentSums::new(&self.model, &self.state, None);
-            let state = &mut shown.get_or_insert_with(|| self.clone()).state;
-            state.torque_means = sums.torque_means;
-            state.thermal.rises = sums.thermal.rises;
+            let (present, _) = present_sums(&self.model, &self.state, None);
+            let Sums { torque_means, thermal, .. } = &mut shown.get_or_insert_with(|| self.clone()).state.sums;
+            *torque_means = present.torque_means;
+            thermal.rises = present.thermal.rises;
         }
         shown
     }
 
-    /// Reads sums and memories at the present. The simulation itself is unchanged.
-    pub(in crate::model) fn read_present<T>(&mut self, read: impl FnOnce(&Self, &PresentSums) -> T) -> T {
+    /// Reads sums, energy (if it is known, [J]) and memories at the present. The simulation itself is unchanged.
+    pub(in crate::model) fn read_present<T>(&mut self, read: impl FnOnce(&Self, (Sums, Option<f64>)) -> T) -> T {
         let checkpoint = self.memories.checkpoint();
-        let sums = PresentSums::new(&self.model, &self.state, Some(&mut self.memories));
-        let found = read(self, &sums);
+        let sums = present_sums(&self.model, &self.state, Some(&mut self.memories));
+        let found = read(self, sums);
         self.memories.roll_back(checkpoint);
         found
     }

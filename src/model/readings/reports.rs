@@ -275,7 +275,7 @@ impl Simulation {
         let residual = self.ledger().energy_residual;
         let stored = self.energy(&self.state).abs();
         let passed = self.forces().power_in.abs() * size * steps as f64;
-        let scale = stored + passed + self.state.heat.iter().sum::<f64>();
+        let scale = stored + passed + self.state.sums.heat.iter().sum::<f64>();
         (residual.abs() > MOST_RESIDUAL * scale).then(|| {
             problem!(
                 "solver.fixed_step",

@@ -72,7 +72,7 @@ pub fn break_tooth(model: &Model, inputs: &Inputs, state: &mut State) {
         let before = energy(model, inputs, state);
         state.is_tooth_broken = true;
         state.events.record(Happening::ToothBreaks, 0, state.time());
-        state.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
+        state.sums.heat[CONTACT_HEAT] += before - energy(model, inputs, state);
     }
 }
 
@@ -97,7 +97,7 @@ pub fn switch_dogs(model: &Model, inputs: &Inputs, state: &mut State) {
     }
     with_equations!(model, state, inputs, |equations| {
         equations.command_dogs(inputs);
-        equations.settle_dogs(&state.point(), &mut state.heat);
+        equations.settle_dogs(&state.point(), &mut state.sums.heat);
         let (before, time) = (state.dogs, state.time());
         state.dogs = equations.applied().dogs;
         state.events.record_dogs([&before, &state.dogs], time);
@@ -119,8 +119,8 @@ pub fn switch<const N: usize, E: LedgerEquations<N> + ?Sized>(
     (begin, at): (f64, f64),
 ) -> bool {
     let before = equations.applied().friction_state;
-    equations.settle_friction(end, at, false, &mut state.heat);
-    equations.settle_dogs(end, &mut state.heat);
+    equations.settle_friction(end, at, false, &mut state.sums.heat);
+    equations.settle_dogs(end, &mut state.sums.heat);
     let (after, time) = (equations.applied(), begin + at);
     let engages = state.events.record_dogs([&state.dogs, &after.dogs], time);
     state.dogs = after.dogs;
@@ -137,8 +137,8 @@ pub fn record_holds(before: &[FrictionState; PAIRS], state: &mut State) {
 /// slide.
 fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
     with_equations!(model, state, inputs, |equations| {
-        equations.adapt_friction(&state.point(), &mut state.heat);
-        equations.settle_friction(&state.point(), 0.0, true, &mut state.heat);
+        equations.adapt_friction(&state.point(), &mut state.sums.heat);
+        equations.settle_friction(&state.point(), 0.0, true, &mut state.sums.heat);
         state.friction = equations.applied().friction_state;
     });
 }

@@ -103,5 +103,5 @@ pub fn follow_commands(model: &Model, inputs: &Inputs, state: &mut State) {
         model.ideal.constrain(&mut state.v);
         work += model.ideal.kinetic_energy(&state.v) - model.ideal.kinetic_energy(&before);
     }
-    state.work += work;
+    state.sums.work += work;
 }

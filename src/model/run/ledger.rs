@@ -5,33 +5,22 @@ use super::failure::ExcessiveDeflection;
 use super::watching::{self, watch_step};
 use crate::integrate::{Curve, Point, SecondOrder, Step};
 use crate::model::assembly::Model;
-use crate::model::dynamics::ledger_rates::{LedgerRates, add_to_ledger, simpson};
-use crate::model::dynamics::shaft_means::{CycleCounter, StepCurves, TorqueMeans};
+use crate::model::dynamics::ledger_rates::{LedgerRates, simpson};
+use crate::model::dynamics::shaft_means::{CycleCounter, StepCurves};
 use crate::model::dynamics::shape::Shape;
-use crate::model::dynamics::{Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE};
+use crate::model::dynamics::{
+    Equations, FrictionEquations, IdealEquations, InputsAndFriction, Largest, MAX_SIZE, Sums,
+};
 use crate::model::effect_kinds::BUILT;
 use crate::model::effects::Memories;
 use crate::model::scene::CARRIER;
 use crate::model::scene::layout::LEFT;
-use crate::model::setup::{CONTACT_HEAT, HEATS};
-use crate::model::thermal::Thermal;
+use crate::model::setup::CONTACT_HEAT;
 use crate::numeric::quotient;
 
-/// Sums to which completed steps add.
-pub struct LedgerSums<'a> {
-    /// Simulation time at which the clock of the steps is zero [s].
-    pub begin: f64,
-    /// Work of all inputs [J].
-    pub work: &'a mut f64,
-    /// Heat by cause [J].
-    pub heat: &'a mut [f64; HEATS],
-    /// Temperatures.
-    pub thermal: &'a mut Thermal,
-    /// Means of the shaft torques over mesh cycles.
-    pub torque_means: &'a mut TorqueMeans,
-    /// Damage of the teeth and values over mesh cycles; `None` if nothing reads them.
-    pub memories: Option<&'a mut Memories>,
-}
+/// Simulation time at which the clock of the steps is zero [s], and the sums and memories to which a step adds. Without
+/// memories, damage and mesh history are left out.
+pub type Recorded<'a> = (f64, &'a mut Sums, Option<&'a mut Memories>);
 
 /// Equations whose completed steps can be recorded in the ledger.
 pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> + FrictionEquations<N> {
@@ -40,7 +29,7 @@ pub trait LedgerEquations<const N: usize>: SecondOrder<N, Rates = LedgerRates> +
     fn check_deflection(&self, at: &Point<N>) -> Result<u8, ExcessiveDeflection>;
     /// Records a completed step, with the dense output of its pending step. Steps of fixed size and steps of the host's
     /// solver are never pending and have no dense output.
-    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums);
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, to: Recorded);
 }
 
 impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
@@ -54,35 +43,30 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
-        add_to_ledger(step, sums.work, sums.heat, S::MAY_ACT);
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, (begin, sums, memories): Recorded) {
+        sums.add(step, S::MAY_ACT);
         if self.teeth.records_more {
-            self.record_more(model, step, sums);
+            self.record_more(model, step, (begin, sums, memories));
         }
         if self.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             let cycle = CycleCounter { pitch: model.periods[LEFT] };
-            cycle.add(sums.torque_means, turned, (step.h, torque), || self.step_curves(&cycle, step));
+            cycle.add(&mut sums.torque_means, turned, (step.h, torque), || self.step_curves(&cycle, step));
         }
     }
 }
 
 /// Warms the thermal nodes with the heat of a step, if the scene has such nodes.
 #[inline]
-fn warm_up<const N: usize>(
-    model: &Model,
-    applied: &InputsAndFriction,
-    step: &Step<N, LedgerRates>,
-    sums: &mut LedgerSums,
-) {
+fn warm_up<const N: usize>(model: &Model, applied: &InputsAndFriction, step: &Step<N, LedgerRates>, sums: &mut Sums) {
     if let Some(network) = &model.thermal {
         let around = [step.time - 0.5 * step.h, step.time].map(|time| {
             let later = applied.driven.then(|| applied.input_derivatives.after(time, &applied.inputs).0);
             network.around.changed(later.unwrap_or(applied.inputs).changes_outside())
         });
         let turned = (step.end.q[CARRIER] - step.start.q[CARRIER]).abs();
-        network.advance(sums.thermal, sums.heat, step.h, (turned / step.h, around));
+        network.advance(&mut sums.thermal, &sums.heat, step.h, (turned / step.h, around));
     }
 }
 
@@ -91,8 +75,8 @@ impl<const N: usize> LedgerEquations<N> for IdealEquations<'_, N> {
         Ok(0)
     }
 
-    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
-        add_to_ledger(step, sums.work, sums.heat, true);
+    fn record(&self, model: &Model, step: &Step<N, LedgerRates>, (_, sums, _): Recorded) {
+        sums.add(step, true);
         warm_up(model, self.applied(), step, sums);
     }
 }
@@ -119,7 +103,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Records what few scenes need: jumps of elastic energy, temperatures, damage, mesh history. None of these changes
     /// a force of the plain equations, so scenes with only these effects use the plain equations.
     #[inline(never)]
-    fn record_more(&self, model: &Model, step: &Step<N, LedgerRates>, sums: &mut LedgerSums) {
+    fn record_more(&self, model: &Model, step: &Step<N, LedgerRates>, (begin, sums, memories): Recorded) {
         if !self.teeth.contact.mesh.engagement.corner_contact() {
             let ends = [step.start, step.end].map(|at| Point::of([&at.q, &at.v]));
             sums.heat[CONTACT_HEAT] -= self.largest().energy_of_abrupt_contact(ends.each_ref());
@@ -127,10 +111,10 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         if BUILT {
             warm_up(model, &self.applied, step, sums);
         }
-        if let (true, Some(memories)) = (BUILT, &mut sums.memories)
+        if let (true, Some(memories)) = (BUILT, memories)
             && watching::records_steps(model, memories)
         {
-            let completed = StepMotion::new(self, step, sums.begin);
+            let completed = StepMotion::new(self, step, begin);
             watch_step(&self.largest(), model, &completed, memories);
         }
     }

@@ -39,5 +39,5 @@ mod without_solver;
 pub use accepted::Accepted;
 pub use failure::{StepFailure, six_digits};
 pub use input_ramp::HostInputs;
-pub use ledger::{LedgerEquations, LedgerSums};
+pub use ledger::LedgerEquations;
 pub use simulation::Simulation;

@@ -104,7 +104,7 @@ impl Simulation {
         self.complete_pending();
         Arc::make_mut(&mut self.model).tune(parameters);
         if self.model.thermal.is_none() {
-            self.state.thermal = Thermal::uniform(parameters.oil.temperature);
+            self.state.sums.thermal = Thermal::uniform(parameters.oil.temperature);
         }
         // the next step restarts the integration under the new parameters
         self.state.control.discontinuity(None);

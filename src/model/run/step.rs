@@ -33,7 +33,7 @@ use super::events::{apply_changes, break_tooth, follow_lock, next_change, switch
 use super::failure::{Cause, ExcessiveDeflection};
 use super::interval::{Interval, LONGEST, RESOLUTION, arrive, clock, resumed, store, wrap_and_constrain};
 use super::moving_inputs::{advance_inputs, inputs_move};
-use super::{LedgerEquations, LedgerSums, Simulation, StepFailure, imposed};
+use super::{LedgerEquations, Simulation, StepFailure, imposed};
 use crate::integrate::{self, FixedSteps, Point, Radau, Rodas5P, Solver, SolverContext, Step, Trajectory};
 use crate::model::assembly::{Gears, Model};
 use crate::model::dynamics::dogs::DogEquations;
@@ -42,7 +42,8 @@ use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::shape::Shape;
 use crate::model::dynamics::timeline::LONGEST_INTERVAL;
-use crate::model::dynamics::{Clock, CommunicationPoint, State, Stop};
+use crate::model::dynamics::{Clock, CommunicationPoint, State, Stop, Sums};
+use crate::model::effects::Memories;
 use crate::model::scene::{Inputs, Method, PAIRS};
 
 /// Effect of changed inputs on the integration.
@@ -53,10 +54,8 @@ enum Beginning {
     /// Only torques have changed, which causes no event. The pending step is completed up to the change, and the
     /// integration continues. The value is the change of the accelerations [rad/s²].
     Torques(f64),
-    /// The integration restarts without an event.
-    Silent,
-    /// The integration restarts with an event.
-    Event,
+    /// The integration restarts. The value is true if this is an event.
+    Restart(bool),
 }
 
 impl Simulation {
@@ -82,10 +81,7 @@ impl Simulation {
     pub(super) fn advance_unrecorded(&mut self, until: f64, options: AdvanceOptions) -> Result<(), StepFailure> {
         self.forces = None;
         // 1. take the inputs
-        let acceleration_change = match self.begin_step() {
-            Beginning::Torques(change) => Some(change),
-            _ => None,
-        };
+        let acceleration_change = if let Beginning::Torques(by) = self.begin_step() { Some(by) } else { None };
         // 2. the pending step may contain the requested time
         if acceleration_change.is_none() && self.move_within_pending(until, options.is_part) {
             return Ok(());
@@ -120,7 +116,7 @@ impl Simulation {
     /// Applies changed inputs at the present time, as [`Self::advance_by`] does at its start, unless only torques change.
     /// Returns true if this causes an event. The next call continues with the same bits as without this call.
     pub fn begin(&mut self) -> bool {
-        self.begin_step() == Beginning::Event
+        self.begin_step() == Beginning::Restart(true)
     }
 
     #[inline(always)]
@@ -143,7 +139,7 @@ impl Simulation {
         self.restart();
         self.state.timeline.pause = Some(CommunicationPoint { clock: 0.0, time: self.state.time() });
         self.forces = None;
-        if self.state.events.count() == count { Beginning::Silent } else { Beginning::Event }
+        Beginning::Restart(self.state.events.count() != count)
     }
 
     /// Restarts the integration at the present, because inputs or something else have changed.
@@ -332,15 +328,17 @@ impl InShape for Interval<'_> {
         let reset_at = if clock.now < clock.end { LONGEST_INTERVAL } else { f64::INFINITY };
         let depends_on_temperature = model.thermal.is_some() && model.body_effects().depends_on_temperature();
         if depends_on_temperature {
-            trajectory.longest = LONGEST.min(state.thermal.longest);
+            trajectory.longest = LONGEST.min(state.sums.thermal.longest);
         }
         let (mut outcome, mut continues) = (Ok(()), true);
         while continues && outcome.is_ok() {
             let mut anchors = equations.applied().anchors();
-            let State { control, statistics, rattle, work, heat, torque_means, thermal, .. } = &mut *state;
+            let State { control, statistics, rattle, sums, .. } = &mut *state;
             let mut recorder = Recorder {
                 model,
-                sums: LedgerSums { begin, work, heat, thermal, torque_means, memories: Some(memories) },
+                begin,
+                sums,
+                memories,
                 rattle: (!was_read).then_some(rattle),
                 anchors: &mut anchors,
                 depends_on_temperature,
@@ -354,11 +352,11 @@ impl InShape for Interval<'_> {
             let switches = recorder.switches;
             // 7. change the equations: effects use new temperatures, friction and dog clutches switch
             equations.applied_mut().set_anchors(&anchors);
-            let temperatures_change = depends_on_temperature && state.thermal.is_update_due();
+            let temperatures_change = depends_on_temperature && state.sums.thermal.is_update_due();
             if temperatures_change {
-                state.thermal.use_temperatures();
-                equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.thermal.used);
-                trajectory.longest = LONGEST.min(state.thermal.longest);
+                state.sums.thermal.use_temperatures();
+                equations.applied_mut().update_temperatures(model.body_effects(), state.lock, &state.sums.thermal.used);
+                trajectory.longest = LONGEST.min(state.sums.thermal.longest);
             }
             if switches {
                 let is_event = switch(equations, state, &trajectory.point, (begin, trajectory.time));
@@ -381,7 +379,9 @@ impl InShape for Interval<'_> {
 /// Recorder of completed steps.
 struct Recorder<'a> {
     model: &'a Model,
-    sums: LedgerSums<'a>,
+    begin: f64,
+    sums: &'a mut Sums,
+    memories: &'a mut Memories,
     /// Counts of impacts between flanks; `None` if the host has already read outputs at the end.
     rattle: Option<&'a mut Rattle>,
     /// Anchors of the springs of dry friction.
@@ -494,7 +494,7 @@ impl Recorder<'_> {
         step: &Step<N, LedgerRates>,
     ) -> bool {
         let [.., at_end] = &step.ledger_rates;
-        equations.record(self.model, step, &mut self.sums);
+        equations.record(self.model, step, (self.begin, self.sums, Some(self.memories)));
         equations.drag_anchors(step.end, at_end, self.anchors);
         self.switches = equations.is_switch_due(step.end, step.time);
         let temperatures_change = self.depends_on_temperature && self.sums.thermal.is_update_due();

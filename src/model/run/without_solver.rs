@@ -27,7 +27,7 @@ impl Simulation {
     pub(super) fn advance_in_closed_form(&mut self, until: f64) -> Result<(), StepFailure> {
         let Self { model, state, inputs, .. } = self;
         let h = until - state.time();
-        let (q, v, work) = (state.q, state.v, state.work);
+        let (q, v, work) = (state.q, state.v, state.sums.work);
         match &state.inputs.derivatives {
             None => model.ideal.advance(state, inputs, h),
             Some(derivatives) => {
@@ -36,7 +36,7 @@ impl Simulation {
             }
         }
         if !state.is_motion_finite() {
-            (state.q, state.v, state.work) = (q, v, work);
+            (state.q, state.v, state.sums.work) = (q, v, work);
             return Err(StepFailure::not_finite(state.time()));
         }
         if state.inputs.derivatives.is_some() {

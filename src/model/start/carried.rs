@@ -122,7 +122,7 @@ fn sliding_friction(
 ) -> f64 {
     let effects = model.body_effects();
     let Some(pair) = &effects.pairs[number] else { return 0.0 };
-    let friction = effects.friction((state.lock, &state.thermal.used), inputs, &InputDerivatives::ZERO);
+    let friction = effects.friction((state.lock, &state.sums.thermal.used), inputs, &InputDerivatives::ZERO);
     let speed = state.v[pair.body];
     let direction = if speed == 0.0 { 0.0 } else { speed.signum() };
     let on_pair = DryFriction::new(friction.on(number), &effects.surfaces);
@@ -136,7 +136,7 @@ fn effect_torques(model: &Model, inputs: &Inputs, state: &State) -> [f64; CARRIE
     for (i, to) in model.layout.attached() {
         v[i] = v[to];
     }
-    let oil_viscosity = model.body_effects().oil_viscosity(&state.thermal.used);
+    let oil_viscosity = model.body_effects().oil_viscosity(&state.sums.thermal.used);
     let (layout, input_rates) = (&model.layout, &Inputs::ZERO);
     let motion = BodyMotion { q: &q, v: &v, layout, inputs, input_rates, dogs: &state.dogs, oil_viscosity };
     let (mut force, mut heat) = ([0.0; MAX_DOF], [0.0; HEATS]);

@@ -34,7 +34,7 @@ impl Simulation {
         let (model, state, inputs) = (&simulation.model, &mut simulation.state, &{ simulation.inputs });
         state.dogs = Dogs::at_start(&model.body_effects().half_shafts.dogs, inputs);
         state.inputs.actuated = Actuated::settled(&model.body_effects().actuators, inputs);
-        state.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
+        state.sums.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start
         break_tooth(model, inputs, state);
@@ -63,8 +63,8 @@ impl Simulation {
         if parameters.scene.start == Start::SteadyHeat {
             simulation.begin_with_steady_heat().map_err(|problem| vec![problem])?;
         }
-        simulation.state.work = 0.0;
-        simulation.state.heat = [0.0; HEATS];
+        simulation.state.sums.work = 0.0;
+        simulation.state.sums.heat = [0.0; HEATS];
         simulation.state.energy_at_start = simulation.energy(&simulation.state);
         simulation.memories = watching::at_start(&simulation.model, time, in_equilibrium);
         Ok(simulation)

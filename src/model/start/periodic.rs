@@ -64,7 +64,7 @@ impl Simulation {
     #[inline(never)]
     fn means(&self, network: &Network<HEATS>, at: &[f64; NODES], span: f64) -> Option<Means> {
         let mut run = Box::new(self.clone());
-        run.state.thermal = Thermal::at(*at);
+        run.state.sums.thermal = Thermal::at(*at);
         let begin = self.time();
         let mut ends = [([0.0; 3], 0.0); 3];
         for (number, end) in (1..).zip(&mut ends) {

@@ -66,7 +66,7 @@ impl Simulation {
             let from_hot = network.steady(TEMPERATURES.max, &influential, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
         }
-        self.state.thermal = Thermal::at(temperatures);
+        self.state.sums.thermal = Thermal::at(temperatures);
         Ok(())
     }
 
@@ -75,7 +75,7 @@ impl Simulation {
     #[inline(never)]
     fn cycle(&self, network: &Network<HEATS>, at: &[f64; NODES], attempts: &Cell<f64>) -> Result<CycleMeans, Problem> {
         let mut run = Box::new(self.clone());
-        run.state.thermal = Thermal::at(*at);
+        run.state.sums.thermal = Thermal::at(*at);
         let (begin, length) = (self.time(), of_scene::cycle(&self.model.parameters));
         let [from, to] = [1.0, 2.0].map(|part| -> Result<_, Problem> {
             let moved = run.advance(begin + part * length);

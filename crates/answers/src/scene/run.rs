@@ -221,7 +221,7 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
     means.iter_mut().zip(&values).for_each(|(mean, &value)| mean.add(0.0, value));
     line(&mut csv, 0.0, &recorded, &values)?;
     let (mut exchanged, mut seen) = (0.0, 0.0);
-    let (mut power, mut work) = (exchange(&mut run), run.simulation.state().work);
+    let (mut power, mut work) = (exchange(&mut run), run.simulation.state().sums.work);
     while !run.is_over() {
         let before = run.time();
         run.advance()?;
@@ -235,8 +235,8 @@ pub fn run(scene: &Scene, csv: Option<&mut dyn Write>, progress: &mut Progress) 
         }
         let now = exchange(&mut run);
         exchanged += 0.5 * span * (power + now);
-        seen += (run.simulation.state().work - work).abs();
-        (power, work) = (now, run.simulation.state().work);
+        seen += (run.simulation.state().sums.work - work).abs();
+        (power, work) = (now, run.simulation.state().sums.work);
         line(&mut csv, run.time(), &recorded, &values)?;
         progress.advance(run.time() / scene.stop_time)?;
     }
