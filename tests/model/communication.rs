@@ -2,7 +2,7 @@
 //! nothing that happens beyond a point affects the results at it.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{CarrierDrive, Given, Inputs, Parameters, PlanetSpin, Simulation, Start, State};
+use bevel_differential::model::{CarrierDrive, Given, Inputs, Method, Parameters, PlanetSpin, Simulation, Start, State};
 
 /// Named scene.
 struct Scene {
@@ -260,6 +260,21 @@ fn a_failure_beyond_a_communication_point_is_not_reported_at_it() {
     relieved.advance(0.3 * failure.time).unwrap();
     relieved.set_inputs(&Inputs { load_torque: [0.0; 2], ..scene.inputs });
     relieved.advance(3.0 * failure.time).unwrap();
+}
+
+/// The step in which a tooth bends too far is not completed, so the last good state and the ledger belong together.
+#[test]
+fn after_a_failure_the_ledger_closes_at_the_last_good_time() {
+    for method in [Method::Adaptive, Method::Radau, Method::FixedStep] {
+        let mut scene = overload();
+        (scene.parameters.solver.method, scene.parameters.solver.fixed_step) = (method, 1e-6);
+        let mut simulation = scene.start();
+        let failure = simulation.advance(0.5).unwrap_err();
+        assert!(failure.message.contains("tooth deflection exceeds") && failure.time == simulation.time(), "{failure}");
+        let (residual, work) = (simulation.ledger().energy_residual, simulation.state().sums.work);
+        println!("{method:?}: {residual:e} J of {work:e} J");
+        assert!(residual.abs() < 1e-3 * work.abs(), "{method:?}: {residual:e} J of {work:e} J");
+    }
 }
 
 #[test]

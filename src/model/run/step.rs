@@ -51,16 +51,14 @@ use crate::model::scene::{Inputs, Method, PAIRS};
 enum Beginning {
     /// The inputs have not changed.
     None,
-    /// Only torques have changed, which causes no event. The pending step is completed up to the change, and the
-    /// integration continues. The value is the change of the accelerations [rad/s²].
+    /// Only torques have changed, within the pending step, and accelerations by this value [rad/s²]; this is no event.
     Torques(f64),
     /// The integration restarts. The value is true if this is an event.
     Restart(bool),
 }
 
 impl Simulation {
-    /// Integrates to `until` [s]. Inputs follow their derivatives. After a failure, the simulation is at the last good
-    /// time.
+    /// Integrates to `until` [s], as [`Self::advance_by`] does. Inputs follow their derivatives.
     pub fn advance(&mut self, until: f64) -> Result<(), StepFailure> {
         self.advance_by(until, AdvanceOptions::default())
     }
@@ -86,9 +84,8 @@ impl Simulation {
         if acceleration_change.is_none() && self.move_within_pending(until, options.is_part) {
             return Ok(());
         }
-        let Self { model, state, .. } = self;
         // ideal gears without effects need no solver
-        if matches!(&model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(state)) {
+        if matches!(&self.model.gears, Gears::Ideal(ideal) if !ideal.body_effects.act_in(&self.state)) {
             return self.advance_in_closed_form(until);
         }
         // 3. move from stop to stop
@@ -361,8 +358,8 @@ impl InShape for Interval<'_> {
             if switches {
                 let is_event = switch(equations, state, &trajectory.point, (begin, trajectory.time));
                 if is_event && pauses && trajectory.time < clock.now {
-                    // the next step that becomes pending starts at the event; if shorter steps have replaced a pending
-                    // step, they may find an event before the present, at which the host cannot pause any more
+                    // the next pending step starts at the event; an event before the present, which shorter steps in
+                    // place of a pending one may find, pauses at the present
                     clock.now = trajectory.time.max(state.time() - begin);
                 }
             }
