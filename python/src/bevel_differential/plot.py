@@ -8,7 +8,7 @@ import numpy as np
 
 from .fmu import Fmu
 from .panel import Mark, Panel, layered, picture, time_axis
-from .readable import wrapped
+from .readable import axis_label, wrapped
 from .values import DifferentialError, FileName
 
 if TYPE_CHECKING:
@@ -64,4 +64,4 @@ def _quantity(names, unit):
         if len(set(words)) > 1 or words[0] in ("left", "right"):
             break
         shared.insert(0, words[0])
-    return wrapped(", ".join(filter(None, [" ".join(shared), unit.replace(".", "·")])) or "values without unit", LETTERS)
+    return wrapped(axis_label(" ".join(shared), unit) or "values without unit", LETTERS)

@@ -1,18 +1,24 @@
 """Numbers and texts for pictures."""
 
+import re
 import textwrap
 
 import numpy as np
 
-# printed forms of units of the interface
-UNITS = {"N.m.s": "N·m·s", "N.m": "N·m", "kg.m2": "kg·m²", "m/s2": "m/s²"}
+
+def unit_text(unit):
+    """Printed form of a unit: N·m, kg·m², µm, N/mm^1.5."""
+    return re.sub(r"\.(?!\d)", "·", unit).replace("um", "µm").replace("2", "²").replace("3", "³")
 
 
 def printed(text):
-    """Text with printed forms of units."""
-    for unit, form in UNITS.items():
-        text = text.replace(unit, form)
-    return text
+    """Text with printed forms of its units. Points in names of variables remain."""
+    return re.sub(r"N\.m(\.s)?|kg\.m2|m/s2", lambda unit: unit_text(unit[0]), text)
+
+
+def axis_label(quantity, unit):
+    """Label of an axis: quantity and unit, of which one may be empty."""
+    return ", ".join(filter(None, (quantity, unit_text(unit))))
 
 
 def spaced(value):
@@ -53,7 +59,7 @@ def with_unit(value, unit):
     for whole, factor, part in [("m", 1e6, "µm"), ("s", 1e3, "ms"), ("J", 1e3, "mJ")]:
         if unit == whole and abs(value) < 0.1:
             return f"{factor * value:.4g} {part}"
-    unit = UNITS.get(unit, unit)
+    unit = unit_text(unit)
     return f"{spaced(value)} {unit}" if abs(value) >= 1e3 else f"{value:.4g} {unit}"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..fmu import Fmu
 from ..panel import BLUE, GREY, RED, Axis, Mark, Panel, curve, picture
-from ..readable import in_words, wrapped
+from ..readable import axis_label, in_words, wrapped
 from ..values import DifferentialError, FileName
 from ..want import Want
 from .sweep import SweepResult
@@ -77,7 +77,7 @@ class _Designs:
     def label(self, name, width):
         """Name of a column in words, with its unit."""
         unit = self.quantities[name].shown(0.0)[0] if self.quantities[name].kind == "Real" else ""
-        return wrapped(f"{in_words(name)}{f', {unit}' if unit else ''}", width)
+        return wrapped(axis_label(in_words(name), unit), width)
 
     def marks(self, x, y, best):
         """Marks of all designs: those that miss conditions below the others, those of the front on top."""

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..readable import printed
 from ..report import head, words
 from ..report.blocks import Section, Table, Text
 from ..report.write import need, page
@@ -33,7 +34,7 @@ def write(result: MeasuredMap, file: FileName) -> Path:
 
 def accuracy(result: MeasuredMap) -> str:
     """Measured error as a sentence of the report."""
-    return f"{result.error.replace('N.m', 'N·m')}."
+    return f"{printed(result.error)}."
 
 
 def _head(result):

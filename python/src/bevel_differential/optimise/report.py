@@ -9,7 +9,7 @@ import pandas as pd
 from .. import cad
 from ..answers import ask, assignments
 from ..panel import BLUE, BROWN, GREEN, GREY, INK, RED, Mark, Panel, curve, picture
-from ..readable import in_words, wrapped
+from ..readable import axis_label, in_words, wrapped
 from ..values import FileName
 from ..writing import whole
 from .design_task import Confirmed, DesignRow
@@ -133,8 +133,7 @@ def draw(front: Sequence[DesignRow], chosen: Sequence[DesignRow], compared: dict
 def _label(catalogue, objective: Objective) -> str:
     unit = objective.want.quantity(catalogue).shown(0.0)[0]
     better = "less" if objective.sign > 0.0 else "more"
-    name = in_words(objective.want)
-    return wrapped(f"{name}{f', {unit}' if unit else ''} ({better} is better)", 34)
+    return wrapped(f"{axis_label(in_words(objective.want), unit)} ({better} is better)", 34)
 
 
 def scene_text(problem: Problem, row: DesignRow, description: str) -> str:

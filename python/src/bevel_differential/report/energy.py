@@ -33,7 +33,7 @@ def section(run: Simulated) -> Section:
 
 
 def _bias_panels(run, left, right):
-    unit = words.unit_text(run.unit("left.shaft_torque"))
+    unit = run.unit("left.shaft_torque")
     reach = 1.08 * max(float(np.max(np.abs(left))), float(np.max(np.abs(right))))
     low = -reach if min(left.min(), right.min()) < -0.02 * reach else -0.04 * reach
     return [Panel(run.time_axis, f"torque, {unit}", [curve(run.time, left, "left half-shaft", BLUE, lw=2.2),

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from ..readable import time_scale
+from ..readable import time_scale, unit_text
 from ..values import Number, Variable
 
 DIGITS = 4
@@ -14,11 +14,6 @@ def number(value: float, digits: int = DIGITS) -> str:
     if "e" in text and 1e-4 <= abs(value) < 1e7:
         text = f"{value:.0f}"
     return text.replace("-", "−") if text != "-0" else "0"
-
-
-def unit_text(unit: str) -> str:
-    """Printed form of a unit."""
-    return unit.replace(".", "·").replace("um", "µm").replace("^1·5", "^1.5")
 
 
 def quantity(value: float, unit: str, digits: int = DIGITS) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from ..panel import BLUE, GREY, PALE_BLUE, RED, Mark, Panel, picture
-from ..readable import in_words
+from ..readable import axis_label, in_words
 from ..records import write
 from ..text import aligned
 from ..values import FileName
@@ -151,7 +151,7 @@ def _histogram(plan, result, want):
             label = limit_text(plan, limit).removeprefix(f"{want} ").replace("<=", "≤").replace(">=", "≥")
             marks.append(Mark("axvline", variable.shown(limit.limit)[1], color=RED, label=f"limit {label}"))
     unit, _ = variable.shown(0.0)
-    return Panel(f"{in_words(want)}, {unit}" if unit else in_words(want), "differentials", [*marks, Mark("locator_params", axis="x", nbins=6)])
+    return Panel(axis_label(in_words(want), unit), "differentials", [*marks, Mark("locator_params", axis="x", nbins=6)])
 
 
 def _bars(result, want, with_legend):
