@@ -27,8 +27,6 @@ SMALL = 10
 # axes whose units the first data of a mark have, by the method of matplotlib that draws it; other data are not converted
 ALONG = {"plot": "xy", "step": "xy", "bar": "xy", "text": "xy", "axvline": "x", "axhline": "y", "axvspan": "xx", "vlines": "xyy",
          "fill_between": "xyy", "pcolormesh": "xy", "stackplot": "x"}
-# ratio of the ends of a logarithmic axis up to which its numbers are plain
-WIDEST = 1e9
 # legends outside a panel; all others are at a location of matplotlib
 OUTSIDE = {"right": {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}, "above": {"loc": "lower left", "bbox_to_anchor": (0.0, 1.0)}}
 
@@ -73,8 +71,7 @@ class Mark:
         drawn = getattr(axes, self.kind)(*shown, *self.data[len(along):], **self.look)
         if self.bar:
             bar = axes.figure.colorbar(drawn, ax=axes, **{"pad": 0.01, "aspect": 25, **self.bar})
-            if bar.ax.get_yscale() == "log":
-                style.plain_decades(bar.ax.yaxis)
+            style.plain_decades(bar.ax.yaxis)
 
 
 def curve(x: Any, y: Any, label: str | None = None, colour: str | None = None, form: str = "-", **look: Any) -> Mark:
@@ -113,9 +110,7 @@ class Panel:
         for name, axis in (("x", axes.xaxis), ("y", axes.yaxis)):
             if name not in self.grid:
                 axes.grid(False, axis=name)
-            low, high = axis.get_view_interval()
-            if axis.get_scale() == "log" and high < WIDEST * low:
-                style.plain_decades(axis)
+            style.plain_decades(axis)
         if self.legend and axes.get_legend_handles_labels()[0]:
             axes.legend(**OUTSIDE.get(self.legend, {"loc": self.legend}), ncols=self.columns)
 

@@ -28,8 +28,8 @@ MARKERS = ["o", "s", "^", "v", "D", "P", "X", "<"]
 # width of a picture, inches: one width for all, so that letters have one size on a page
 WIDTH = 13.0
 DPI = 130
-# ratio of the ends of a short logarithmic axis
-SHORT = 100.0
+# ratios of the ends of a short logarithmic axis, and of the widest one with plain numbers
+SHORT, WIDEST = 100.0, 1e9
 COLOURS = 256
 # caption: characters per inch of width, height of a line in inches, font size
 CAPTION_DENSITY, CAPTION_LINE, CAPTION_SIZE = 12.4, 0.20, 11
@@ -77,8 +77,11 @@ def caption(picture, text):
 
 
 def plain_decades(axis):
-    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000. A short axis has 2 and 5 between them."""
+    """Writes the powers of ten of a logarithmic axis as plain numbers: 0.01, 0.1, 1, 10 000. A short axis has 2 and 5 between them. Axes
+    that are linear or very wide remain as they are."""
     low, high = axis.get_view_interval()
+    if axis.get_scale() != "log" or high >= WIDEST * low:
+        return
     axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < SHORT * low else (1.0,), numticks=12))
     axis.set_major_formatter(FuncFormatter(lambda value, _: plain(value)))
     axis.set_minor_formatter(NullFormatter())
