@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from bevel_differential import DifferentialError, Fmu
+from bevel_differential import DifferentialError
 
 LAB = Path(__file__).parents[2] / "crates" / "lab" / "python"
 sys.path.append(str(LAB))

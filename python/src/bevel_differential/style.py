@@ -11,7 +11,7 @@ from pathlib import Path
 
 from . import extras
 from .output_file import checked
-from .panel import BLUE, BROWN, CYCLE, FAINT, GREEN, GREY, INK, OCHRE, PALE_BLUE, PALE_GREY, RED, SMALL, TEXT, VIOLET  # noqa: F401
+from .panel import BLUE, CYCLE, FAINT, GREEN, INK, PALE_BLUE, PALE_GREY, RED, SMALL, TEXT, VIOLET  # noqa: F401
 from .readable import plain, printed
 from .values import DifferentialError
 from .writing import write_whole

@@ -1,7 +1,6 @@
 """The command `tolerance`: effects of manufacturing tolerances."""
 
 import argparse
-from pathlib import Path
 
 from ..command import DONE, FINDING
 from ..command.arguments import add_farm, add_files, add_fmu, add_quick, add_stop, add_units, farm
