@@ -1,6 +1,7 @@
 """Table of CPU times at equal error, and their ratios to this program."""
 
 import numpy as np
+from bevel_differential.text import markdown as aligned
 
 from solvers import OURS
 
@@ -52,14 +53,4 @@ def _ratios(rows, names, others):
             ratios = [(cost_at(level, costs[each]), own) for each in others]
             lines.append([CASES.get(name, name), f"{level:.0e}".replace("e-0", "e-"), "–" if own is None else f"{1e3 * own:.3g}",
                           *("–" if None in pair else f"{float(f'{pair[0] / pair[1]:.2g}'):g}×" for pair in ratios)])
-    return "\n".join(aligned(lines))
-
-
-def aligned(lines):
-    widths = [max(len(line[i]) for line in lines) for i in range(len(lines[0]))]
-
-    def shown(line):
-        return "| " + " | ".join(text.ljust(w) if i == 0 else text.rjust(w) for i, (text, w) in enumerate(zip(line, widths))) + " |"
-
-    rule = "|" + "|".join("-" * (w + 2) if i == 0 else "-" * (w + 1) + ":" for i, w in enumerate(widths)) + "|"
-    return [shown(lines[0]), rule, *map(shown, lines[1:])]
+    return aligned(lines).rstrip()
