@@ -2,9 +2,9 @@
 an explicit method of order 8, and an event at each switch. The carrier turns at an imposed speed; loads change in steps."""
 
 from dataclasses import dataclass, field
-from math import asin, atan2, cos, pi, radians, sin
 
 import numpy as np
+import theory
 from scipy.integrate import solve_ivp
 from scipy.interpolate import PchipInterpolator
 
@@ -24,28 +24,17 @@ class Gears:
     depth: float        # of full damping [m]
     side: float         # inertia of a side gear with its wheel [kg·m2]
     planet: float       # inertia of a planet [kg·m2]
-    planets: int = 2
-    teeth: tuple = (10, 16)
-    module: float = 4.5e-3
-    face: float = 20e-3
+    planets: int = theory.PLANETS
 
     def __post_init__(self):
-        pitch = atan2(self.teeth[0], self.teeth[1])
-        cones = [pitch, pi / 2.0 - pitch]
-        outer = self.module * self.teeth[0] / (2.0 * sin(pitch))
-        inner = outer - self.face
-        # sines of the base angles of planet and side gear
-        self.base = [sin(asin(sin(cone) * cos(radians(20.0)))) for cone in cones]
-        cubes = outer**3 - inner**3
-        self.radius = 2.0 / 3.0 * cubes / (outer**2 - inner**2)
-        self.spring = self.stiffness * cubes / 3.0 / self.radius**2
+        self.spring = self.stiffness * theory.FACE_MOMENT / theory.RESULTANT**2
 
     def arc_force(self, q, rate):
         """Torque of a mesh about the apex against q [N·m]."""
-        depth, closing = self.radius * abs(q), self.radius * rate * np.sign(q)
+        depth, closing = theory.RESULTANT * abs(q), theory.RESULTANT * rate * np.sign(q)
         u = min(depth / self.depth, 1.0)
         force = self.spring * depth + self.damping * u * u * (3.0 - 2.0 * u) * closing
-        return self.radius * max(force, 0.0) * np.sign(q)
+        return theory.RESULTANT * max(force, 0.0) * np.sign(q)
 
 
 @dataclass
@@ -89,11 +78,11 @@ class Reference:
         """Torques of all meshes on left and right side gear and on all planets [N·m]."""
         g, on_sides, on_planets = self.gears, [], 0.0
         for s, sign in enumerate([1.0, -1.0]):
-            q = g.base[1] * y[s] - sign * g.base[0] * y[2]
-            rate = g.base[1] * y[3 + s] - sign * g.base[0] * y[5]
+            q = theory.SIDE_LEVER * y[s] - sign * theory.PLANET_LEVER * y[2]
+            rate = theory.SIDE_LEVER * y[3 + s] - sign * theory.PLANET_LEVER * y[5]
             force = g.planets * g.arc_force(q, rate)
-            on_sides.append(-g.base[1] * force)
-            on_planets += sign * g.base[0] * force
+            on_sides.append(-theory.SIDE_LEVER * force)
+            on_planets += sign * theory.PLANET_LEVER * force
         return on_sides, on_planets
 
     def limits(self, y):

@@ -74,6 +74,17 @@ class Drive(Instance):
                 each(self)
         return self
 
+    def vibration(self, value, step, count):
+        """Growth rate [1/s] and frequency [rad/s] of a vibration in `value(drive)` over the next steps, from a recurrence of its
+        differences (Prony)."""
+        values = []
+        for _ in range(count):
+            self.step(step)
+            values.append(value(self))
+        change = np.diff(values)
+        (second, first), *_ = np.linalg.lstsq(np.column_stack([change[1:-1], change[:-2]]), change[2:], rcond=None)
+        return 0.5 * np.log(-first) / step, np.arccos(0.5 * second / np.sqrt(-first)) / step
+
     def heat(self):
         return sum(self.read(self.heats))
 

@@ -4,7 +4,7 @@ lashes in series with an explicit method of order 8 and an event at each touch.
 Angles, speeds and torques are those at the carrier: the pinion's angle divided by the ratio, its torque times the ratio."""
 
 from dataclasses import dataclass
-from math import asin, atan2, cos, pi, radians, sin, sqrt
+from math import cos, pi, sin, sqrt
 
 import numpy as np
 import theory
@@ -124,21 +124,13 @@ class LumpedMesh:
     damping: float      # [N.s/m]
     depth: float        # of full damping [m]
     backlash: float     # at the outer pitch circle [m]
-    planets: int = 2
-    teeth: tuple = (10, 16)
-    module: float = 4.5e-3
-    face: float = 20e-3
+    planets: int = theory.PLANETS
     deepest: float = np.inf    # penetration up to which the law is valid [m]
 
     def __post_init__(self):
-        pitch = atan2(self.teeth[1], self.teeth[0])
-        outer = self.module * self.teeth[1] / (2.0 * sin(pitch))
-        inner = outer - self.face
-        self.base = sin(asin(sin(pitch) * cos(radians(20.0))))
-        cubes = outer**3 - inner**3
-        self.radius = 2.0 / 3.0 * cubes / (outer**2 - inner**2)
-        self.spring = self.stiffness * cubes / 3.0 / self.radius**2
-        self.half_lash = 0.5 * self.backlash * cos(radians(20.0)) / outer
+        self.base, self.radius = theory.SIDE_LEVER, theory.RESULTANT
+        self.spring = self.stiffness * theory.FACE_MOMENT / self.radius**2
+        self.half_lash = 0.5 * self.backlash * cos(theory.PRESSURE_ANGLE) / theory.OUTER_CONE
         # angle through which the carrier turns freely, with both side gears held
         self.lash = 2.0 * self.half_lash / self.base
 

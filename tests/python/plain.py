@@ -23,7 +23,7 @@ class Gears:
         side_addendum = (0.54 + 0.46 * RATIO**2) * theory.MODULE  # Gleason: long and short, with the sum 2 m
         addendum = {"planet": 2.0 * theory.MODULE - side_addendum, "side": side_addendum}
         self.pitch = {"planet": theory.PLANET_PITCH, "side": theory.SIDE_PITCH}
-        self.lever = {gear: sin(angle) * cos(theory.PRESSURE_ANGLE) for gear, angle in self.pitch.items()}  # sin δ_b
+        self.lever = {"planet": theory.PLANET_LEVER, "side": theory.SIDE_LEVER}  # sin δ_b
         self.base = {gear: asin(lever) for gear, lever in self.lever.items()}
         self.tip = {gear: self.pitch[gear] + atan(addendum[gear] / theory.OUTER_CONE) for gear in MATE}
         self.pitch_arc = {gear: self.arc(gear, self.pitch[gear]) for gear in MATE}

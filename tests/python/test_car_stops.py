@@ -1,6 +1,6 @@
 """`Car`: contact patches deflect only until they slide, so a tyre returns no more energy than it stores."""
 
-from math import atan, sin
+from math import sin
 
 import numpy as np
 import pytest
@@ -8,6 +8,7 @@ from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from bevel_differential.vehicle.equations import patch_rate, patch_slip, tyre_force, tyre_full_slide
 from bevel_differential.vehicle.motion import Motion
 from scipy.integrate import solve_ivp
+from test_vehicle import magic
 
 BRAKED = {"scene.gear_contact": "ideal", "effects.wheel_brake": True}
 OUTPUTS = ["body.speed", "body.lateral_speed", "body.yaw_rate", "left.wheel_speed", "left_tyre.slip", "left_tyre.force"]
@@ -16,12 +17,6 @@ MASS = Body().mass
 STEP = 2e-3
 # Speed at rest [m/s], and time in which a stopped car comes to rest [s].
 REST, SETTLES = 0.01, 3.0
-
-
-def magic(tyre, slip):
-    """Pacejka's formula with E = 0."""
-    peak = tyre.friction * tyre.load
-    return peak * sin(tyre.shape * atan(tyre.slip_stiffness / (tyre.shape * peak) * slip))
 
 
 def stored(tyre, slip):

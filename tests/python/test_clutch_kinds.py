@@ -194,44 +194,32 @@ def test_a_wrong_point_is_refused_by_its_number(drive, points, words):
 @pytest.mark.parametrize("contact", ["ideal", "lumped"])
 def test_a_lock_has_its_frequency_and_damping_ratio(drive, contact):
     """80 N·m/deg and 0.8 N·m·s/deg between wheels of 1 kg·m²."""
-    stiffness, time, wheel, step = 2.0 * 80.0 * 180.0 / pi, 0.01, 1.0, 5e-4
+    stiffness, time, wheel = 2.0 * 80.0 * 180.0 / pi, 0.01, 1.0
     gears = {"inertia.from_geometry": False, "inertia.side_gear": 1e-6, "inertia.planet": 1e-7}
     driven = drive({"scene.gear_contact": contact, "scene.start": "rest", "carrier.speed_command": 0.0, "lock.command": 1.0,
                     "lock.torque": 1e6, "lock.stiffness": stiffness, "lock.damping_time": time, "left.load_torque": 0.0,
                     "right.load_torque": 0.0, "inertia.left_end": wheel, "inertia.right_end": wheel, "effects.backlash": False,
                     "solver.relative_tolerance": 1e-9} | gears)
     driven.set({"left.load_torque": 50.0, "right.load_torque": -50.0})
-    twist = []
-    for _ in range(160):
-        driven.step(step)
-        twist.append(driven["left.angle"] - driven["right.angle"])
-    change = np.diff(twist)
-    (second, first), *_ = np.linalg.lstsq(np.column_stack([change[1:-1], change[:-2]]), change[2:], rcond=None)
-    decay, damped = -0.5 * np.log(-first) / step, np.arccos(0.5 * second / sqrt(-first)) / step
-    natural = sqrt(decay**2 + damped**2)
+    growth, damped = driven.vibration(lambda driven: driven["left.angle"] - driven["right.angle"], 5e-4, 160)
+    natural = sqrt(growth**2 + damped**2)
     assert natural == pytest.approx(sqrt(stiffness / wheel), rel=5e-3) and natural == pytest.approx(95.75, rel=5e-3)
-    assert decay / natural == pytest.approx(0.5 * natural * time, rel=5e-3) and decay / natural == pytest.approx(0.479, rel=5e-3)
+    assert -growth / natural == pytest.approx(0.5 * natural * time, rel=5e-3) and -growth / natural == pytest.approx(0.479, rel=5e-3)
 
 
 def test_locks_and_clutches_add_up_their_dampings(drive):
     """A clutch that holds and a lock: stiffnesses add up, and so do the products of stiffness and time."""
-    ks, kl, time, step = 2e4, 1e4, 0.01, 5e-4
+    ks, kl, time = 2e4, 1e4, 0.01
     driven = drive({"scene.gear_contact": "ideal", "scene.start": "rest", "carrier.speed_command": 0.0, "lock.command": 1.0,
                     "lock.torque": 1e6, "lock.stiffness": kl, "lock.damping_time": time, "effects.limited_slip": True,
                     "limited_slip.preload": 1e4, "limited_slip.stiffness": ks, "left.load_torque": 0.0, "right.load_torque": 0.0,
                     "inertia.from_geometry": False, "inertia.side_gear": 1e-6, "inertia.planet": 1e-7, "inertia.left_end": 1.0,
                     "inertia.right_end": 1.0, "solver.relative_tolerance": 1e-9})
     driven.set({"left.load_torque": 50.0, "right.load_torque": -50.0})
-    twist = []
-    for _ in range(160):
-        driven.step(step)
-        twist.append(driven["left.angle"])
-    change = np.diff(twist)
-    (second, first), *_ = np.linalg.lstsq(np.column_stack([change[1:-1], change[:-2]]), change[2:], rcond=None)
-    decay, damped = -0.5 * np.log(-first) / step, np.arccos(0.5 * second / sqrt(-first)) / step
-    assert sqrt(decay**2 + damped**2) == pytest.approx(sqrt(ks + kl), rel=5e-3)
+    growth, damped = driven.vibration(lambda driven: driven["left.angle"], 5e-4, 160)
+    assert sqrt(growth**2 + damped**2) == pytest.approx(sqrt(ks + kl), rel=5e-3)
     # 1e-4 s is the damping of a clutch that holds
-    assert decay == pytest.approx(0.5 * (ks * 1e-4 + kl * time), rel=5e-3)
+    assert -growth == pytest.approx(0.5 * (ks * 1e-4 + kl * time), rel=5e-3)
 
 
 def warned(drive, values):

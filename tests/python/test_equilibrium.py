@@ -5,10 +5,9 @@ potential, there are two wells next to it, which are mirror images of each other
 
 import numpy as np
 import pytest
+from opened_scenes import GEARS
 
 LAWS = ["impact", "line", "line_weber"]
-# planets, their teeth, teeth of the side gears: odd and even, all planets in phase or every other one offset by half a pitch
-GEARS = [(2, 10, 16), (2, 11, 16), (2, 10, 15), (3, 10, 15), (3, 11, 15), (4, 10, 16), (4, 11, 16), (4, 10, 14), (4, 9, 14)]
 NUDGE, LASTING = 0.05, 1e-3
 # smallest spin angle that counts as different from the middle position [rad]
 ASIDE = 1e-6

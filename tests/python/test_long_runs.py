@@ -8,6 +8,11 @@ from driving import CARRIER, SIDES, TURN, UNDAMPED
 DAY = 86400.0
 
 
+def wind_up(scene):
+    """Angle of the left side gear behind carrier and planets [rad]."""
+    return scene["carrier.angle"] + theory.RATIO * scene["planet[1].spin_angle"] - scene["left.angle"]
+
+
 @pytest.mark.parametrize("step", [10.0, 60.0])
 def test_a_day_of_straight_driving_drifts_neither_in_speed_nor_in_force(drive, step):
     scene = drive({"scene.start": "rolling"}).to(DAY, step)
@@ -28,14 +33,12 @@ def test_a_day_in_a_slow_turn_keeps_the_phase_of_the_teeth(drive):
     scene = drive(TURN | {"scene.start": "equilibrium", "spin.command": spin})
     begin = scene["left.tangential_force"]
     scene.to(DAY, 60.0)
-    ratio = theory.PLANET_TEETH / theory.SIDE_TEETH
     assert scene["planet[1].spin_angle"] == pytest.approx(DAY * spin, rel=1e-11)
     assert scene["left.tangential_force"] == pytest.approx(begin, rel=1e-6)
     assert begin == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
     for side, expected in zip(SIDES, theory.side_speeds(np.radians(954.0), spin)):
         assert scene[f"{side}.speed"] == pytest.approx(expected, rel=1e-6)
-    wind_up = scene["carrier.angle"] + ratio * scene["planet[1].spin_angle"] - scene["left.angle"]
-    assert wind_up == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
+    assert wind_up(scene) == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
     assert scene.imbalance() < UNDAMPED
 
 
@@ -44,9 +47,7 @@ def test_ten_minutes_in_the_study_s_turn_keep_the_phase_of_the_teeth(drive):
     scene = drive(TURN).to(594.0, 0.18)
     assert scene["planet[1].spin_angle"] == pytest.approx(594.0 * np.radians(200.0), rel=1e-11)
     assert scene["left.tangential_force"] == pytest.approx(theory.TANGENTIAL_FORCE, rel=1e-6)
-    ratio = theory.PLANET_TEETH / theory.SIDE_TEETH
-    wind_up = scene["carrier.angle"] + ratio * scene["planet[1].spin_angle"] - scene["left.angle"]
-    assert wind_up == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
+    assert wind_up(scene) == pytest.approx(theory.half_play() + theory.largest_wind_up(), abs=1e-5)
     assert scene.imbalance() < UNDAMPED
 
 

@@ -2,17 +2,20 @@
 listed, and the log names loads that nobody set and that accelerate the wheels backward."""
 
 import warnings
+from functools import partial
 from math import inf
 
 import pytest
 from command_line import command
-from refusals import refused
+from refusals import refused, warnings_about
 from bevel_differential import Differential, DifferentialError, DifferentialWarning, Scene
 from bevel_differential.answers import about, ask
 from bevel_differential.values import NOBODY_SET
 from bevel_differential.vehicle import Body, Car, Motor, Tyre
 from fmi3 import Unit3
 
+# warnings about start values that nobody set
+short = partial(warnings_about, "start values of the study")
 BY_TORQUE = {"scene.carrier_drive": "torque", "scene.gear_contact": "ideal"}
 # start values of parameters that many differentials do not need
 NEUTRAL = ["limited_slip.preload", "limited_slip.torque_coefficient", *(f"bearing_drag.{name}" for name in (
@@ -212,14 +215,6 @@ def test_the_plan_and_the_report_list_unset_values_by_effect(tmp_path):
 def test_the_plan_warns_of_loads_that_turn_the_wheels_backward(scene_file):
     with pytest.warns(DifferentialWarning, match="nobody set left.load_torque = 835 N.m"):
         ask({"ask": "plan", "of": about(scene_file(BY_TORQUE | {"carrier.torque_command": 300.0}))})
-
-
-def short(action):
-    """Warnings about start values that nobody set."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", DifferentialWarning)
-        action()
-    return [str(one.message) for one in caught if "start values of the study" in str(one.message)]
 
 
 def test_python_warns_of_their_number_in_one_line_and_lists_them():

@@ -1,14 +1,14 @@
 """Outputs of effects that are off: runs warn and name the switch; conditions and searches refuse."""
 
 import re
-import warnings
+from functools import partial
 from pathlib import Path
 
 import pytest
-from refusals import refused
+from refusals import refused, warnings_about
 from command_list import SCENE
 
-from bevel_differential import Differential, DifferentialWarning, Scene
+from bevel_differential import Differential, Scene
 from bevel_differential.answers import about, ask
 from bevel_differential.comparison import compare
 from bevel_differential.designs.farm import Farm
@@ -18,6 +18,7 @@ from bevel_differential.optimise.search import Store, search
 from bevel_differential.tolerance.plan import Plan
 from bevel_differential.vehicle import Car
 
+said = partial(warnings_about, " so nothing changes it")
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 IDEAL = {"scene.gear_contact": "ideal"}
 STRENGTH = "safety.root_min: effects.strength is off"
@@ -32,13 +33,6 @@ CASES = [("safety.root_min", "effects.strength is off", {"effects.strength": Tru
          ("left.twist", "effects.half_shaft is off", {"effects.half_shaft": True}),
          # a side that is driven by speed has its half-shaft without the switch
          ("left.twist", "effects.half_shaft is off", {"scene.left_drive": "speed"})]
-
-
-def said(action):
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", DifferentialWarning)
-        action()
-    return [str(one.message) for one in caught if " so nothing changes it" in str(one.message)]
 
 
 @pytest.mark.parametrize("output, why, on", CASES)

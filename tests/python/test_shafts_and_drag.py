@@ -40,9 +40,7 @@ def test_pins_and_case_are_springs_in_series_with_the_teeth(run, contact):
     seat = thrust / case * share / theory.SIDE_LEVER
     wind_up = rigid["left.angle"][0] - soft["left.angle"][0]
     # the seat moves all slices by the same amount, so it acts at the cone distance of the resultant
-    outer, inner = theory.OUTER_CONE, theory.OUTER_CONE - theory.FACE_WIDTH
-    resultant = 2.0 / 3.0 * (outer**3 - inner**3) / (outer**2 - inner**2)
-    assert wind_up == pytest.approx(pins + seat / resultant, rel=0.01)
+    assert wind_up == pytest.approx(pins + seat / theory.RESULTANT, rel=0.01)
 
 
 def test_drag_adds_its_torques_to_the_carrier_s_drive(run):

@@ -13,9 +13,7 @@ YOUNG, POISSON = 2.07e11, 0.25
 CONTACT_MODULUS = YOUNG / (2.0 * (1.0 - POISSON**2))
 # B of Weber's Hertz part: p = ω (Q − B ln ω)
 LOCAL = 2.0 * (1.0 - POISSON**2) / (pi * YOUNG)
-INNER, MIDDLE, OUTER = theory.OUTER_CONE - theory.FACE_WIDTH, theory.MEAN_CONE, theory.OUTER_CONE
-# cone distance of the resultant of a load that is proportional to R
-RESULTANT = 2.0 / 3.0 * (OUTER**3 - INNER**3) / (OUTER**2 - INNER**2)
+INNER, MIDDLE, OUTER, RESULTANT = theory.INNER_CONE, theory.MEAN_CONE, theory.OUTER_CONE, theory.RESULTANT
 SLICES = INNER + (np.arange(4000) + 0.5) * theory.FACE_WIDTH / 4000
 
 PAIRS = [f"mesh.pair[{k}]" for k in (1, 2, 3)]

@@ -1,6 +1,6 @@
 """Closed forms for the default gears, written from the formulas and independent of the program."""
 
-from math import asin, atan2, cos, log10, pi, radians, sin
+from math import atan2, cos, log10, pi, radians, sin
 
 MODULE, PLANET_TEETH, SIDE_TEETH = 4.5e-3, 10, 16
 FACE_WIDTH, PRESSURE_ANGLE, BACKLASH = 20e-3, radians(20.0), 1e-4
@@ -16,9 +16,12 @@ DRAG = {"effects.bearing_drag": True, "bearing_drag.carrier_torque": 0.5, "beari
 PLANET_PITCH = atan2(1.0, SIDE_TEETH / PLANET_TEETH)
 SIDE_PITCH = pi / 2.0 - PLANET_PITCH
 OUTER_CONE = MODULE * PLANET_TEETH / (2.0 * sin(PLANET_PITCH))
-MEAN_CONE = OUTER_CONE - FACE_WIDTH / 2.0
-# sine of the side gear's base angle: lever arm of the normal force per cone distance
-SIDE_LEVER = sin(asin(sin(SIDE_PITCH) * cos(PRESSURE_ANGLE)))
+MEAN_CONE, INNER_CONE = OUTER_CONE - FACE_WIDTH / 2.0, OUTER_CONE - FACE_WIDTH
+# integral of R² over the face, and cone distance of the resultant of a load in proportion to R
+FACE_MOMENT = (OUTER_CONE**3 - INNER_CONE**3) / 3.0
+RESULTANT = FACE_MOMENT / (MEAN_CONE * FACE_WIDTH)
+# sines of the base angles: lever arms of the normal force per cone distance
+PLANET_LEVER, SIDE_LEVER = (sin(pitch) * cos(PRESSURE_ANGLE) for pitch in (PLANET_PITCH, SIDE_PITCH))
 
 # sum T/r of all planets, at the side gear's outer pitch circle
 TANGENTIAL_FORCE = LOAD / (MODULE * SIDE_TEETH / 2.0)
