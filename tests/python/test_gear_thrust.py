@@ -8,9 +8,7 @@ import theory
 
 from bevel_differential import Clutch, Differential, DifferentialError
 
-# cone distance of the resultant of a line load in proportion to R [m], and tan of the pressure angle of the start values
-INNER, OUTER = theory.OUTER_CONE - theory.FACE_WIDTH, theory.OUTER_CONE
-RESULTANT = 2.0 / 3.0 * (OUTER**3 - INNER**3) / (OUTER**2 - INNER**2)
+# tan of the pressure angle of the start values
 TANGENT = math.tan(theory.PRESSURE_ANGLE)
 # wheels at imposed speeds, so that both packs slip
 TURN = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "carrier.torque_command": 400.0,
@@ -35,7 +33,7 @@ def locking_value(torques):
 def test_published_locking_values_of_ramps_and_gears_follow_from_two_ratios(fmu, angle, faces, published):
     # friction times mean radius over the radius of the ramps, and this radius times tan(alpha) over R
     over_ramp, over_cone = 0.0846, 0.569
-    ramp_radius = over_cone * RESULTANT / TANGENT
+    ramp_radius = over_cone * theory.RESULTANT / TANGENT
     values = {"scene.gear_contact": "lumped", "limited_slip.pressed_by": "both_sides",
               "limited_slip.torque_coefficient": faces * over_ramp / math.tan(math.radians(angle)),
               "limited_slip.thrust_arm": faces * over_ramp * ramp_radius}
@@ -52,7 +50,7 @@ def test_thrust_presses_alike_in_drive_and_coast(fmu, pressed_by, sign):
     values = {"scene.gear_contact": "lumped", "limited_slip.pressed_by": pressed_by, "limited_slip.torque_coefficient": kappa,
               "limited_slip.coast_ratio": coast, "limited_slip.thrust_arm": arm, "carrier.torque_command": sign * 400.0}
     left, right = settled(fmu, values)
-    share = kappa * (1.0 if sign > 0.0 else coast) + arm * TANGENT / RESULTANT
+    share = kappa * (1.0 if sign > 0.0 else coast) + arm * TANGENT / theory.RESULTANT
     # without friction in the gears, both mesh torques are half of the carrier's
     assert (left, right) == pytest.approx((200.0 * (sign - share), 200.0 * (sign + share)), rel=1e-5)
 
@@ -70,10 +68,10 @@ def test_plates_take_the_place_of_the_washers_of_side_gears(fmu):
     arm = 0.01
     plates = settled(fmu, base | {"limited_slip.thrust_arm": arm})
     alone, with_washers, with_plates = map(locking_value, (planets_only, washers, plates))
-    by_plates = arm * TANGENT / RESULTANT
+    by_plates = arm * TANGENT / theory.RESULTANT
     assert with_plates - alone == pytest.approx(by_plates, rel=0.02)
     # the washers would add their coefficient times their radius
-    assert with_washers - alone == pytest.approx(0.05 * 0.022 * TANGENT / RESULTANT, rel=0.02)
+    assert with_washers - alone == pytest.approx(0.05 * 0.022 * TANGENT / theory.RESULTANT, rel=0.02)
     with Differential(TURN | base | {"limited_slip.thrust_arm": arm, "thrust_friction.side_washer_area": 1e-3}, fmu=fmu.file) as turn:
         turn.run(outputs=["left.speed"], stop=0.01, step=1e-3)
         assert any("thrust_friction.side_washer_area" in text and "limited_slip.thrust_arm" in text for text in turn.warnings)
@@ -88,7 +86,7 @@ def test_teeth_have_a_little_less_thrust_because_their_normal_turns(fmu):
     with Differential(TURN | values, fmu=fmu.file) as turn:
         record = turn.run(outputs=["left.shaft_torque", "right.shaft_torque"], stop=10 * period, step=period / points)
     mean = np.array([record[f"{side}.shaft_torque"][-2 * points:].mean() for side in ("left", "right")])
-    share = locking_value(mean) / (arm * TANGENT / RESULTANT)
+    share = locking_value(mean) / (arm * TANGENT / theory.RESULTANT)
     assert 0.88 < share < 0.97
 
 
@@ -99,7 +97,7 @@ def test_gears_without_thrust_refuse_the_arm(fmu, contact):
 
 
 def test_packs_that_lock_themselves_by_thrust_are_reported(fmu):
-    arm = 0.5 * RESULTANT / TANGENT
+    arm = 0.5 * theory.RESULTANT / TANGENT
     values = TURN | {"scene.gear_contact": "lumped", "limited_slip.torque_coefficient": 0.6}
     for thrust_arm, warned in ((arm, True), (0.5 * arm, False)):
         with Differential(values | {"limited_slip.thrust_arm": thrust_arm}, fmu=fmu.file) as axle:
@@ -107,9 +105,9 @@ def test_packs_that_lock_themselves_by_thrust_are_reported(fmu):
             assert warned == any("1.1 with thrust_arm is 1 or more" in text for text in axle.warnings)
 
 
-def test_plates_from_a_drawing_have_the_arm_of_their_friction(fmu):
+def test_plates_from_a_drawing_have_the_arm_of_their_friction():
     plates = dict(faces=4, friction=0.1, inner=0.03, outer=0.05, ramp_drive=math.radians(45), ramp_coast=math.radians(45), ramp_radius=0.04)
-    without, pressed = (Clutch.from_plates(**plates, gear_thrust=by, fmu=fmu).values for by in (False, True))
+    without, pressed = (Clutch.from_plates(**plates, gear_thrust=by).values for by in (False, True))
     assert "limited_slip.thrust_arm" not in without
     assert pressed["limited_slip.thrust_arm"] == pytest.approx(4 * 0.1 * 0.04, rel=1e-12)
     assert without == {name: value for name, value in pressed.items() if name != "limited_slip.thrust_arm"}

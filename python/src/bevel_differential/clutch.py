@@ -1,17 +1,12 @@
 """Start values of the clutch packs, from their drawing or from a measured bias ratio."""
 
 import copy
-import math
 from dataclasses import dataclass
 from typing import Self
 
-from .answers import ask
+from .answers import ask, written
 from .fmu import Fmu
-from .values import DifferentialError, FileName, Value
-
-# a ramp is parallel to the axis if its angle differs from 90° by less than this [rad]
-PARALLEL = 1e-9
-RIGHT_ANGLE = 0.5 * math.pi
+from .values import DifferentialError, FileName, Quantity, Value
 
 
 @dataclass(frozen=True)
@@ -24,7 +19,7 @@ class Clutch:
 
     @classmethod
     def from_plates(cls, faces: Value, friction: Value, inner: Value, outer: Value, ramp_drive: Value, ramp_coast: Value,
-                    ramp_radius: Value, spring_force: Value = 0.0, gear_thrust: bool = False, *, fmu: FileName | Fmu | None = None) -> Self:
+                    ramp_radius: Value, spring_force: Value = 0.0, gear_thrust: bool = False) -> Self:
         """Clutch packs from the dimensions of their plates and of the ramps that press them.
 
         `faces`: number n of rubbing faces of each pack. `friction`: their coefficient of friction μ. `inner`, `outer`: radii r_i and r_o
@@ -32,7 +27,7 @@ class Clutch:
         The drive ramps bear while the carrier drives the wheels forward, the coast ramps in overrun and in reverse. A ramp of 90° is
         parallel to the axis and presses nothing. `ramp_radius`: radius r at which the cross-shaft pushes on the ramps [m].
         `spring_force`: axial force of the springs on each pack [N]. `gear_thrust`: true if the side gears press the plates. Numbers are in SI; texts such as "52 mm" and "45 deg" and pairs
-        (number, unit) are converted. `fmu`: the FMU whose units and ranges are used.
+        (number, unit) are converted.
 
         With uniform wear, the mean radius is r_m = (r_i + r_o)/2, and the axial force F gives a pack the torque n μ r_m F. The meshes
         transmit the torque T = Q_L + Q_R of the carrier, so the cross-shaft pushes on the ramps with the tangential force T/r. Each of the
@@ -44,20 +39,13 @@ class Clutch:
             thrust_arm  n μ r_m, with gear_thrust
 
         While the clutches slip, the torques of the wheels differ by κ T plus twice the preload. Raises `DifferentialError`."""
-        of = _Arguments("Clutch.from_plates", Fmu.of(fmu))
-        lengths, angles = {"inner": inner, "outer": outer, "ramp_radius": ramp_radius}, {"ramp_drive": ramp_drive, "ramp_coast": ramp_coast}
-        dimensions = {
-            "faces": of.number("faces", faces, least=1.0),
-            "friction": of.like("friction", friction, "limited_slip.plate_coefficient"),
-            **{name: of.length(name, radius) for name, radius in lengths.items()},
-            **{name: of.angle(name, angle) for name, angle in angles.items()},
-            "spring_force": of.number("spring_force", spring_force, "planet[1].thrust_force", least=0.0),
-            **({"gear_thrust": True} if gear_thrust else {}),
-        }
+        given = {"faces": faces, "friction": friction, "inner": inner, "outer": outer, "ramp_drive": ramp_drive, "ramp_coast": ramp_coast,
+                 "ramp_radius": ramp_radius, "spring_force": spring_force}
+        dimensions = {name: _readable(f"Clutch.from_plates: {name}", value) for name, value in given.items()}
         try:
-            return cls(ask({"ask": "clutch", "of": dimensions})["set"])
+            return cls(ask({"ask": "clutch", "of": {**dimensions, "gear_thrust": bool(gear_thrust)}})["set"])
         except DifferentialError as error:
-            raise DifferentialError(f"{of.call}: {error}", kind=error.kind) from None
+            raise DifferentialError(f"Clutch.from_plates: {error}", kind=error.kind) from None
 
     @classmethod
     def from_bias_ratio(cls, tbr: Value, preload: Value = 0.0, *, fmu: FileName | Fmu | None = None) -> Self:
@@ -66,58 +54,19 @@ class Clutch:
         Without preload, a slipping pack moves κ times the mesh torque Q, so the wheels have (1 ± κ) Q and TBR = (1 + κ)/(1 − κ). This
         gives κ = (TBR − 1)/(TBR + 1). `tbr` must be 1 or more; 1 is an open differential. `preload`: torque of each pack without load
         [N·m], which adds to the bias. Raises `DifferentialError`."""
-        of = _Arguments("Clutch.from_bias_ratio", Fmu.of(fmu))
-        ratio = of.number("tbr", tbr, least=1.0)
-        found: dict[str, Value] = {
-            "effects.limited_slip": True,
-            "limited_slip.preload": of.like("preload", preload, "limited_slip.preload"),
-            "limited_slip.torque_coefficient": (ratio - 1.0) / (ratio + 1.0),
-        }
-        return cls(found)
+        call = "Clutch.from_bias_ratio"
+        ratio = float(Quantity(f"{call}: tbr", "1").number(tbr))
+        if ratio < 1.0:
+            raise DifferentialError(f"{call}: tbr = {tbr!r}: it must be 1 or more")
+        variable = copy.copy(Fmu.of(fmu).variable("limited_slip.preload"))
+        variable.name = f"{call}: preload"
+        torque = variable.number(preload)
+        variable.check_range(torque, preload)
+        return cls({"effects.limited_slip": True, "limited_slip.preload": torque,
+                    "limited_slip.torque_coefficient": (ratio - 1.0) / (ratio + 1.0)})
 
 
-class _Arguments:
-    """Arguments of a call, which have the units of variables of an FMU."""
-
-    def __init__(self, call: str, fmu: Fmu):
-        self.call, self.fmu = call, fmu
-
-    def number(self, name: str, value: Value, like: str = "limited_slip.torque_coefficient", *, least: float | None = None,
-               above: float | None = None, most: float | None = None) -> float:
-        """SI value of an argument with the unit of the variable `like`. The limits are SI; `above` does not belong to the range."""
-        variable = copy.copy(self.fmu.variable(like))
-        variable.name = f"{self.call}: {name}"
-        found = float(variable.number(value))
-        low = -math.inf if least is None else least
-        if found < low or (above is not None and found <= above) or (most is not None and found > most):
-            ends = (("above {}", above), ("{} or more", least), ("at most {}", most))
-            limits = [words.format(_shown(variable, limit)) for words, limit in ends if limit is not None]
-            unit = f"; numbers are in {variable.unit}" if variable.unit not in (None, "", "1") and not variable.has_unit(value) else ""
-            raise DifferentialError(f"{variable.name} = {_written(value)}: it must be {' and '.join(limits)}{unit}")
-        return found
-
-    def like(self, name: str, value: Value, variable: str) -> float:
-        """SI value of an argument with the unit and the range of a variable."""
-        return self.number(name, value, variable, least=_limit(self.fmu.variable(variable).minimum),
-                           most=_limit(self.fmu.variable(variable).maximum))
-
-    def length(self, name: str, value: Value) -> float:
-        """Length above 0 [m]."""
-        return self.number(name, value, "limited_slip.mean_radius", above=0.0)
-
-    def angle(self, name: str, value: Value) -> float:
-        """Angle of a ramp, above 0 and up to 90° [rad]."""
-        return min(self.number(name, value, "geometry.pressure_angle", above=0.0, most=RIGHT_ANGLE + PARALLEL), RIGHT_ANGLE)
-
-
-def _shown(variable, limit):
-    unit, size = variable.shown(limit)
-    return f"{size:.6g} {unit}".rstrip()
-
-
-def _limit(value):
-    return None if value is None else float(value)
-
-
-def _written(value):
-    return " ".join(map(str, value)) if isinstance(value, tuple) else repr(value)
+def _readable(name, value):
+    """Value for the library of answers, which checks dimensions: a text with a unit, or a number in SI."""
+    quantity = Quantity(name, "1")
+    return written(value) if quantity.has_unit(value) else quantity.number(value)
