@@ -11,15 +11,13 @@ import numpy as np
 from scipy import stats
 
 from ..designs import Dimension
+from ..pair import Pair
 from ..scene import Scene
 from ..values import DifferentialError, Number
 
 GRADES = range(2, 12)
 # ranges of the standard's equations: mean normal module and tolerance diameter in m, number of teeth
 MODULES, DIAMETERS, TEETH = (1e-3, 50e-3), (5e-3, 2.5), (5, 400)
-_GEOMETRY = ("geometry.outer_cone_distance", "geometry.planet_pitch_angle", "geometry.side_pitch_angle", "geometry.face_width",
-             "geometry.module", "geometry.planet_teeth", "geometry.side_teeth", "geometry.addendum_system",
-             "geometry.planet_addendum", "geometry.side_addendum")
 
 
 def grade(name: str, number: int) -> int:
@@ -60,26 +58,14 @@ class Gear:
 
 def gears(scene: Scene) -> dict[str, Gear]:
     """Gears of a scene, "planet" and "side"."""
-    first = scene.run(_GEOMETRY, stop=scene.step)[0]
-    value = {name.removeprefix("geometry."): first[name].item() for name in _GEOMETRY}
-    at_mean = 1.0 - 0.5 * value["face_width"] / value["outer_cone_distance"]
-    module = value["module"]
-    cosine = {kind: math.cos(value[f"{kind}_pitch_angle"]) for kind in ("planet", "side")}
-    ratio = value["side_teeth"] * cosine["planet"] / (value["planet_teeth"] * cosine["side"])
-    system = scene.fmu.variable("geometry.addendum_system").written(value["addendum_system"])
-    difference = _addendum_difference(system, ratio, value) * module
-    return {kind: Gear(at_mean * (module * value[f"{kind}_teeth"] + sign * difference * cosine[kind]), at_mean * module,
-                       value[f"{kind}_teeth"]) for kind, sign in (("planet", 1.0), ("side", -1.0))}
-
-
-def _addendum_difference(system, ratio, value):
-    """Addendum of a planet less that of a side gear, in modules. It is twice the distance of the pitch cone from the middle of the
-    working depth. `ratio`: virtual teeth of a side gear over those of a planet."""
-    if system == "explicit":
-        return value["planet_addendum"] - value["side_addendum"]
-    larger = max(ratio, 1.0 / ratio)
-    shorter = {"standard": 1.0, "gleason": 0.54 + 0.46 / larger, "iso23509": 2.0 * (0.21 + 0.29 / larger)}[system]
-    return (2.0 - 2.0 * shorter) * (1.0 if ratio >= 1.0 else -1.0)
+    # the FMU refuses gears that cannot be built
+    scene.run(["geometry.module"], stop=scene.step)
+    pair = Pair.of({name: scene.value(name) for name in scene.fmu.variables if name.startswith("geometry.")})
+    at_mean = 1.0 - 0.5 * pair.face_width / pair.outer_cone
+    # the middle of the working depth is at half of the difference from the pitch cone
+    difference = pair.gears[0].addendum - pair.gears[1].addendum
+    return {kind: Gear(at_mean * (pair.module * gear.teeth + sign * difference * math.cos(gear.pitch)), at_mean * pair.module, gear.teeth)
+            for kind, sign, gear in zip(("planet", "side"), (1.0, -1.0), pair.gears)}
 
 
 class Law(ABC):

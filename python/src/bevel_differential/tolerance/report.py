@@ -88,8 +88,7 @@ def _yields(plan, result):
 
 def limit_text(plan: Plan, limit: Condition) -> str:
     """Text of a limit in the display unit."""
-    unit, value = limit.want.quantity(plan.scene.fmu).shown(limit.limit)
-    return f"{limit.want} {limit.relation} {value:.6g} {unit}".strip()
+    return f"{limit.want} {limit.relation} {limit.want.quantity(plan.scene.fmu).text(limit.limit)}"
 
 
 def _indices(plan, result):
