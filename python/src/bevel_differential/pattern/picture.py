@@ -6,6 +6,7 @@ import numpy as np
 
 from ..panel import BLUE, RED, SMALL, TEXT, Axis, Mark, Panel, curve, picture
 from ..records import read
+from ..report.pattern import LEAST_RADIUS
 from ..style import WIDTH
 
 # after the style, which chooses the backend
@@ -34,8 +35,6 @@ TEETH = {"solid": "solid teeth", "impact": "teeth with contact.law = impact", "l
 # cases of the documentation whose lines of contact are drawn; the first two available ones count
 LINES = ["aligned", "hypoid_forward", "planet_out"]
 INSTANTS = 6
-# relative radius of the flanks over its value at the pitch point, below which the foot is a seam (as in the report and on the page)
-LEAST_RADIUS = 0.25
 COLUMNS = 3
 # inches: largest height of a flank; room next to a flank, and above and below a flank with its line load
 HIGHEST, BESIDE, AROUND = 5.0, 0.55, 0.95
