@@ -18,12 +18,9 @@ def course(name: str, given: Course) -> Callable[[float], float]:
     if callable(given):
         return given
     if isinstance(given, tuple):
-        times, values = (np.asarray(each, float) for each in given)
-        if times.ndim != 1 or times.shape != values.shape or len(times) == 0:
-            raise DifferentialError(f"{name}: it is a pair of lists (times, values) of one length")
-        if not (np.all(np.isfinite(times)) and np.all(np.isfinite(values))) or np.any(np.diff(times) < 0.0):
-            raise DifferentialError(f"{name}: times and values must be finite, and times must not fall")
-        return lambda time: float(np.interp(time, times, values))
+        times, values = given
+        table = Table(Quantity(name, "1"), times, values)
+        return lambda time: float(np.interp(time, table.times, table.values))
     try:
         value = float(given)
     except (TypeError, ValueError):
