@@ -1,6 +1,6 @@
-//! Inputs on which each output depends at an instant: the model structure of the description.
+//! Model structure of the description: inputs and states on which each unknown depends at an instant.
 
-use bevel_differential::variables::{Access, OutputSource, Table, Variable, units};
+use bevel_differential::variables::{Access, Causality, OutputSource, Table, Variable, units};
 
 /// Suffix of outputs that depend on the torques of their side, and on speeds that a held wheel opposes.
 const BY_OWN_LOAD: &str = ".twist";
@@ -48,27 +48,27 @@ fn is_followed(input: &Variable) -> bool {
 }
 
 /// True if the input commands a clutch.
-pub fn is_clutch(input: &Variable) -> bool {
+fn is_clutch(input: &Variable) -> bool {
     input.name.ends_with(CLUTCH_COMMAND)
 }
 
 /// True if the input is a torque.
-pub fn is_torque(input: &Variable) -> bool {
+fn is_torque(input: &Variable) -> bool {
     input.unit == Some(units::NEWTON_METRE)
 }
 
 /// True if the input is a speed.
-pub fn is_speed(input: &Variable) -> bool {
+fn is_speed(input: &Variable) -> bool {
     input.unit == Some(units::RAD_PER_S)
 }
 
 /// True if the output changes only with accepted steps.
-pub fn is_of_ledger(row: &Variable) -> bool {
+fn is_of_ledger(row: &Variable) -> bool {
     matches!(row.access, Access::Output(OutputSource::Ledger(..) | OutputSource::Choice(..)))
 }
 
 /// Indices of the inputs that are `wanted`.
-pub fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
+fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<usize> {
     table.inputs.iter().copied().filter(|&i| wanted(&table.rows[i])).collect()
 }
 
@@ -78,7 +78,7 @@ pub fn inputs_where(table: &Table, wanted: impl Fn(&Variable) -> bool) -> Vec<us
 /// Torques act immediately on accelerations and, without teeth, on all forces. In model exchange, imposed speeds act
 /// immediately on speeds and on all forces, because forces are damped. In co-simulation, imposed speeds act only
 /// through the step. Angles and the ledger change only over time.
-pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
+fn dependencies(table: &Table, index: usize) -> Vec<usize> {
     let row = &table.rows[index];
     let named = |parts: &[&str]| parts.iter().any(|part| row.name.contains(part));
     match row.access {
@@ -121,4 +121,27 @@ pub fn dependencies(table: &Table, index: usize) -> Vec<usize> {
         }
         _ => Vec::new(),
     }
+}
+
+/// Inputs and states on which output `index` depends at an instant.
+pub fn of_output(table: &Table, index: usize) -> Vec<usize> {
+    let states: &[usize] = if is_of_ledger(&table.rows[index]) { &[] } else { &table.states };
+    [&dependencies(table, index), states].concat()
+}
+
+/// Inputs and states on which the derivative of state `k` depends at an instant.
+pub fn of_derivative(table: &Table, k: usize) -> Vec<usize> {
+    let is_position = k < table.states.len() / 2;
+    let inputs = inputs_where(table, |input| is_speed(input) || (is_torque(input) || is_clutch(input)) && !is_position);
+    [&inputs[..], &table.states].concat()
+}
+
+/// Indices of the initial unknowns, in order. Without a list of dependencies, they depend on all knowns (FMI 2.0.4, 2.2.8).
+pub fn initial_unknowns(table: &Table) -> Vec<usize> {
+    let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
+    let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
+    let mut found: Vec<usize> = calculated.chain(others).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
 }

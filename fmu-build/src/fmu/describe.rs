@@ -13,7 +13,7 @@ use bevel_differential::variables::{
 };
 use clap::Args;
 
-use crate::fmu::dependencies::{dependencies, inputs_where, is_clutch, is_of_ledger, is_speed, is_torque};
+use crate::fmu::dependencies::{initial_unknowns, of_derivative, of_output};
 use crate::fmu::effect_list;
 use crate::tools::files::write_whole;
 use crate::tools::paths;
@@ -314,32 +314,14 @@ fn variable_type(row: &Variable, is_reinit: bool, choices: Choices) -> Element {
 
 /// Model structure: outputs and state derivatives with their direct dependencies, and the initial unknowns.
 fn structure(table: &Table) -> Element {
-    let list = |known: &[usize]| known.iter().map(|i| (i + 1).to_string()).collect::<Vec<_>>().join(" ");
-    let outputs = table.outputs.iter().map(|&index| {
-        let mut known = dependencies(table, index);
-        if !is_of_ledger(&table.rows[index]) {
-            known.extend(table.states);
-            known.sort_unstable();
-        }
-        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
-    });
-    let mut every_state = table.states;
-    every_state.sort_unstable();
-    let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
-        let is_position = k < table.states.len() / 2;
-        let mut known: Vec<usize> =
-            inputs_where(table, |input| is_speed(input) || (is_torque(input) || is_clutch(input)) && !is_position);
-        known.extend(every_state);
+    let unknown = |index: usize, mut known: Vec<usize>| {
         known.sort_unstable();
-        Element::new("Unknown").with("index", index + 1).with("dependencies", list(&known))
-    });
-    // without a list of dependencies, an initial unknown depends on all knowns (FMI 2.0.4, 2.2.8)
-    let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
-    let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
-    let mut initial: Vec<usize> = calculated.chain(others).collect();
-    initial.sort_unstable();
-    initial.dedup();
-    let initial = initial.into_iter().map(|index| Element::new("Unknown").with("index", index + 1));
+        let known: Vec<String> = known.iter().map(|i| (i + 1).to_string()).collect();
+        Element::new("Unknown").with("index", index + 1).with("dependencies", known.join(" "))
+    };
+    let outputs = table.outputs.iter().map(|&index| unknown(index, of_output(table, index)));
+    let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| unknown(index, of_derivative(table, k)));
+    let initial = initial_unknowns(table).into_iter().map(|index| Element::new("Unknown").with("index", index + 1));
     Element::new("ModelStructure")
         .child(Element::new("Outputs").children(outputs))
         .child(Element::new("Derivatives").children(derivatives))

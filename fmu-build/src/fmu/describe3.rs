@@ -8,7 +8,7 @@ use bevel_differential::variables::{
     Access, Causality, MODEL_NAME, OutputSource, Table, Variable, guid, real_start, table, units, value_of,
 };
 
-use super::dependencies::{dependencies, inputs_where, is_clutch, is_of_ledger, is_speed, is_torque};
+use super::dependencies::{initial_unknowns, of_derivative, of_output};
 use super::describe::{
     DIFFERENCE, causality, default_experiment, enumeration_items, enumerations, is_relative, log_categories, number,
     root, unit, units_in_use, variability,
@@ -155,43 +155,27 @@ fn added_variable(reference: usize, added: &Added) -> Element {
 /// indicators.
 fn structure(table: &Table) -> Element {
     let list = |known: &[usize]| known.iter().map(usize::to_string).collect::<Vec<_>>().join(" ");
-    let of = |index: usize| {
-        let mut known = dependencies(table, index);
-        if !is_of_ledger(&table.rows[index]) {
-            known.extend(table.states);
-        }
-        known
-    };
     let unknown = |name, reference: usize, mut known: Vec<usize>| {
         known.sort_unstable();
         known.dedup();
         Element::new(name).with("valueReference", reference).with("dependencies", list(&known))
     };
     let own = || added().iter().enumerate().map(|(k, added)| (table.rows.len() + k, &added.item));
-    let outputs = table.outputs.iter().map(|&index| unknown("Output", index, of(index)));
+    let outputs = table.outputs.iter().map(|&index| unknown("Output", index, of_output(table, index)));
     let own_outputs = own().filter_map(|(reference, item)| match item {
         Item::Planets(members) | Item::Pairs(members) => {
-            Some(unknown("Output", reference, members.iter().flat_map(|&index| of(index)).collect()))
+            Some(unknown("Output", reference, members.iter().flat_map(|&index| of_output(table, index)).collect()))
         }
         Item::EventKind | Item::EventBody | Item::EventTime | Item::EventText | Item::EventCount => {
             Some(unknown("Output", reference, Vec::new()))
         }
         _ => None,
     });
-    let derivatives = table.derivatives.iter().enumerate().map(|(k, &index)| {
-        let is_position = k < table.states.len() / 2;
-        let mut known: Vec<usize> =
-            inputs_where(table, |input| is_speed(input) || (is_torque(input) || is_clutch(input)) && !is_position);
-        known.extend(table.states);
-        unknown("ContinuousStateDerivative", index, known)
-    });
-    // without a list of dependencies, an initial unknown depends on all knowns
-    let calculated = (0..table.rows.len()).filter(|&i| table.rows[i].causality == Causality::CalculatedParameter);
-    let others = table.outputs.iter().chain(&table.states).chain(&table.derivatives).copied();
-    let mut initial: Vec<usize> = calculated.chain(others).collect();
+    let derivatives = table.derivatives.iter().enumerate();
+    let derivatives =
+        derivatives.map(|(k, &index)| unknown("ContinuousStateDerivative", index, of_derivative(table, k)));
+    let mut initial = initial_unknowns(table);
     initial.extend(own().filter(|(_, item)| !matches!(item, Item::Time | Item::Indicator(_))).map(|(at, _)| at));
-    initial.sort_unstable();
-    initial.dedup();
     let initial = initial.into_iter().map(|index| Element::new("InitialUnknown").with("valueReference", index));
     let indicators = own()
         .filter(|(_, item)| matches!(item, Item::Indicator(_)))
