@@ -1,6 +1,7 @@
 // Meaning of the picture's colours: load, stress or heat, with a common colour scale and a legend.
 import { Color } from "three";
 import { element } from "./frame.js";
+import { hasPacks, litPlates } from "./half_shafts.js";
 import { heats, planetNames } from "./record.js";
 import { clamp, forceText, grouped, readable } from "./table.js";
 
@@ -23,7 +24,7 @@ const PLACES = {
   "heat.thrust": ["washers", "washers and pins"], "heat.clutch": ["clutches", "clutches and lock"],
   "heat.half_shaft": ["shafts", "half-shafts"], "heat.support": ["pins", "pins and case"],
   "heat.drag": ["case", "bearings and oil"], "heat.brake": ["brakes", "wheel brakes"],
-  "heat.clutch_command": ["clutches", "clutches on command"],
+  "heat.clutch_command": ["plates", "clutches on command"], "heat.disconnect": ["dogs", "dog clutches"],
   "heat.final_drive": ["drive", "final drive"], "heat.propeller_shaft": ["propeller", "propeller shaft"],
 };
 const FAINT = 1e-3; // W: lower powers are not shown
@@ -33,7 +34,8 @@ const FAINT = 1e-3; // W: lower powers are not shown
 //   mesh(share)  light of a mesh with this share of the largest force: {share, colour}, share 0 for none
 //   pair(pair)   light of a tooth pair of planet 1 with the left side gear
 //   planet, side colours of the gears, if they have any
-//   parts        colours of washers, clutches, pins, shafts, case, brakes, final drive and propeller shaft by name
+//   parts        colours of washers, clutches, pins, shafts, dog clutches, case, brakes, final drive, propeller shaft by name
+//   plates       light of the clutches on command by side: {side: {share, colour}}, if they have any
 //   isGrey       true if gears without a colour are grey
 //   legend       {lines: [{text, colour}], scale: {least, most} or none, off: {text, name} or none}
 export const MODES = {
@@ -61,7 +63,7 @@ export const shade = (share) => palette[Math.round(255 * within(share))];
 export const gradient = () => `linear-gradient(to right, ${STOPS.map(css).join(", ")})`;
 
 // Meshes light up according to their force.
-function byLoad({ most, hasPairs }) {
+function byLoad({ setup, record, most, hasPairs }) {
   const what = hasPairs ? "each pair of planet 1 at the left by its own force" : "each mesh by its force";
   const line = most > 0
     ? { text: `lit teeth: ${what}, brightest at ${forceText(most)}`, colour: LIGHT }
@@ -70,9 +72,16 @@ function byLoad({ most, hasPairs }) {
     mesh: (share) => ({ share, colour: LIGHT }),
     pair: ({ force }) => ({ share: Math.abs(force) / most, colour: LIGHT }),
     parts: {},
-    legend: { lines: [line] },
+    plates: litPlates({ setup, record }, LIGHT),
+    legend: { lines: [line, ...(hasPacks(setup) ? [plateLine(setup)] : [])] },
   };
 }
+
+// Line of the legend about clutches on command.
+const plateLine = (setup) => {
+  const full = setup.table.shown("clutches.torque", setup.value("clutches.torque"), 3);
+  return { text: `lit plates: torque of a clutch on command, brightest at ${full}`, colour: LIGHT };
+};
 
 // Gears are coloured by the stress at their roots, flanks in contact by their rated pressure. Each is relative to the
 // limit of its rating.
@@ -147,13 +156,15 @@ function byHeat({ setup, record, mostHeat }) {
     if (!isOff && place) powers.set(place, (powers.get(place) ?? 0) + power);
   }
   const colour = (power) => scaled(mostHeat > 0 ? power / mostHeat : 0);
-  const { meshes, ...parts } = Object.fromEntries([...powers].map(([place, power]) => [place, colour(power)]));
+  const { meshes, plates, ...parts } = Object.fromEntries([...powers].map(([place, power]) => [place, colour(power)]));
   const mesh = powers.get("meshes") > FAINT ? { share: 1, colour: meshes } : DARK;
   return {
     // the library provides only the sum of all meshes
     mesh: (share) => (share > 0.01 ? mesh : DARK),
     pair: () => mesh,
     parts,
+    // the library provides only the sum of both clutches
+    plates: Object.fromEntries(["left", "right"].map((side) => [side, { share: plates ? 1 : 0, colour: plates }])),
     isGrey: true,
     legend: {
       scale: { least: "0", most: `${readable(mostHeat, 3)} W` },

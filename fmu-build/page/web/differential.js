@@ -1,10 +1,11 @@
-// The differential in the scene: gears from the library's surfaces at their positions, the final drive, arrows, and light at
-// the meshes.
+// The differential in the scene: gears from the library's surfaces at their positions, the half-shafts, the final drive,
+// arrows, and light at the meshes.
 import {
   BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, Group, Matrix4, Mesh, MeshBasicMaterial, Vector3,
 } from "three";
 import { hasPairs, pairs } from "./contact.js";
 import { FinalDrive } from "./drive_parts.js";
+import { HalfShaft } from "./half_shafts.js";
 import { creased, Housing, move, placed } from "./housing.js";
 import { Glow, paint } from "./steel.js";
 import { clamp } from "./table.js";
@@ -170,10 +171,11 @@ export class Differential {
   }
 
   // Replaces the gears: surfaces of planet and side gear, and the geometry that determines their positions. Its `drive` is
-  // the final drive, or null.
+  // the final drive, or null, and `clutches` are those of `drawnClutches`.
   build([planet, side], geometry) {
     for (const gear of this.gears ?? []) gear.geometry.dispose();
-    const before = [...(this.housing?.groups ?? []), ...(this.arrows ?? []).flat(), this.drive?.group ?? []].flat();
+    const shafts = (this.halfShafts ?? []).map(({ group }) => group);
+    const before = [...(this.housing?.groups ?? []), ...shafts, ...(this.arrows ?? []).flat(), this.drive?.group ?? []].flat();
     for (const group of before) group.traverse(dispose);
     this.group.clear();
     this.still.clear();
@@ -191,16 +193,22 @@ export class Differential {
       reach: this.reach, back: highest(side), planetBack: highest(planet), planets: assembly.planets,
       azimuth: (i) => assembly.azimuth(i), metal, seat: this.drive?.seat,
     });
+    const begin = 0.62 * highest(side);
+    const start = this.housing.end;
+    this.end = Math.max(highest(side) + 0.75 * this.reach, ...geometry.clutches.map((own) => start + HalfShaft.length(this.reach, own)));
+    this.halfShafts = geometry.clutches.map((own, k) => (
+      new HalfShaft({ ...own, side: SIDES[k][1], reach: this.reach, begin, start, end: this.end, metal })));
     this.arrows = this.planets.map(() => SIDES.map(() => new Arrow()));
     this.driveArrow = new Arrow();
     this.glow.width.value = 0.11 * this.reach;
-    this.group.add(...this.gears, this.housing.carrier, ...this.housing.shafts, ...this.arrows.flat(), this.contactLines);
+    this.group.add(...this.gears, this.housing.carrier, ...this.halfShafts.map(({ group }) => group), ...this.arrows.flat(),
+      this.contactLines);
     if (this.drive) this.drive.group.add(this.driveArrow);
     if (this.drive) this.group.add(this.drive.group);
     this.still.add(this.housing.shell);
     this.housing.show(this.withCase ?? true);
     this.showDrive(this.withDrive ?? true);
-    this.housing.showLeft(!this.isClear);
+    this.showLeft(!this.isClear);
   }
 
   // Draws the time of the last call of `record.seek`. `largest` is the force of an arrow of full length [N]; `colours`
@@ -214,7 +222,8 @@ export class Differential {
     move(this.left, assembly.left(angle("left")));
     move(this.right, assembly.right(angle("right")));
     this.planets.forEach((planet, i) => move(planet, assembly.planet(i, angle("carrier"), read(`planet[${i + 1}].spin_angle`))));
-    this.housing.turn(angle("carrier"), angle("left") - read("left.twist"), angle("right") - read("right.twist"));
+    this.housing.turn(angle("carrier"));
+    for (const shaft of this.halfShafts) shaft.turn(record, angle("carrier"));
     if (this.drive) {
       this.drive.turn({ carrier: angle("carrier"), pinion: angle("pinion"), propeller: angle("propeller") });
       const force = this.drive.place.force(read);
@@ -247,10 +256,12 @@ export class Differential {
     return this.assembly.contact(0, 1, carrier, Math.sign(force), pitch + (1e3 * height) / mean);
   }
 
-  paint({ planet, side, parts, isGrey }) {
+  paint(colours) {
+    const { planet, side, parts, isGrey } = colours;
     paint(this.planet, isGrey ? OWN.grey : OWN.planet, planet);
     for (const material of [this.side, this.clear]) paint(material, isGrey ? OWN.grey : OWN.side, side);
     this.housing.paint(parts);
+    for (const shaft of this.halfShafts) shaft.paint(colours);
     this.drive?.paint(parts, isGrey);
   }
 
@@ -258,8 +269,15 @@ export class Differential {
   showThrough(isClear) {
     this.isClear = isClear;
     this.contactLines.visible = isClear;
-    this.housing?.showLeft(!isClear);
-    if (this.left) this.left.material = isClear ? this.clear : this.side;
+    if (!this.gears) return;
+    this.showLeft(!isClear);
+    this.left.material = isClear ? this.clear : this.side;
+  }
+
+  // Shows or hides the parts behind the left side gear.
+  showLeft(visible) {
+    this.housing.showLeft(visible);
+    this.halfShafts[0].group.visible = visible;
   }
 
   showCase(visible) {

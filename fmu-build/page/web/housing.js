@@ -1,6 +1,6 @@
-// Parts around the gears, for orientation: half a case, cut open toward the eye, a flange for the ring gear, pins, washers,
-// clutches, half-shafts.
-import { BoxGeometry, CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2 } from "three";
+// Parts around the gears, for orientation: half a case, cut open toward the eye, a flange for the ring gear, pins, washers and
+// clutches.
+import { CylinderGeometry, Group, LatheGeometry, Mesh, Shape, ShapeGeometry, Vector2 } from "three";
 import { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 import { paint } from "./steel.js";
 
@@ -12,7 +12,7 @@ const CREASE = 0.45; // rad: edges stay sharp between faces at a larger angle
 export const MARK = "#e0a030"; // colour of marks that make a rotation visible
 
 // Names of parts as in colouring.js, with the colours of their metal.
-const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058", shafts: "#767d88", brakes: "#5b626c" };
+const OWN = { case: "#8d949e", pins: "#6d747e", washers: "#b08d57", clutches: "#4b5058" };
 
 export class Housing {
   // Reach of all gears from the apex, and backs of side gears and planets [mm]; `azimuth(i)` of planet i,
@@ -22,8 +22,8 @@ export class Housing {
     const { metals } = this;
     this.shell = new Group();
     this.carrier = new Group();
-    this.shafts = [1, -1].map((side) => shaft(side, reach, back, metals, metal));
     const [radius, half] = [reach + AIR, back + AIR];
+    this.end = half + 3 * WALL;
     const profile = section(radius, half, shaftRadius(reach) + 2);
     metals.case.roughness = 0.6;
     const wall = new Mesh(new LatheGeometry(profile, ROUND, 0, Math.PI).rotateZ(-Math.PI / 2), metals.case);
@@ -47,7 +47,7 @@ export class Housing {
       for (const k of [0, 1]) pack.add(ring(middle + 1, outer, back + 0.45 * AIR * k, 0.3 * AIR, metals.clutches));
       pack.rotation.z = (-side * Math.PI) / 2;
       this.carrier.add(pack);
-      if (side > 0) this.left = [pack, this.shafts[0]];
+      if (side > 0) this.left = pack;
     }
   }
 
@@ -58,7 +58,7 @@ export class Housing {
 
   // Shows or hides the parts behind the left side gear.
   showLeft(visible) {
-    for (const part of this.left) part.visible = visible;
+    this.left.visible = visible;
   }
 
   // Shows or hides the case.
@@ -72,21 +72,19 @@ export class Housing {
     this.shell.rotation.x = Math.atan2(eye.z, eye.y);
   }
 
-  // Turns the half-shafts with the wheels [rad].
-  turn(carrier, left, right) {
+  // Turns with the carrier [rad].
+  turn(carrier) {
     this.carrier.rotation.x = carrier;
-    this.shafts[0].rotation.x = left;
-    this.shafts[1].rotation.x = right;
   }
 
   get groups() {
-    return [this.shell, this.carrier, ...this.shafts];
+    return [this.shell, this.carrier];
   }
 }
 
 export const creased = (geometry) => toCreasedNormals(geometry, CREASE);
 
-const shaftRadius = (reach) => 0.27 * reach;
+export const shaftRadius = (reach) => 0.27 * reach;
 
 // Outline of the case's wall in a plane through the axis: (distance from the axis, position along it).
 function section(radius, half, hub) {
@@ -143,14 +141,14 @@ function flange({ side, outer, place, thick }, inner, metal) {
 }
 
 // Disc along x with its middle at `place`.
-function disc(radius, thick, place, material, round = ROUND) {
+export function disc(radius, thick, place, material, round = ROUND) {
   const mesh = new Mesh(new CylinderGeometry(radius, radius, thick, round).rotateZ(Math.PI / 2), material);
   mesh.position.x = place;
   return mesh;
 }
 
 // Circle of bolts around x; the first one is marked.
-function bolts(count, radius, length, round, place, far, metal) {
+export function bolts(count, radius, length, round, place, far, metal) {
   return Array.from({ length: count }, (_, k) => {
     const angle = (2 * Math.PI * k) / count;
     const bolt = disc(radius, length, place, metal(k === 0 ? MARK : "#c9ced6"), round);
@@ -161,22 +159,10 @@ function bolts(count, radius, length, round, place, far, metal) {
 }
 
 // Flat ring about y, starting at `place`.
-function ring(inner, outer, place, thick, material, round = ROUND) {
+export function ring(inner, outer, place, thick, material, round = ROUND) {
   const [low, high] = [place, place + thick];
   const outline = [[inner, low], [outer, low], [outer, high], [inner, high], [inner, low]].map(([r, y]) => new Vector2(r, y));
   return new Mesh(creased(new LatheGeometry(outline, round)), material);
-}
-
-function shaft(side, reach, back, metals, metal) {
-  const group = new Group();
-  const [begin, end, radius] = [0.62 * back, back + 0.75 * reach, shaftRadius(reach)];
-  const bar = disc(radius, end - begin, (side * (begin + end)) / 2, metals.shafts);
-  const plate = disc(1.55 * radius, 6, side * end, metals.brakes);
-  // a stripe makes the shaft's rotation visible
-  const stripe = new Mesh(new BoxGeometry(0.5 * reach, 0.8, 2.4), metal(MARK, 0.6));
-  stripe.position.set(side * (end - 0.25 * reach - 3), radius, 0);
-  group.add(bar, plate, ...bolts(5, 2, 14, 12, side * end, 1.25 * radius, metal), stripe);
-  return group;
 }
 
 // Disc with bolts at the end of a shaft along z, one of them marked.

@@ -5,6 +5,7 @@ import { Controls } from "./controls.js";
 import { hasFinalDrive, largestRingForce } from "./final_drive.js";
 import { Flank } from "./flank.js";
 import { $, Notice, Walk } from "./frame.js";
+import { clutchParts } from "./half_shafts.js";
 import { bind } from "./operation.js";
 import { Player, showFigures, showTransport, toothTime } from "./player.js";
 import { forces, Record, recorded, save } from "./record.js";
@@ -88,7 +89,8 @@ class Page {
     $("colour").value = this.setup.colour;
     $("speeds").value = this.setup.speeds;
     const hasDrive = hasFinalDrive(this.setup);
-    for (const part of document.querySelectorAll("[data-of=drive]")) part.hidden = !hasDrive;
+    const parts = { drive: hasDrive, ...clutchParts(this.setup) };
+    for (const part of document.querySelectorAll("[data-of]")) part.hidden = !parts[part.dataset.of];
     if (this.setup.view === "drive" && !hasDrive) this.look("whole");
     this.keep();
     this.notice.say("");

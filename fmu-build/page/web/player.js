@@ -1,5 +1,6 @@
-// Time of the picture, and the numbers next to the picture: speeds, heat, time, and the rate of slow motion.
+// Time of the picture, and the numbers next to the picture: speeds, clutches, heat, time, and the rate of slow motion.
 import { $ } from "./frame.js";
+import { clutchTexts } from "./half_shafts.js";
 import { heats } from "./record.js";
 import { clamp, readable } from "./table.js";
 
@@ -70,6 +71,7 @@ export function showFigures(record, table) {
   for (const part of ["carrier", "left", "right", "pinion"]) {
     $(`${part}-speed`).textContent = table.shown(`${part}.speed`, record.value(`${part}.speed`), 4);
   }
+  for (const [id, text] of Object.entries(clutchTexts(record, table))) $(id).textContent = text;
   const heat = heats(table).reduce((sum, name) => sum + record.value(name), 0);
   const rest = record.value("solver.energy_residual");
   $("energy").textContent = `heat ${readable(heat, 3)} J, energy balance open by ${readable(rest, 2)} J`;

@@ -2,6 +2,7 @@
 import { pairNames } from "./contact.js";
 import { driveOutputs } from "./final_drive.js";
 import { element } from "./frame.js";
+import { clutchOutputs } from "./half_shafts.js";
 import { clamp } from "./table.js";
 
 const MOVING = ["mesh.frequency", "carrier.angle", "carrier.speed", "solver.energy_residual"];
@@ -24,7 +25,7 @@ export function recorded(setup, colours, withPressures) {
   const { table } = setup;
   const sides = SIDES.flatMap((side) => [`${side}.angle`, `${side}.speed`, `${side}.twist`, `${side}.tangential_force`]);
   const spins = planets(setup).map((planet) => `${planet}.spin_angle`);
-  const names = [...MOVING, ...driveOutputs(setup), ...sides, ...spins, ...forces(setup), ...heats(table), ...setup.shown(),
+  const names = [...MOVING, ...driveOutputs(setup), ...clutchOutputs(setup), ...sides, ...spins, ...forces(setup), ...heats(table), ...setup.shown(),
     ...pairNames(withPressures), ...colours];
   return [...new Set(names)].filter((name) => table.find(name));
 }

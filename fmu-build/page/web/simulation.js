@@ -1,6 +1,7 @@
 // Requests to the worker: runs of set-ups, and surfaces of gears.
 import program from "worker:worker.js";
 import { drawnDrive } from "./final_drive.js";
+import { drawnClutches } from "./half_shafts.js";
 
 const PATIENCE = 1000; // ms for which an obsolete run may occupy the worker
 // geometry that determines the positions of gears
@@ -93,11 +94,12 @@ export class Shapes {
   want(setup) {
     const settings = setup.settings();
     const isGeometry = ({ reference }) => this.table.variables[reference].name.startsWith("geometry.");
-    const drive = drawnDrive(this.table, (name) => setup.value(name));
-    const key = JSON.stringify([settings.filter(isGeometry), drive]);
+    const value = (name) => setup.value(name);
+    const drive = drawnDrive(this.table, value);
+    const key = JSON.stringify([settings.filter(isGeometry), drive, drawnClutches(this.table, value)]);
     if (key === this.key) return;
     this.key = key;
-    this.request(settings, (name) => setup.value(name), drive);
+    this.request(settings, value, drive);
   }
 
   // The worker answers in the order of the requests.
@@ -128,7 +130,7 @@ export class Shapes {
   request(settings, value, drive) {
     // values at the time of the request: the set-up may change before the answer arrives
     const geometry = Object.fromEntries(Object.entries(GEOMETRY).map(([key, name]) => [key, value(`geometry.${name}`)]));
-    this.waiting.push({ ...geometry, drive });
+    this.waiting.push({ ...geometry, drive, clutches: drawnClutches(this.table, value) });
     this.ask(settings);
   }
 }

@@ -93,7 +93,7 @@ export class Toothed {
 }
 
 // Surface between consecutive loops of equally many points.
-function strung(loops) {
+export function strung(loops) {
   const count = loops[0].length;
   const triangles = [];
   for (let row = 0; row + 1 < loops.length; row += 1) {

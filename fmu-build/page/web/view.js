@@ -8,6 +8,7 @@ import { clamp } from "./table.js";
 const MARGIN = 44; // minimum distance of a label's middle from the window's edge in pixels
 const ANGLE = 26; // vertical angle of view in degrees
 const FINEST = 2; // maximum number of picture pixels per page pixel, in one direction
+const WIDE = 1.65; // half length of the axle that fits into the view of the whole, per reach of the gears
 const COARSE = 5e4; // maximum number of pixels if the processor draws
 
 // Seen from the rear of a vehicle, with +x, its left, at the left.
@@ -90,7 +91,7 @@ export class View {
 
   // Target of the present view, direction from there to the eye, and distance of the eye.
   sight() {
-    const { reach, assembly, drive } = this.differential;
+    const { reach, end, assembly, drive } = this.differential;
     const { from, at, distance, around, mesh, far } = PRESETS[this.preset];
     const along = (axes, parts) => axes.reduce((sum, axis, k) => sum.addScaledVector(axis, parts[k]), new Vector3()).normalize();
     if (at) {
@@ -106,9 +107,10 @@ export class View {
       const [x, y, z] = around;
       // the view of the whole is from the side of the planets, so that the ring gear does not cover them
       const beside = this.preset === "whole" ? x * drive.place.side : x;
-      return { target, direction: new Vector3(beside, y, z).normalize(), size: far * Math.max(radius, 1.5 * reach) };
+      return { target, direction: new Vector3(beside, y, z).normalize(), size: far * Math.max(radius, 1.5 * reach, 1.06 * end) };
     }
-    return { target: new Vector3(), direction: new Vector3(...from).normalize(), size: distance * reach };
+    // clutches make the half-shafts longer
+    return { target: new Vector3(), direction: new Vector3(...from).normalize(), size: distance * Math.max(reach, end / WIDE) };
   }
 
   showCase(visible) {
@@ -164,12 +166,14 @@ export class View {
 
   // Puts names next to the parts in the window.
   label() {
-    const { reach, group, planets, drive } = this.differential;
+    const { reach, end, group, planets, drive, halfShafts } = this.differential;
     const turned = (position) => position.clone().applyEuler(group.rotation);
     const places = this.preset !== "whole" ? {} : {
       ...(drive && { ring: turned(drive.labels.ring), pinion: turned(drive.labels.pinion) }),
-      left: new Vector3(1.75 * reach, -0.62 * reach, 0),
-      right: new Vector3(-1.75 * reach, -0.62 * reach, 0),
+      left: new Vector3(end + 0.35 * reach, -0.62 * reach, 0),
+      right: new Vector3(-end - 0.35 * reach, -0.62 * reach, 0),
+      // the ring gear covers the clutches on its side
+      ...Object.assign({}, ...halfShafts.filter(({ side }) => side !== drive?.place.side).map(({ labels }) => labels)),
       planet: new Vector3().setFromMatrixPosition(planets[0].matrixWorld)
         .add(new Vector3(0, 1.48 * reach, 0).applyEuler(this.differential.housing.carrier.rotation).applyEuler(group.rotation)),
     };
