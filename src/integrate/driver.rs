@@ -57,7 +57,9 @@ const LEDGER: f64 = 4.0;
 /// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a discontinuity is evaluated
 /// with two more points.
 const UNREFINED: f64 = 0.05;
-/// Shortest step that ends at a kink, in resolutions of time. Rounding may leave a point before its kink again and again.
+/// Shortest step that ends at a kink or is shortened for its ledger, in resolutions of time. Rounding may leave a point
+/// before its kink again and again. If the force jumps there, the ledger of every step across it is wrong; such a short
+/// step exchanges almost no energy.
 const KINK: f64 = 1e3;
 /// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
 /// attempt is accepted, because the remaining imbalance does not depend on the step size.
@@ -115,7 +117,7 @@ pub struct Judged<const N: usize, P> {
     ledger_rates: [P; 3],
     /// Imbalance of the ledger as a multiple of the allowed one.
     imbalance: f64,
-    /// True if the ledger of the step closes, or if shorter steps have not closed it either.
+    /// True if the ledger of the step closes, or if shorter steps have not closed it or hardly exist.
     pub is_balanced: bool,
 }
 
@@ -305,8 +307,8 @@ impl<'a, const N: usize, M: Method, S: SecondOrder<N> + ?Sized> Solver<'a, N, M,
                 imbalance = imbalance.min(ledger.residual / floor);
             }
         }
-        let is_balanced = imbalance.is_nan() || imbalance <= 1.0 || pending.unbalanced >= UNBALANCED;
-        Judged { end, ledger_rates, imbalance, is_balanced }
+        let is_refused = imbalance > 1.0 && pending.unbalanced < UNBALANCED && h > KINK * trajectory.resolution;
+        Judged { end, ledger_rates, imbalance, is_balanced: !is_refused }
     }
 
     /// Drops the pending step because the ledger of this `part` does not close, and shortens the next attempt. Fails if

@@ -1,12 +1,16 @@
 //! Tests that steps end where the equations switch.
 
-use bevel_differential::integrate::{Control, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
+use bevel_differential::integrate::{Control, Imbalance, Linearisation, Point, SecondOrder, Statistics, TimedPoint};
 
 use super::continuation::State;
 use super::follow::AfterStep;
 use super::methods::{Known, with_every_method};
 
-with_every_method!(steps_land_on_switches_in_a_few_attempts a_system_at_rest_on_a_kink_is_not_held_there);
+with_every_method!(
+    steps_land_on_switches_in_a_few_attempts
+    a_system_at_rest_on_a_kink_is_not_held_there
+    a_force_that_jumps_does_not_hold_a_body
+);
 
 /// An oscillator that is stiffer below zero: v̇ = −q above, −4q below. The test sets the active side.
 struct Kinked {
@@ -102,4 +106,59 @@ fn a_system_at_rest_on_a_kink_is_not_held_there<M: Known>() {
     assert_eq!(state.time, 10.0);
     // from 1 ms on, each step is six times longer
     assert!(statistics.accepted <= 8, "{statistics:?}");
+}
+
+/// A body that meets a damper at the position `EDGE`, whose rounding is much larger than that of time.
+struct Damper;
+
+const EDGE: f64 = 20.9;
+const DAMPING: f64 = 500.0;
+
+impl SecondOrder<1> for Damper {
+    /// Heat of the damping [W].
+    type Rates = f64;
+
+    fn evaluate(&self, at: &Point<1>) -> ([f64; 1], f64) {
+        let force = if at.q[0] > EDGE { DAMPING * at.v[0] } else { 0.0 };
+        ([-force], force * at.v[0])
+    }
+    fn linearise(&self, at: &Point<1>) -> Linearisation<1, f64> {
+        let (acceleration, ledger_rates) = self.evaluate(at);
+        let slope = if at.q[0] > EDGE { -DAMPING } else { 0.0 };
+        Linearisation { acceleration, by_position: [[0.0]], by_velocity: [[slope]], ledger_rates }
+    }
+    fn weights(&self, _: &Point<1>) -> Point<1> {
+        Point { q: [1.0], v: [1.0] }
+    }
+    fn kink(&self, at: &Point<1>, h: f64) -> Option<f64> {
+        Some((EDGE - at.q[0]) / (h * at.v[0])).filter(|fraction| (1e-6..1.0).contains(fraction))
+    }
+    fn energy(&self, at: &Point<1>) -> [f64; 2] {
+        [0.5 * at.v[0] * at.v[0], 0.0]
+    }
+    fn imbalance(&self, [[before, _], [after, _]]: [[f64; 2]; 2], h: f64, [a, m, b]: &[f64; 3]) -> Imbalance {
+        let heat = h / 6.0 * (a + 4.0 * m + b);
+        let rounding = 1e-13 * (before + after);
+        Imbalance { residual: ((after - before + heat).abs() - rounding).max(0.0), exchanged: heat }
+    }
+    /// Energy of the speed that the error norm does not resolve.
+    fn energy_floor(&self, _: [&Point<1>; 2], tolerance: f64, _: f64) -> f64 {
+        0.5 * tolerance * tolerance
+    }
+}
+
+fn a_force_that_jumps_does_not_hold_a_body<M: Known>() {
+    let mut most = 0;
+    for k in 0..200 {
+        let start = EDGE - 1e-3 * (1.0 + f64::from(k) / 200.0);
+        let mut state = State { point: Point { q: [start], v: [0.0655] }, time: 0.0, control: Control::new(1e-4) };
+        let mut statistics = Statistics::default();
+        state.integrate::<M, _>(&Damper, 0.1, &mut statistics, |_, _| AfterStep::Continue);
+        // the damper stops the body after v/c
+        assert!((state.point.q[0] - EDGE - 0.0655 / DAMPING).abs() < 1e-8, "{k}: {:?}", state.point);
+        most = most.max(statistics.accepted + statistics.rejected_ledger + statistics.rejected_error);
+    }
+    println!("at most {most} attempts");
+    // the decay takes about 1000 attempts at this tolerance; a body held at the jump takes all of its 100 000
+    assert!(most < 5000, "{most} attempts");
 }

@@ -2,7 +2,9 @@
 //! nothing that happens beyond a point affects the results at it.
 
 use bevel_differential::contact::ContactLaw;
-use bevel_differential::model::{CarrierDrive, Given, Inputs, Method, Parameters, PlanetSpin, Simulation, Start, State};
+use bevel_differential::model::{
+    CarrierDrive, Given, Inputs, Method, Parameters, PlanetSpin, Simulation, Start, State,
+};
 
 /// Named scene.
 struct Scene {
