@@ -1,4 +1,4 @@
-"""Dog clutches in results: their lash at the port, the bench that closes them, and the sentences of a report."""
+"""Dog clutches in results: their lash at the port, the bench that closes them, the sentences of a report, and the shipped scene."""
 
 import re
 
@@ -60,3 +60,22 @@ def test_the_report_says_when_a_dog_clutch_is_open_and_gives_no_bias_then(fmu_fi
     with Scene(set=COASTS | {"right.dog_command": 0.0, "carrier.torque_command": 100.0, "left.load_torque": 20.0}, stop=0.05,
                outputs=["right.dog_phase"], accept_start_values=True, fmu=fmu_file) as scene:
         assert "no bias ratio, because a dog clutch is never closed" in verdicts(Simulated.of(scene))[-1].text
+
+
+def test_the_shipped_scene_passes_through_all_phases_and_ends_closed(fmu_file):
+    with Scene.load("disconnect", fmu=fmu_file) as scene:
+        record = scene.run(["right.dog_phase", "right.speed", "right.wheel_speed", "right.shaft_torque", "heat.disconnect",
+                            "solver.energy_residual"])
+    rows = np.flatnonzero(np.diff(record["right.dog_phase"], prepend=-1.0))
+    _, stuck, opened, unequal, gap, again = rows
+    # closed, waits for low torque, open, waits for equal speeds, waits for a gap, closed
+    assert record["right.dog_phase"][rows].tolist() == [3, 4, 0, 1, 2, 3]
+    # each phase lasts long enough to be seen
+    assert np.diff(record["time"][rows], append=record["time"][-1]).min() > 0.02
+    torque, difference = record["right.shaft_torque"], record["right.wheel_speed"] - record["right.speed"]
+    assert torque[stuck] == pytest.approx(200.0, rel=1e-6) and torque[opened] == 0.0
+    assert difference[unequal] > 20.0 and 0.0 < difference[gap] <= 5.0
+    # the closed clutch transmits torque again, and produces no more heat
+    assert torque[again:].max() > 100.0
+    assert record["heat.disconnect"][again] == record["heat.disconnect"][-1] > 1.0
+    assert np.abs(record["solver.energy_residual"]).max() < 1e-5
