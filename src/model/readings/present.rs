@@ -20,10 +20,10 @@ struct Reader<'a> {
 }
 
 /// Sums at the present, and kinetic and stored energy [J]; no energy if the state is the end of a completed step. Also
-/// adds the step up to the present to the `memories`.
-fn present_sums(model: &Model, state: &State, memories: Option<&mut Memories>) -> (Sums, Option<f64>) {
+/// adds the step up to the present to the `memories`. Returns `None` if the ledger of this step does not close.
+fn present_sums(model: &Model, state: &State, memories: Option<&mut Memories>) -> Option<(Sums, Option<f64>)> {
     if state.pending_step.is_none() {
-        return (state.sums, None);
+        return Some((state.sums, None));
     }
     // derivatives that are set now belong to the next step
     let constant = state.inputs.derivatives.is_some().then(|| {
@@ -35,7 +35,7 @@ fn present_sums(model: &Model, state: &State, memories: Option<&mut Memories>) -
 }
 
 impl InShape for Reader<'_> {
-    type Output = (Sums, Option<f64>);
+    type Output = Option<(Sums, Option<f64>)>;
 
     fn inputs_and_state(&self) -> (&Inputs, &State) {
         (&self.state.inputs.values, self.state)
@@ -44,10 +44,10 @@ impl InShape for Reader<'_> {
     fn run<const N: usize, S: Shape<N>, E: LedgerEquations<N> + ?Sized>(self, equations: &mut E) -> Self::Output {
         let Self { model, state, memories } = self;
         let mut sums = state.sums;
-        let Some(mut clock) = state.pending_step.as_ref().map(|step| step.clock) else { return (sums, None) };
+        let mut clock = state.pending_step.as_ref()?.clock;
         clock.end = clock.now;
         let mut trajectory = resumed::<N>(state, &clock);
-        let Some(pending) = &trajectory.pending else { return (sums, None) };
+        let Some(pending) = &trajectory.pending else { return Some((sums, None)) };
         // the step up to the present, as if it were completed
         let (mut control, mut statistics) = (state.control, state.statistics);
         let tolerance = model.parameters.solver.relative_tolerance;
@@ -55,12 +55,15 @@ impl InShape for Reader<'_> {
         let mut solver = Solver::new(&Rodas5P, &*equations, context, &trajectory);
         let part = trajectory.accepted_part(pending);
         let judged = solver.judge(&trajectory, pending, &part);
+        if !judged.is_balanced {
+            return None;
+        }
         let step = solver.complete(&mut trajectory, &part, judged);
         equations.record(model, &step, (state.time() - clock.now, &mut sums, memories));
         let mut anchors = equations.applied().anchors();
         equations.drag_anchors(step.end, &step.ledger_rates[2], &mut anchors);
         equations.applied_mut().set_anchors(&anchors);
-        (sums, Some(equations.energy(&trajectory.point).iter().sum()))
+        Some((sums, Some(equations.energy(&trajectory.point).iter().sum())))
     }
 }
 
@@ -109,7 +112,8 @@ impl Simulation {
     pub fn shown(&self) -> Option<Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
-            let (present, _) = present_sums(&self.model, &self.state, None);
+            let sums = present_sums(&self.model, &self.state, None).map(|(sums, _)| sums);
+            let present = sums.unwrap_or_else(|| self.completed().state.sums);
             let Sums { torque_means, thermal, .. } = &mut shown.get_or_insert_with(|| self.clone()).state.sums;
             *torque_means = present.torque_means;
             thermal.rises = present.thermal.rises;
@@ -120,9 +124,25 @@ impl Simulation {
     /// Reads sums, energy (if it is known, [J]) and memories at the present. The simulation itself is unchanged.
     pub(in crate::model) fn read_present<T>(&mut self, read: impl FnOnce(&Self, (Sums, Option<f64>)) -> T) -> T {
         let checkpoint = self.memories.checkpoint();
-        let sums = present_sums(&self.model, &self.state, Some(&mut self.memories));
+        if let Some(sums) = present_sums(&self.model, &self.state, Some(&mut self.memories)) {
+            let found = read(self, sums);
+            self.memories.roll_back(checkpoint);
+            return found;
+        }
+        let mut completed = self.completed();
+        let sums = (completed.state.sums, Some(completed.energy(&completed.state)));
+        std::mem::swap(&mut self.memories, &mut completed.memories);
         let found = read(self, sums);
-        self.memories.roll_back(checkpoint);
+        std::mem::swap(&mut self.memories, &mut completed.memories);
         found
+    }
+
+    /// A copy that has completed its pending step up to the present. Its ledger does not close, which is rare, so shorter
+    /// steps replace it, as they will when the simulation moves on.
+    #[cold]
+    fn completed(&self) -> Self {
+        let mut completed = self.clone();
+        completed.complete_pending();
+        completed
     }
 }
