@@ -200,14 +200,15 @@ impl<const N: usize, S: SecondOrder<N> + ?Sized> Newton<'_, S, N> {
     /// Progress after a change of this `size`, where the change before it had the size `last`. Each change is smaller
     /// than the last by about the same factor, so the remaining changes are a geometric series. Only the first change is
     /// of another kind: it follows from the start, and a force that jumps within the step, such as that of a flank that
-    /// touches, may make the second one larger in steps of any size.
+    /// touches, may make the second one about as large or larger in steps of any size. The second change therefore never
+    /// ends the iteration.
     fn progress(&self, size: f64, last: f64, iterations_left: i32) -> Progress {
         let enough = LEFT_OVER.max(self.rounding);
         let shrink = size / last;
         let to_come = size * shrink / (1.0 - shrink);
         if size <= self.rounding || (shrink < 1.0 && to_come <= enough && iterations_left < ITERATIONS - 1) {
             Progress::Converged
-        } else if shrink >= 1.0 && iterations_left == ITERATIONS - 2 {
+        } else if iterations_left == ITERATIONS - 2 {
             Progress::Continues
         } else if shrink >= 1.0 || to_come * libm::pow(shrink, f64::from(iterations_left)) > enough {
             Progress::Diverges
