@@ -57,9 +57,9 @@ const LEDGER: f64 = 4.0;
 /// Imbalance, as a fraction of the allowed one, above which the ledger of a step after a discontinuity is evaluated
 /// with two more points.
 const UNREFINED: f64 = 0.05;
-/// Shortest step that ends at a kink or is shortened for its ledger, in resolutions of time. Rounding may leave a point
-/// before its kink again and again. If the force jumps there, the ledger of every step across it is wrong; such a short
-/// step exchanges almost no energy.
+/// Shortest step that is cut at a kink or judged by its ledger, in resolutions of time. Rounding may leave a point just
+/// before its kink. If the force jumps there, the ledger of no step across it closes, but a step as short as this
+/// exchanges almost no energy.
 const KINK: f64 = 1e3;
 /// Maximum number of consecutive attempts whose ledger does not close. After them, a step of the size of the first
 /// attempt is accepted, because the remaining imbalance does not depend on the step size.
@@ -77,8 +77,8 @@ pub struct SolverContext<'a> {
 }
 
 /// Parts of the loop over steps within one call, with its state: method, equations, control, and circumstances of the
-/// next attempt. Steps, their sizes and their counts do not depend on the requested times, because a step beyond them
-/// is only pending, and neither the motion nor the counts of completed steps change.
+/// next attempt. Steps, their sizes and their counts do not depend on the requested times: a step that ends beyond such
+/// a time is only pending, so it changes neither the motion nor the counts of completed steps.
 pub struct Solver<'a, const N: usize, M, S: SecondOrder<N> + ?Sized> {
     method: &'a M,
     system: &'a S,
@@ -117,7 +117,8 @@ pub struct Judged<const N: usize, P> {
     ledger_rates: [P; 3],
     /// Imbalance of the ledger as a multiple of the allowed one.
     imbalance: f64,
-    /// True if the ledger of the step closes, or if shorter steps have not closed it or hardly exist.
+    /// True if the ledger of the step closes, if several shorter steps have not closed it, or if the step is too short to
+    /// be judged.
     pub is_balanced: bool,
 }
 

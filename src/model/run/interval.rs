@@ -1,5 +1,5 @@
-//! An interval of the integrator's clock: its start, the trajectory in it, and the arrival at a
-//! stop. Also completes the pending step, in an interval that ends at the present.
+//! An interval of the integrator's clock: its start, the trajectory in it, and the arrival at a stop. Also completes the
+//! pending step, in an interval that ends at the present.
 
 use super::budget::budget;
 use super::by_shape::in_shape;
