@@ -171,6 +171,14 @@ impl<const N: usize, P> Trajectory<N, P> {
         Part { h, reached: if is_last { self.end } else { reached }, is_last }
     }
 
+    /// True if the pending step, of which this `part` is accepted, contains `until` [s] and need not be completed. A part
+    /// at whose end the equations end is completed if this end is requested.
+    #[inline(always)]
+    pub fn stays_pending(&self, part: &Part, until: f64) -> bool {
+        let is_end_requested = until + self.resolution >= self.end;
+        part.reached + self.resolution >= until && !(part.is_last && is_end_requested)
+    }
+
     /// Ends the equations at `end` [s]. A pending step is accepted up to this time, or dropped if it starts there.
     pub fn end_at(&mut self, end: f64) {
         self.end = end;

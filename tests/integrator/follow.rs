@@ -39,7 +39,6 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>>(
     context: SolverContext,
     mut observe: impl FnMut(Step<N, S::Rates>) -> AfterStep,
 ) -> Result<(), Failure> {
-    let is_end_requested = until + trajectory.resolution >= trajectory.end;
     let mut solver = Solver::new(method, system, context, trajectory);
     loop {
         let Some(pending) = &trajectory.pending else {
@@ -47,7 +46,7 @@ pub fn proceed<const N: usize, M: Method, S: SecondOrder<N>>(
             continue;
         };
         let part = trajectory.accepted_part(pending);
-        if part.reached + trajectory.resolution >= until && !(part.is_last && is_end_requested) {
+        if trajectory.stays_pending(&part, until) {
             return Ok(());
         }
         let judged = solver.judge(trajectory, pending, &part);

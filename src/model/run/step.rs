@@ -418,8 +418,6 @@ impl Recorder<'_> {
         until: f64,
         context: SolverContext,
     ) -> Result<(), Cause> {
-        let resolution = trajectory.resolution;
-        let is_end_requested = until + resolution >= trajectory.end;
         let mut solver = Solver::new(method, equations, context, trajectory);
         loop {
             // 4. evaluate and linearise the equations, and try a step: it becomes pending if its error is small enough
@@ -427,9 +425,9 @@ impl Recorder<'_> {
                 solver.attempt(trajectory)?;
                 continue;
             };
-            // the pending step contains the requested time, unless this time is the end of the equations
+            // it stays pending if it contains the requested time
             let part = trajectory.accepted_part(pending);
-            if part.reached + resolution >= until && !(part.is_last && is_end_requested) {
+            if trajectory.stays_pending(&part, until) {
                 return Ok(());
             }
             // 5. judge its energy: if the ledger does not close, try a shorter step
