@@ -1,5 +1,7 @@
 //! Drives of the differential, free and imposed motions, and the representation of tooth contact.
 
+use crate::declaration::{Condition, all, any};
+
 choices! {
     /// Drive of the carrier.
     pub enum CarrierDrive: "CarrierDrive" {
@@ -67,5 +69,20 @@ parameters! {
         gear_contact: GearContact = GearContact::Tooth;
         /// State at the start time
         start: Start = Start::Equilibrium;
+    }
+}
+
+impl Scene {
+    /// Condition under which the speed command of the drive has an effect: it is imposed, or the drive turns at the
+    /// start.
+    pub fn drive_has_speed() -> Condition {
+        let left = is!(Self.left_drive, SideDrive::Torque);
+        let right = is!(Self.right_drive, SideDrive::Torque);
+        let turns_at_start = all([
+            Condition::FromStart,
+            differs!(Self.start, Start::Rest),
+            any([all([left, right]), all([is!(Self.planet_spin, PlanetSpin::Free), any([left, right])])]),
+        ]);
+        any([is!(Self.carrier_drive, CarrierDrive::Speed), turns_at_start])
     }
 }

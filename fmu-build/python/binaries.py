@@ -28,7 +28,7 @@ class MachO(NamedTuple):
 
 
 def of_linux(file):
-    """Exported symbols, required libraries, and the newest required version of glibc, as (2, 17)."""
+    """Exported symbols, required libraries, the newest required version of glibc, as (2, 17), and ELF's name of the processor."""
     with open(file, "rb") as stream:
         elf = ELFFile(stream)
         exported = [symbol.name for symbol in elf.get_section_by_name(".dynsym").iter_symbols()
@@ -38,13 +38,7 @@ def of_linux(file):
                   for version in versions]
         glibc = [tuple(int(part) for part in name.removeprefix("GLIBC_").split(".")) for name in wanted
                  if name.startswith("GLIBC_")]
-    return exported, needed, max(glibc)
-
-
-def processor_of_linux(file):
-    """ELF's name of the processor."""
-    with open(file, "rb") as stream:
-        return ELFFile(stream)["e_machine"]
+    return exported, needed, max(glibc), elf["e_machine"]
 
 
 def of_windows(file):

@@ -16,7 +16,8 @@ pub use access::{Field, GetChoice, Parameter, SetChoice};
 pub use condition::{Condition, Group, Groups, Need, Test, all, any, end_of, group, number};
 pub use row::{Causality, Range, Row, Variability, row};
 pub use setting::{
-    Declared, Detail, Rows, RowsOf, SIDES, Setting, TUNABLE, acts_when, add, filled, name_within, when, when_each,
+    Declared, Detail, Rows, RowsOf, SIDES, Setting, TUNABLE, acts_when, add, filled, name_within, sides, when,
+    when_each,
 };
 pub use units::{DisplayUnit, Shown, Unit};
 

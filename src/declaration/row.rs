@@ -71,6 +71,8 @@ pub struct Row<A> {
     pub when: Option<Condition>,
     /// Condition under which the value affects more than outputs that repeat it; `None` = as `when`.
     pub acts_when: Option<Condition>,
+    /// Name of the variable that acts in scenes in which this one does not, if there is such a one.
+    pub instead: Option<&'static str>,
     /// Access to the value.
     pub access: A,
 }
@@ -104,6 +106,7 @@ impl<A> Row<A> {
             switch: self.switch,
             when: self.when,
             acts_when: self.acts_when,
+            instead: self.instead,
             access: to(self.access),
         }
     }
@@ -125,6 +128,7 @@ pub const fn row(name: &'static str, description: &'static str) -> Row<()> {
         switch: None,
         when: None,
         acts_when: None,
+        instead: None,
         access: (),
     }
 }
@@ -134,6 +138,12 @@ impl Row<()> {
     #[inline(never)]
     pub const fn when(self, condition: Condition) -> Self {
         Row { when: Some(condition), ..self }
+    }
+
+    /// Names the variable that acts in scenes in which this one does not.
+    #[inline(never)]
+    pub const fn instead(self, name: &'static str) -> Self {
+        Row { instead: Some(name), ..self }
     }
 
     const fn number(self, Shown(unit, display): Shown, range: Option<Range>) -> Self {

@@ -115,6 +115,12 @@ pub fn filled<'a>(text: &'static str, value: impl Fn(&str) -> &'a str) -> &'stat
     store_text(&found)
 }
 
+/// Starts the rows of a variable of each side. The description contains `{side}`.
+#[inline(never)]
+pub fn sides(name: &str, description: &'static str) -> [Row<()>; 2] {
+    SIDES.map(|side| row(name_within(side, name), filled(description, |_| side)))
+}
+
 /// Property of a parameter, as written behind its start value.
 pub trait Detail<A> {
     /// Adds the property to the row of a parameter, which is number `i` of the rows of its field.

@@ -41,6 +41,11 @@ impl DisplayUnit {
     pub fn read(&self, shown: f64) -> f64 {
         (shown - self.offset) / self.factor
     }
+
+    /// Text of an SI `value` in this unit with at most six decimals, for messages.
+    pub fn text(&self, value: f64) -> String {
+        format!("{} {}", (self.show(value) * 1e6).round() / 1e6, self.name)
+    }
 }
 
 /// An SI unit with its display units.

@@ -199,9 +199,10 @@ calls! {
         ) STEP | INTERMEDIATE | FAILED | TERMINATED | ERROR =>
             values::output_derivatives(instance, valueReferences, orders, values);
 
-        fmi3EnterEventMode() STEP | EVENT | CONTINUOUS => instance.enter_event_mode_of_either_kind();
+        fmi3EnterEventMode() STEP | EVENT | CONTINUOUS => instance.enter_event_mode();
         fmi3EnterStepMode() EVENT => instance.enter_step_mode();
-        fmi3EvaluateDiscreteStates() INITIALIZATION | EVENT => instance.evaluate_discrete_states();
+        /// Does nothing: discrete values follow directly from the states and inputs, without iteration.
+        fmi3EvaluateDiscreteStates() INITIALIZATION | EVENT => Ok(());
         /// Hosts iterate until all events are reported; usually there is one.
         fmi3UpdateDiscreteStates(
             discreteStatesNeedUpdate: *mut Boolean as output_value,
@@ -220,7 +221,7 @@ calls! {
             nextEventTime.write(update.next.unwrap_or(0.0));
             Ok(())
         };
-        fmi3EnterContinuousTimeMode() EVENT => instance.enter_continuous_time_mode_of_exchange();
+        fmi3EnterContinuousTimeMode() EVENT => instance.enter_continuous_time_mode();
         /// The flag is ignored, because snapshots are complete.
         fmi3CompletedIntegratorStep completed_step!() CONTINUOUS => Instance::completed_integrator_step;
         fmi3SetTime(time: f64) EVENT | CONTINUOUS => instance.set_time(time);

@@ -101,6 +101,23 @@ fn settable(reference: u32, wanted: &str) -> CallResult {
     }
 }
 
+/// Fails unless there are as many values as variables, and each of these can be set and is of the type `wanted`.
+fn check_all(
+    references: InputArray<u32>,
+    values: usize,
+    wanted: &str,
+    is_wanted: impl Fn(u32) -> CallResult<bool>,
+) -> CallResult {
+    check_count(references.len(), values)?;
+    for reference in references.iter() {
+        settable(reference, wanted)?;
+        if !is_wanted(reference)? {
+            return Err(wrong_type(row(reference)?));
+        }
+    }
+    Ok(())
+}
+
 /// fmi3GetInt32.
 pub fn get_int32(instance: &mut Instance, references: InputArray<u32>, values: OutputArray<i32>) -> CallResult {
     check_count(references.len(), values.len())?;
@@ -119,13 +136,7 @@ fn is_int32(reference: u32) -> CallResult<bool> {
 
 /// fmi3SetInt32.
 pub fn set_int32(instance: &mut Instance, references: InputArray<u32>, values: InputArray<i32>) -> CallResult {
-    check_count(references.len(), values.len())?;
-    for reference in references.iter() {
-        settable(reference, "Int32")?;
-        if !is_int32(reference)? {
-            return Err(wrong_type(row(reference)?));
-        }
-    }
+    check_all(references, values.len(), "Int32", is_int32)?;
     instance.set_integer(references.iter().zip(values.iter()))
 }
 
@@ -145,13 +156,7 @@ fn is_enumeration(reference: u32) -> CallResult<bool> {
 
 /// fmi3SetInt64, for enumerations.
 pub fn set_int64(instance: &mut Instance, references: InputArray<u32>, values: InputArray<i64>) -> CallResult {
-    check_count(references.len(), values.len())?;
-    for reference in references.iter() {
-        settable(reference, "enumeration")?;
-        if !is_enumeration(reference)? {
-            return Err(wrong_type(row(reference)?));
-        }
-    }
+    check_all(references, values.len(), "enumeration", is_enumeration)?;
     // a number outside the range of an Int32 is not a choice of any enumeration
     let choices = values.iter().map(|value| i32::try_from(value).unwrap_or(i32::MIN));
     instance.set_integer(references.iter().zip(choices))
@@ -198,10 +203,8 @@ pub fn get_boolean(instance: &mut Instance, references: InputArray<u32>, values:
 
 /// fmi3SetBoolean.
 pub fn set_boolean(instance: &mut Instance, references: InputArray<u32>, values: InputArray<u8>) -> CallResult {
-    check_count(references.len(), values.len())?;
-    for reference in references.iter() {
-        settable(reference, "Boolean")?;
-    }
+    // `set_boolean` refuses other types
+    check_all(references, values.len(), "Boolean", |_| Ok(true))?;
     instance.set_boolean(references.iter().zip(values.iter().map(|value| value != 0)))
 }
 

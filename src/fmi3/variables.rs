@@ -120,9 +120,7 @@ fn stored(name: &str, description: &str, item: Item) -> Added {
 
 /// Arrays over planets, and over the loaded tooth pairs of the first planet.
 fn arrays() -> Vec<Added> {
-    let rows = table().rows;
-    let index_of = |name: &str| rows.iter().position(|row| row.name == name);
-    let outputs = rows.iter().filter(|row| matches!(row.access, Access::Output(_)));
+    let outputs = table().rows.iter().filter(|row| matches!(row.access, Access::Output(_)));
     let mut arrays = Vec::new();
     for row in outputs {
         if let Some(pair) = row.name.strip_prefix(PAIR).and_then(|rest| rest.strip_prefix("1].")) {

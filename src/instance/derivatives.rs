@@ -1,6 +1,6 @@
 //! Derivatives with respect to time: those of inputs, which the host sets, and those of outputs.
 
-use super::sensitivity::{Slopes, check_built};
+use super::sensitivity::{OutputSlopes, check_built};
 use super::unknowns::{finite_slope, output_source};
 use super::values::row;
 use super::{CallError, CallResult, InputArray, Instance, Kind, Output, Phase, Snapshot};
@@ -22,16 +22,13 @@ impl Snapshot {
             return;
         }
         self.input_derivatives = simulation.input_derivatives().copied();
-        for (_, row, slot) in inputs_in(not_plain) {
-            let reached = slot(&mut self.inputs);
-            *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
-        }
+        keep_within_ranges(&mut self.inputs, not_plain);
         simulation.set_inputs(&self.inputs);
     }
 }
 
 /// Bit, row and field of each input in `mask`, in ascending order. Bits beyond the inputs are ignored.
-fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, InputField)> {
+pub fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, InputField)> {
     let Table { rows, inputs, .. } = table();
     std::iter::from_fn(move || {
         let index = inputs.get(mask.trailing_zeros() as usize)?;
@@ -42,16 +39,12 @@ fn inputs_in(mut mask: u32) -> impl Iterator<Item = (u32, &'static Variable, Inp
     .filter_map(|(bit, row)| if let Access::Input(slot) = row.access { Some((bit, row, slot)) } else { None })
 }
 
-/// Returns `inputs`, in which an input that has passed a limit by rounding is set to the limit.
-pub fn within_ranges(mut inputs: Inputs) -> Inputs {
-    for &index in table().inputs {
-        let row = &table().rows[index];
-        if let Access::Input(slot) = row.access {
-            let reached = slot(&mut inputs);
-            *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
-        }
+/// Sets each of the `inputs` in `mask` that has passed a limit by rounding to the limit.
+pub fn keep_within_ranges(inputs: &mut Inputs, mask: u32) {
+    for (_, row, slot) in inputs_in(mask) {
+        let reached = slot(inputs);
+        *reached = accepted(row, *reached, f64::INFINITY).unwrap_or(*reached);
     }
-    inputs
 }
 
 /// Bit of an input in the masks `Snapshot::derivatives_set` and `Instance::changing`; 0 for other variables.
@@ -194,14 +187,12 @@ impl Instance {
         if !is_any {
             return Ok(());
         }
-        let simulation = self.simulation()?;
-        let present = simulation.shown();
-        let simulation = present.as_ref().unwrap_or(simulation);
+        let simulation = self.simulation()?.shown();
         let mut direction = simulation.time_direction();
         if reads_temperatures {
             direction.temperatures = simulation.temperature_rates();
         }
-        let mut slopes = Slopes::new(simulation, &direction);
+        let mut slopes = OutputSlopes::new(&simulation, &direction);
         let mut ledger: Option<LedgerReadings> = None;
         for ((reference, _), value) in wanted.zip(values) {
             let row = row(reference)?;

@@ -21,18 +21,6 @@ impl Instance {
         self.simulation()
     }
 
-    /// Enters event mode. Changes nothing if the instance is already in event mode.
-    pub fn enter_event_mode(&mut self) -> CallResult {
-        self.now.phase = Phase::Event;
-        Ok(())
-    }
-
-    /// Enters continuous-time mode.
-    pub fn enter_continuous_time_mode(&mut self) -> CallResult {
-        self.now.phase = Phase::ContinuousTime;
-        Ok(())
-    }
-
     /// Performs an event iteration. A single iteration is always enough.
     pub fn new_discrete_states(&mut self) -> CallResult<Update> {
         let update = self.exchange_simulation()?.update();

@@ -39,13 +39,8 @@ impl<'a, T: Copy> InputArray<'a, T> {
     }
 
     /// Number of elements.
-    pub fn len(self) -> usize {
+    pub(crate) fn len(self) -> usize {
         self.0.len()
-    }
-
-    /// True if there are no elements.
-    pub fn is_empty(self) -> bool {
-        self.0.is_empty()
     }
 }
 
@@ -56,13 +51,8 @@ impl<'a, T> OutputArray<'a, T> {
     }
 
     /// Number of elements.
-    pub fn len(self) -> usize {
+    pub(crate) fn len(self) -> usize {
         self.0.len()
-    }
-
-    /// True if there are no elements.
-    pub fn is_empty(self) -> bool {
-        self.0.is_empty()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Derivatives of initial values with respect to inputs and parameters, by finite differences within the ranges.
 
-use super::unknowns::{Unknowns, finite_slope};
+use super::unknowns::{Unknown, finite_slope};
 use super::values::row;
 use super::{CallError, CallResult, Snapshot};
 use crate::model::GearCache;
@@ -45,7 +45,7 @@ const AGREEMENT: f64 = 1e-4;
 /// initialisation solves for an equilibrium.
 pub fn initial_derivatives(
     (now, cache): (&Snapshot, &GearCache),
-    unknowns: &Unknowns,
+    unknowns: &[Unknown],
     known: impl Iterator<Item = (u32, f64)> + Clone,
     slopes: &mut [f64],
 ) -> CallResult {
@@ -66,7 +66,7 @@ pub fn initial_derivatives(
             best = shorter;
         }
     }
-    for ((slope, found), (row, _)) in slopes.iter_mut().zip(best?.slopes).zip(&unknowns.0) {
+    for ((slope, found), (row, _)) in slopes.iter_mut().zip(best?.slopes).zip(unknowns) {
         *slope = finite_slope(row, found)?;
     }
     Ok(())
@@ -134,11 +134,11 @@ struct Estimate {
 
 fn differences(
     (now, cache): (&Snapshot, &GearCache),
-    unknowns: &Unknowns,
+    unknowns: &[Unknown],
     known: impl Iterator<Item = (u32, f64)> + Clone,
     (points, step): (&[Difference], f64),
 ) -> CallResult<Estimate> {
-    let count = unknowns.0.len();
+    let count = unknowns.len();
     let (mut second, mut fourth, mut largest) = (vec![0.0; count], vec![0.0; count], vec![0.0f64; count]);
     let mut first = vec![None; count];
     for &(position, [of_second, of_fourth]) in points {
@@ -160,7 +160,7 @@ fn differences(
                 crate::problem::list(&problems)
             ))
         })?;
-        for (k, (_, source)) in unknowns.0.iter().enumerate() {
+        for (k, (_, source)) in unknowns.iter().enumerate() {
             let value = source.read(&mut simulation);
             // the slope of a constant is exactly 0
             let change = value - *first[k].get_or_insert(value);

@@ -4,9 +4,8 @@
 //! derivatives from the host follows these derivatives instead of a ramp to the next value.
 
 use super::Snapshot;
-use super::derivatives::{input_bit, within_ranges};
+use super::derivatives::{inputs_in, keep_within_ranges};
 use crate::model::{HostInputs, InputDerivatives, Inputs, Simulation};
-use crate::variables::{Access, table};
 
 impl Snapshot {
     /// Passes the inputs that the host has set to the simulation, between steps.
@@ -45,7 +44,8 @@ impl Snapshot {
         let HostInputs { values, follow, .. } = self.host_inputs();
         let Some(simulation) = &self.simulation else { return };
         let (is_complete, reached) = (simulation.time() >= until, simulation.input_derivatives().copied());
-        self.inputs = within_ranges(values.pick(simulation.inputs(), &follow));
+        self.inputs = values.pick(simulation.inputs(), &follow);
+        keep_within_ranges(&mut self.inputs, u32::MAX);
         self.input_derivatives = reached
             .map(|reached| InputDerivatives::ZERO.pick(&reached, &follow))
             .filter(|derivatives| *derivatives != InputDerivatives::ZERO);
@@ -59,9 +59,8 @@ impl Snapshot {
     fn host_inputs(&self) -> HostInputs {
         let mut derivatives = self.input_derivatives.unwrap_or(InputDerivatives::ZERO);
         let mut follow = Inputs::ZERO;
-        for &index in table().inputs {
-            let Access::Input(slot) = table().rows[index].access else { continue };
-            let is_set = self.derivatives_set & input_bit(index as u32) != 0;
+        for (bit, _, slot) in inputs_in(u32::MAX) {
+            let is_set = self.derivatives_set & bit != 0;
             if is_set || derivatives.rates.iter_mut().any(|rates| *slot(rates) != 0.0) {
                 *slot(&mut follow) = 1.0;
             }

@@ -236,7 +236,10 @@ impl Instance {
                 now.phase.name()
             )));
         }
-        now.simulation = Some(now.start(&self.cache).map_err(|p| initial_problems(&p))?);
+        let started = now
+            .start_from(&now.parameters, &now.inputs, &self.cache)
+            .map_err(|problems| CallError::error(format!("initialisation failed:\n{}", problem::list(&problems))))?;
+        now.simulation = Some(started);
         Ok(())
     }
 
@@ -354,10 +357,6 @@ impl Instance {
         }
         CallError::error(message)
     }
-}
-
-fn initial_problems(problems: &[problem::Problem]) -> CallError {
-    CallError::error(format!("initialisation failed:\n{}", problem::list(problems)))
 }
 
 /// Returns the row of the solver's tolerance, and access to its value.

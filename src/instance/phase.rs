@@ -111,7 +111,13 @@ impl Call {
 fn illegal(phases: u16, phase: Phase) -> CallError {
     let legal: Vec<_> = Phase::ALL.into_iter().filter(|p| phases & p.bit() != 0).map(Phase::name).collect();
     let states = if legal.is_empty() { "no state of this FMU".into() } else { format!("\"{}\"", legal.join("\", \"")) };
-    CallError::error(format!("not legal in the state \"{}\"; legal in {states}", phase.name()))
+    let remedy = match phase {
+        Phase::Instantiated => "; initialise the unit first",
+        Phase::StepFailed => "; restore a saved state, or reset the unit",
+        Phase::Terminated | Phase::Error => "; reset the unit",
+        _ => "",
+    };
+    CallError::error(format!("not legal in the state \"{}\"; legal in {states}{remedy}", phase.name()))
 }
 
 /// States as bits, for the tables of calls.

@@ -3,7 +3,7 @@
 use crate::FULL;
 
 use super::initial_derivatives::initial_derivatives;
-use super::unknowns::{Unknowns, finite_slope};
+use super::unknowns::{Unknown, finite_slope, unknowns};
 use super::values::row;
 use super::{CallError, CallResult, Instance, Output, Phase, Snapshot};
 use crate::model::{Direction, Forces, GearCache, Inputs, PairLines, STATES, Simulation, StencilReadings};
@@ -18,11 +18,11 @@ impl Instance {
         values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
         check_built()?;
-        let unknowns = Unknowns::of(unknown)?;
+        let unknowns = unknowns(unknown)?;
         if let Some((_, bad)) = known.clone().find(|(_, x)| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the direction is not a finite number")));
         }
-        let mut slopes = vec![0.0; unknowns.0.len()];
+        let mut slopes = vec![0.0; unknowns.len()];
         self.with_columns(&unknowns, |columns| columns.write(&unknowns, known, &mut slopes))?;
         values.zip(slopes).for_each(|(value, slope)| value.write(slope));
         Ok(())
@@ -38,12 +38,12 @@ impl Instance {
         values: impl Iterator<Item = Output<'a, f64>>,
     ) -> CallResult {
         check_built()?;
-        let unknowns = Unknowns::of(unknown)?;
+        let unknowns = unknowns(unknown)?;
         if let Some(bad) = seed.clone().find(|x| !x.is_finite()) {
             return Err(CallError::discard(format!("{bad} in the seed is not a finite number")));
         }
         let known: Vec<(u32, f64)> = known.map(|known| (known, f64::from(self.has_effect(known)))).collect();
-        let (mut column, mut sums) = (vec![0.0; unknowns.0.len()], vec![0.0; known.len()]);
+        let (mut column, mut sums) = (vec![0.0; unknowns.len()], vec![0.0; known.len()]);
         self.with_columns(&unknowns, |columns| {
             known.into_iter().zip(&mut sums).try_for_each(|(known, sum)| {
                 column.fill(0.0);
@@ -59,16 +59,14 @@ impl Instance {
     }
 
     /// Calls `act` with the source of derivatives, if there are unknowns.
-    fn with_columns(&mut self, unknowns: &Unknowns, act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
-        if unknowns.0.is_empty() {
+    fn with_columns(&mut self, unknowns: &[Unknown], act: impl FnOnce(&Columns) -> CallResult) -> CallResult {
+        if unknowns.is_empty() {
             return Ok(());
         }
         if self.now.phase == Phase::Initialization {
             return act(&Columns::Initial(&self.now, &self.cache));
         }
-        let simulation = self.simulation()?;
-        let present = simulation.shown();
-        act(&Columns::Running(present.as_ref().unwrap_or(simulation)))
+        act(&Columns::Running(&self.simulation()?.shown()))
     }
 }
 
@@ -94,7 +92,7 @@ impl Columns<'_> {
     /// Writes the derivatives of `unknowns` along `known` to `slopes`, which must be zero before.
     fn write(
         &self,
-        unknowns: &Unknowns,
+        unknowns: &[Unknown],
         known: impl Iterator<Item = (u32, f64)> + Clone,
         slopes: &mut [f64],
     ) -> CallResult {
@@ -123,8 +121,8 @@ impl Columns<'_> {
             let braked = simulation.with_friction_applied(&inputs);
             let simulation = braked.as_ref().unwrap_or(simulation);
             let direction = simulation.direction(&states, &inputs);
-            let mut along = Slopes::new(simulation, &direction);
-            for (&(row, source), slope) in unknowns.0.iter().zip(slopes) {
+            let mut along = OutputSlopes::new(simulation, &direction);
+            for (&(row, source), slope) in unknowns.iter().zip(slopes) {
                 *slope = finite_slope(row, along.of(source))?;
             }
         }
@@ -133,7 +131,7 @@ impl Columns<'_> {
 }
 
 /// Derivatives along a direction. Each kind is computed on demand.
-pub struct Slopes<'a> {
+pub struct OutputSlopes<'a> {
     simulation: &'a Simulation,
     direction: &'a Direction,
     motion: Option<crate::model::Motion>,
@@ -143,7 +141,7 @@ pub struct Slopes<'a> {
     rates: Option<[f64; STATES]>,
 }
 
-impl<'a> Slopes<'a> {
+impl<'a> OutputSlopes<'a> {
     /// Prepares derivatives of `simulation` along `direction`.
     pub fn new(simulation: &'a Simulation, direction: &'a Direction) -> Self {
         Self { simulation, direction, motion: None, forces: None, pairs: None, states: None, rates: None }

@@ -77,12 +77,7 @@ impl Snapshot {
 type Running = (Option<Box<((State, Memories), Inputs)>>, Option<Box<Accepted>>);
 
 impl Snapshot {
-    /// Starts a simulation from the parameters and inputs. Fails with every problem found.
-    pub fn start(&self, cache: &GearCache) -> Result<Simulation, Vec<Problem>> {
-        self.start_from(&self.parameters, &self.inputs, cache)
-    }
-
-    /// Starts a simulation from other parameters and inputs. Fails with every problem found.
+    /// Starts a simulation from these parameters and inputs. Fails with every problem found.
     pub fn start_from(
         &self,
         parameters: &Parameters,

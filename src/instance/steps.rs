@@ -159,12 +159,13 @@ impl Instance {
         }
     }
 
-    /// Enters event mode, in model exchange or between steps of co-simulation.
-    pub fn enter_event_mode_of_either_kind(&mut self) -> CallResult {
+    /// Enters event mode, in model exchange or between steps of co-simulation. Changes nothing in event mode.
+    pub fn enter_event_mode(&mut self) -> CallResult {
         if self.now.kind == Kind::CoSimulation && !self.allowed.events {
             return Err(CallError::error("the host has said that it does not use event mode"));
         }
-        self.enter_event_mode()
+        self.now.phase = Phase::Event;
+        Ok(())
     }
 
     /// Leaves event mode for the next step.
@@ -175,13 +176,9 @@ impl Instance {
     }
 
     /// Leaves event mode, after which the host's solver continues.
-    pub fn enter_continuous_time_mode_of_exchange(&mut self) -> CallResult {
+    pub fn enter_continuous_time_mode(&mut self) -> CallResult {
         self.check_model_exchange()?;
-        self.enter_continuous_time_mode()
-    }
-
-    /// Does nothing: discrete values follow directly from the states and inputs, without iteration.
-    pub fn evaluate_discrete_states(&mut self) -> CallResult {
+        self.now.phase = Phase::ContinuousTime;
         Ok(())
     }
 

@@ -426,8 +426,22 @@ fn fit(wanted: f64, remaining: f64) -> (f64, bool) {
     }
 }
 
-/// True if positions change within `h` [s] by more than rounding. A system at rest on a kink does not leave it by steps
-/// that end on the kink.
+/// True if positions change within `h` [s] by more than rounding. Distances to kinks are sums of angles, so the rounding
+/// is at least that of 1 rad. Steps that end on a kink do not move a system that rests on the kink, or immediately
+/// before it.
 fn moves<const N: usize>(point: &Point<N>, h: f64) -> bool {
-    point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs())
+    point.q.iter().zip(&point.v).any(|(q, v)| (h * v).abs() > POSITION_ROUNDING * q.abs().max(1.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_motion_below_rounding_does_not_count() {
+        // a light pinion at rest: 1e-13 rad/s, and a kink 5 us ahead
+        for (q, v, h, does) in [(0.0, 1e-13, 5e-6, false), (0.0, 1e-9, 5e-6, true), (100.0, 1e-9, 5e-6, false)] {
+            assert_eq!(moves(&Point { q: [q], v: [v] }, h), does, "{q} {v} {h}");
+        }
+    }
 }

@@ -39,7 +39,7 @@ pub use outputs::forces::MeshForces;
 pub use outputs::forces::{Forces, efficiency};
 pub use outputs::ledger_readings::{HELD, LedgerReadings};
 pub use outputs::motion::Motion;
-pub use outputs::pairs::{PAIRS, PairLine, PairLines};
+pub use outputs::pairs::{PairLine, PairLines, TOOTH_PAIRS};
 pub use readings::{CostClass, Reported};
 pub use run::{Accepted, HostInputs, Simulation, StepFailure, six_digits};
 pub use scene::layout::MAX_PLANETS;

@@ -6,7 +6,7 @@ use std::fmt;
 use std::sync::OnceLock;
 
 use super::Variable;
-use super::named::{named, number, value_of};
+use super::named::{index_of, named, number, value_of};
 use super::table::table;
 use super::written::written;
 use crate::declaration::{Condition, Need, Test};
@@ -149,7 +149,9 @@ pub fn value_without_effect(
         all.add(missing(condition, parameters, situation));
     }
     let repeated = if only_repeated { ". Here, only outputs repeat it" } else { "" };
-    Some(problem!(row.name, "{}{NO_EFFECT}{all}{repeated}", written(row, value)))
+    let here = |name: &&str| index_of(name).is_some_and(|index| acts(index, parameters, situation));
+    let instead = row.instead.filter(here).map_or(String::new(), |name| format!(". Here, {name} acts instead"));
+    Some(problem!(row.name, "{}{NO_EFFECT}{all}{repeated}{instead}", written(row, value)))
 }
 
 /// Common text of the warnings about values without effect.
@@ -197,7 +199,7 @@ mod tests {
     use super::*;
     use crate::declaration::Causality;
     use crate::variables::Access;
-    use crate::variables::{assign, index_of};
+    use crate::variables::assign;
 
     #[test]
     fn every_test_names_a_parameter_and_reads_its_value() {
@@ -291,6 +293,14 @@ mod tests {
             said("carrier.torque_command", 900.0, |_| ()),
             "carrier.torque_command: 900 N.m changes nothing in this scene. It acts only if scene.carrier_drive = torque \
              (now: speed)"
+        );
+        // another command acts
+        assert_eq!(
+            said("carrier.torque_command", 900.0, |p| {
+                (p.effects.final_drive, p.scene.carrier_drive) = (true, crate::model::CarrierDrive::Torque);
+            }),
+            "carrier.torque_command: 900 N.m changes nothing in this scene. It acts only if effects.final_drive = false \
+             (now: true). Here, pinion.torque_command acts instead"
         );
         // the wheel brake is off, and both alternatives are missing
         assert_eq!(

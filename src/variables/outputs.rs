@@ -3,7 +3,7 @@
 use super::access::OutputSource::{self, Reading};
 use crate::declaration::units::*;
 use crate::declaration::{Row, SIDES, Shown, filled, row};
-use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, PAIRS, efficiency, readings};
+use crate::model::{ALL_HEATS, Changes, MAX_PLANETS, TOOTH_PAIRS, efficiency, readings};
 
 /// Placeholders with two values each, as written in names and in descriptions.
 const EITHER: [(&str, [&str; 2], [&str; 2]); 2] =
@@ -36,7 +36,7 @@ pub fn add(
     let count = match name {
         _ if !name.contains(NUMBER) => 1,
         _ if name.starts_with("planet") => MAX_PLANETS,
-        _ => PAIRS,
+        _ => TOOTH_PAIRS,
     };
     for index in 0..count * two {
         let number = (index / two + 1).to_string();
@@ -122,7 +122,8 @@ fn own() -> Vec<Row<OutputSource>> {
         "planet[{i}].spin_speed": RAD_PER_S | DEG_PER_S, Motion(|m, i| m.spin_speed[i]);
         /// Normal force of the mesh with the {side} side gear, summed over its tooth pairs
         "planet[{i}].{side}_normal_force": NEWTON, Forces(|f, k| f.mesh[k / 2][k % 2].normal);
-        /// Number of loaded tooth pairs in the mesh with the {side} side gear
+        /// Number of loaded tooth pairs in the mesh with the {side} side gear; each counts by its loaded share of the
+        /// face
         "planet[{i}].{side}_pairs": ONE, Forces(|f, k| f.mesh[k / 2][k % 2].pairs);
         /// Resultant mesh force on the planet across the pin
         "planet[{i}].pin_force": NEWTON, Components(|f, i| f.pin_force[i]);

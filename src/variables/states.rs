@@ -43,10 +43,6 @@ const AXIAL: f64 = 1e-5;
 const SPEED: f64 = 10.0;
 /// Speed of seats [m/s].
 const AXIAL_SPEED: f64 = 1e-2;
-/// Names of the angle and speed of a side gear.
-const SIDE: [&str; 2] = ["relative_angle", "speed"];
-/// Names of the axial position and speed of a side gear.
-const SEAT: [&str; 2] = ["seat_position", "seat_speed"];
 
 /// Returns the position and velocity states of a body.
 fn states(body: Body) -> [State; 2] {
@@ -57,35 +53,20 @@ fn states(body: Body) -> [State; 2] {
         Body::Attached(k) => ATTACHED[k].of.into(),
     };
     let (kind, descriptions, names, nominal) = match body {
-        Body::Side(0) => (
-            &TURNS,
-            ["Left side gear angle relative to the carrier", "Left side gear speed"],
-            SIDE,
-            [DEFLECTION, SPEED],
-        ),
         Body::Side(_) => (
             &TURNS,
-            ["Right side gear angle relative to the carrier", "Right side gear speed"],
-            SIDE,
+            ["{side} side gear angle relative to the carrier", "{side} side gear speed"],
+            ["relative_angle", "speed"],
             [DEFLECTION, SPEED],
         ),
         Body::Carrier => (&TURNS, ["Carrier angle", "Carrier speed"], ["angle", "speed"], [ANGLE, SPEED]),
-        Body::Seat(0) => (
-            &SHIFTS,
-            [
-                "Left side gear position along its axis, away from the apex",
-                "Left side gear speed along its axis, away from the apex",
-            ],
-            SEAT,
-            [AXIAL, AXIAL_SPEED],
-        ),
         Body::Seat(_) => (
             &SHIFTS,
             [
-                "Right side gear position along its axis, away from the apex",
-                "Right side gear speed along its axis, away from the apex",
+                "{side} side gear position along its axis, away from the apex",
+                "{side} side gear speed along its axis, away from the apex",
             ],
-            SEAT,
+            ["seat_position", "seat_speed"],
             [AXIAL, AXIAL_SPEED],
         ),
         Body::Planet(_) => {
@@ -99,10 +80,11 @@ fn states(body: Body) -> [State; 2] {
         ),
         Body::Attached(k) => (&TURNS, ATTACHED[k].descriptions, ATTACHED[k].states, [TWIST, SPEED]),
     };
+    let side = if let Body::Side(0) | Body::Seat(0) = body { "Left" } else { "Right" };
     [0, 1].map(|i| State {
         name: format!("{of}.{}", names[i]),
         derivative: format!("der({of}.{})", names[i]),
-        description: descriptions[i].to_owned(),
+        description: descriptions[i].replace("{side}", side),
         nominal: nominal[i],
         unit: kind.units[i],
         display: kind.display[i],

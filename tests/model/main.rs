@@ -12,6 +12,7 @@ mod differential;
 mod effective;
 mod gear_cache;
 mod gear_parameters;
+mod held_at_start;
 mod ideal_half_shafts;
 mod ideal_lines;
 mod input_derivatives;

@@ -4,7 +4,9 @@ use bevel_differential::contact::mesh::{Mesh, MeshState};
 use bevel_differential::contact::spring::{ImpactSpring, Resultant};
 use bevel_differential::contact::{AnySpring, ContactLaw, Damping, Impact};
 use bevel_differential::geometry::{GearSpec, Pair};
-use bevel_differential::model::{Forces, GearContact, Inputs, Parameters, PlanetSpin, Simulation, Start, readings};
+use bevel_differential::model::{
+    CarrierDrive, Forces, GearContact, Inputs, Parameters, PlanetSpin, SideDrive, Simulation, Start, readings,
+};
 
 const LOAD: f64 = 835.0;
 
@@ -276,4 +278,28 @@ fn an_equilibrium_beyond_the_largest_deflection_is_refused_at_the_start() {
         }
     }
     assert!(carried > 0 && refused > 0, "{carried} carried, {refused} refused");
+}
+
+#[test]
+fn a_start_under_too_large_a_torque_names_the_input_that_causes_it() {
+    let said = |p: &Parameters, inputs: Inputs| {
+        let Err(problems) = Simulation::start(p, &inputs, 0.0) else { panic!("teeth carry {inputs:?}") };
+        problems[0].to_string()
+    };
+    let mut p = Parameters::default();
+    (p.scene.left_drive, p.scene.right_drive) = (SideDrive::Speed, SideDrive::Speed);
+    p.scene.carrier_drive = CarrierDrive::Torque;
+    let inputs = Inputs { carrier_torque: 2e6, pinion_torque: -5e5, load_torque: [700.0; 2], ..Inputs::default() };
+    let by_carrier = said(&p, inputs);
+    assert!(by_carrier.starts_with("carrier.torque_command: 2000000"), "{by_carrier}");
+    assert!(by_carrier.contains("1000000.000000 N.m on the left side gear"), "{by_carrier}");
+    p.effects.final_drive = true;
+    let by_pinion = said(&p, inputs);
+    assert!(by_pinion.starts_with("pinion.torque_command: -500000"), "{by_pinion}");
+    assert!(by_pinion.contains("-1025000.000000 N.m on the left side gear"), "{by_pinion}");
+    // the load of the right side is also on the left side gear
+    p.effects.final_drive = false;
+    (p.scene.carrier_drive, p.scene.right_drive) = (CarrierDrive::Speed, SideDrive::Torque);
+    let by_load = said(&p, Inputs { load_torque: [700.0, 1e6], ..inputs });
+    assert!(by_load.starts_with("right.load_torque: 1000000"), "{by_load}");
 }

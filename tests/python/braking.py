@@ -1,9 +1,10 @@
 """Scenes with wheel brakes: both wheels have inertia and no loads except brakes, and the carrier is driven by torque."""
 
 import numpy as np
+import pytest
 from driving import SIDES, UNLOADED
 
-CONTACTS = ["ideal", "lumped", "tooth", "solid"]
+CONTACTS = pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth", "solid"])
 STIFFNESS, END, CARRIER_INERTIA = 1e5, 0.5, 0.02
 # inertia of everything that turns with the carrier, without gears
 WHOLE = CARRIER_INERTIA + 2.0 * END

@@ -2,6 +2,7 @@
 an explicit method of order 8, and an event at each switch. The carrier turns at an imposed speed; loads change in steps."""
 
 from dataclasses import dataclass, field
+from random import Random
 
 import numpy as np
 import theory
@@ -35,6 +36,24 @@ class Gears:
         u = min(depth / self.depth, 1.0)
         force = self.spring * depth + self.damping * u * u * (3.0 - 2.0 * u) * closing
         return theory.RESULTANT * max(force, 0.0) * np.sign(q)
+
+
+    def values(self):
+        """The same gears in the FMU: without backlash, behind a carrier with an imposed speed."""
+        return {"scene.gear_contact": "lumped", "contact.mesh_stiffness_from_geometry": False, "contact.mesh_stiffness": self.stiffness,
+                "contact.damping": self.damping, "contact.penetration_depth": self.depth, "effects.backlash": False,
+                "inertia.from_geometry": False, "inertia.side_gear": 1e-4, "inertia.left_end": self.side - 1e-4,
+                "inertia.right_end": self.side - 1e-4, "inertia.planet": self.planet, "carrier.speed_command": 30.0,
+                "scene.start": "rolling", "left.load_torque": 0.0, "right.load_torque": 0.0}
+
+
+def alternating_loads():
+    """Loads of the wheels [N·m]. Each difference is followed by none, so that packs stick; drive and coast alternate."""
+    random = Random(1)
+    for k in range(100):
+        mean = 200.0 if k // 13 % 2 == 0 else -150.0
+        unequal = random.uniform(100.0, 325.0) * (1.0, 0.0, -1.0, 0.0)[k % 4]
+        yield mean + unequal, mean - unequal
 
 
 @dataclass

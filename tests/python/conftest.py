@@ -17,6 +17,7 @@ os.environ["BEVEL_DIFFERENTIAL_FMU"] = os.path.abspath(os.environ.get("FMU", "")
 
 from bevel_differential import Differential, Fmu, style  # noqa: E402
 from driving import Drive  # noqa: E402
+from duty_cycles import spectrum_of  # noqa: E402
 from evidence_unit import packed  # noqa: E402
 from fmi3 import Unit3  # noqa: E402
 
@@ -98,11 +99,11 @@ def description(fmu_file):
 
 @pytest.fixture(scope="session")
 def run(fmu_file, outputs):
-    """run(start_values, stop, step, output): record of a simulation, by default of all outputs."""
+    """run(start_values, stop, step, output, inputs): record of a simulation, by default of all outputs."""
 
-    def simulate(start_values=None, stop=0.5, step=0.001, output=None):
+    def simulate(start_values=None, stop=0.5, step=0.001, output=None, inputs=None):
         with Differential(start_values, fmu=fmu_file) as differential:
-            return differential.run(outputs=output or outputs, stop=stop, step=step)
+            return differential.run(inputs, output or outputs, stop, step)
 
     return simulate
 
@@ -124,6 +125,19 @@ def drive(fmu):
     """drive(values): started scene (see driving.py). All scenes are freed at the end of the test."""
     with ExitStack() as begun:
         yield lambda values=None: begun.enter_context(Drive(fmu, values))
+
+
+@pytest.fixture
+def cycle(fmu_file, tmp_path):
+    """cycle(lines, ...): the spectrum of a duty cycle with these lines."""
+    return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
+
+
+@pytest.fixture
+def started(fmu):
+    """started(values): instance that is initialised, freed at the end of the test."""
+    with ExitStack() as begun:
+        yield lambda *scene: begun.enter_context(fmu.open()).initialise(*scene)
 
 
 @pytest.fixture

@@ -14,6 +14,7 @@ ERRORS = [f"coupling.{name}.energy_error" for name in LOADS]
 LAG = 2
 FREE = {"scene.gear_contact": "ideal", "scene.carrier_drive": "torque", "inertia.carrier": 1.0, "inertia.left_end": 1.0,
         "inertia.right_end": 1.0, **dict.fromkeys(LOADS.values(), 0.0)}
+ADVISED = FREE | {"effects.coupling_advice": True}
 # parts of a step of Runge and Kutta's method
 PARTS = 8
 
@@ -88,7 +89,7 @@ def couple(fmu, hosts, size, stop, *, delay=0, lines=False, values=None):
     """Couples `hosts`, by port, in steps of `size` up to `stop`. With `lines`, torques continue their last change."""
     ports, run = list(hosts), Coupled()
     with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "coupling.host_delay": float(delay)} | (values or {}))
+        instance.initialise(ADVISED | {"coupling.host_delay": float(delay)} | (values or {}))
         shown = [name for port in ports for name in MOTION[port]]
         port = instance.port([LOADS[name] for name in ports], [*shown, *ERRORS, "coupling.energy_ratio", "coupling.step_advice"])
         now = motions(ports, port.read())

@@ -33,6 +33,7 @@ class Unit3:
         self.raw = make(guid=self.description.guid, unzipDirectory=self.folder, instanceName="three",
                         modelIdentifier=element.modelIdentifier)
         self.raw.instantiate(logMessage=self._log, **options)
+        self.has_events = options.get("eventModeUsed", False)
 
     def _log(self, _environment, status, _category, message):
         self.messages.append((status, message.decode()))
@@ -72,15 +73,29 @@ class Unit3:
                                 values.ctypes.data_as(POINTER(c_double)), len(names))
         return values
 
-    def initialise(self, values, stop=None, start=0.0):
+    def initialise(self, values, stop=None, start=0.0, tolerance=None):
         count = values.get("geometry.planet_count")
         if count is not None:
             self.raw.fmi3EnterConfigurationMode(self.raw.component)
             self.set({"geometry.planet_count": int(count)})
             self.raw.fmi3ExitConfigurationMode(self.raw.component)
         self.set({name: value for name, value in values.items() if name != "geometry.planet_count"})
-        self.raw.enterInitializationMode(startTime=start, stopTime=stop)
+        self.raw.enterInitializationMode(startTime=start, stopTime=stop, tolerance=tolerance)
         self.raw.exitInitializationMode()
+
+    def begin(self, *scene, **options):
+        """Initialises, and leaves event mode if the unit is in it."""
+        self.initialise(*scene, **options)
+        if self.has_events:
+            self.update()
+            self.raw.enterStepMode()
+
+    def save(self):
+        """State as bytes, for this or another instance."""
+        return self.raw.serializeFMUState(self.raw.getFMUState())
+
+    def restore(self, saved):
+        self.raw.setFMUState(self.raw.deserializeFMUState(saved))
 
     def step(self, time, size):
         """Advances by `size`; returns (event handling needed, terminate, early return, last successful time)."""

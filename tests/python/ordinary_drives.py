@@ -30,6 +30,8 @@ PARKING_STEPS = {1e-2: 0.3, 0.1: 0.3, 1.0: 0.4}
 SHORT = 0.1
 # shares of speed-driven carriers, mirrored drives, FMI 3.0 and its event mode, derivatives of inputs, an hour of parking
 BY_SPEED, MIRRORED, THREE, EVENTS, SLOPES, HOUR = 0.15, 0.3, 0.3, 0.5, 0.15, 0.3
+# twist of a clutch at its torque, as for the start values [rad]
+WOUND_UP = 0.01
 # share of drives with clutches on command, and the ratios of their shafts: limited slip, superposition, brake of a side gear, blocking
 CLUTCHES, CLUTCH_RATIOS = 0.2, [(1.0, 1.0), (1.125, 0.875), (0.0, 0.0), (1.15, 1.1), (0.9, 1.0)]
 # share of actuators among these, of dog clutches among the drives with half-shafts whose wheels have inertia, and of gears that press
@@ -46,9 +48,9 @@ ROUNDING = 1e-6
 DIGITS, DECIMALS = 6, 6
 
 
-def drives(seed, count, levels, first=0):
-    """Drives `first` to `count` of a seed. `levels`: levels of gear contact that each effect accepts, by its name."""
-    for index in range(first, count):
+def drives(seed, count, levels):
+    """First drives of a seed. `levels`: levels of gear contact that each effect accepts, by its name."""
+    for index in range(count):
         yield drive(seed, index, levels)
 
 
@@ -95,7 +97,8 @@ def commanded(random, vehicle, stop):
     if random.random() > CLUTCHES:
         return {}, {}
     left, right = CLUTCH_RATIOS[int(random.integers(len(CLUTCH_RATIOS)))]
-    values = {"effects.clutches": True, "clutches.torque": vehicle.peak * random.uniform(0.05, 0.5), "clutches.left_ratio": left,
+    torque = vehicle.peak * random.uniform(0.05, 0.5)
+    values = {"effects.clutches": True, "clutches.torque": torque, "clutches.stiffness": torque / WOUND_UP, "clutches.left_ratio": left,
               "clutches.right_ratio": right, "clutches.static_ratio": random.uniform(1.0, 1.3), "clutches.stribeck_speed": 0.1}
     commands = {}
     for side in SIDES:

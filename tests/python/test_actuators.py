@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from bevel_differential import Differential
 
 TORQUE, TAU = 300.0, 0.05
 # the wheels have imposed speeds that differ, so both clutches slip
@@ -55,9 +54,8 @@ def inputs():
 
 @pytest.mark.parametrize("method", [{}, {"solver.method": "fixed_step", "solver.fixed_step": TAU / 200}])
 @pytest.mark.parametrize("actuator", ACTUATORS)
-def test_responses_agree_with_a_separate_integration(fmu, actuator, method):
-    with Differential(values_of(*actuator) | method, fmu=fmu.file) as unit:
-        found = unit.run(outputs=OUTPUTS, stop=STOP, step=1e-3, inputs=inputs())
+def test_responses_agree_with_a_separate_integration(run, actuator, method):
+    found = run(values_of(*actuator) | method, STOP, output=OUTPUTS, inputs=inputs())
     points, first = np.unique(found["time"], return_index=True)
     for side, (name, sign) in enumerate(zip(OUTPUTS, (-1.0, 1.0))):
         # the faster wheel is braked, the slower one driven
@@ -67,19 +65,18 @@ def test_responses_agree_with_a_separate_integration(fmu, actuator, method):
     assert np.ptp(found["right.clutch_torque"]) > 0.2 * TORQUE
 
 
-def test_a_rate_of_a_command_passes_the_actuator(fmu):
+def test_a_rate_of_a_command_passes_the_actuator(started):
     """A steady ramp lags behind by 2 zeta tau, and the rates of the torque are its differences."""
     damping, slope = 0.8, 0.5
-    with fmu.open() as unit:
-        unit.initialise(values_of(0.0, 0.0, damping))
-        unit.set_slopes({"left.clutch_command": slope})
-        unit.step(1.0)
-        torque = unit.get("left.clutch_torque")
+    unit = started(values_of(0.0, 0.0, damping))
+    unit.set_slopes({"left.clutch_command": slope})
+    unit.step(1.0)
+    torque = unit.get("left.clutch_torque")
     assert torque == pytest.approx(-TORQUE * (slope * 1.0 - 2.0 * damping * TAU * slope), rel=1e-6)
 
 
 @pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
-def test_a_state_saved_during_a_response_continues_with_the_same_bits(fmu, contact):
+def test_a_state_saved_during_a_response_continues_with_the_same_bits(started, contact):
     values = values_of(*ACTUATORS[1]) | {"scene.gear_contact": contact, "solver.relative_tolerance": 1e-6}
     names = [*OUTPUTS, "carrier.speed", "heat.clutch_command", "solver.energy_residual"]
 
@@ -90,14 +87,13 @@ def test_a_state_saved_during_a_response_continues_with_the_same_bits(fmu, conta
             rows.append(unit.read(names))
         return rows
 
-    with fmu.open() as unit:
-        unit.initialise(values)
-        unit.set({"left.clutch_command": 0.9, "right.clutch_command": 0.5})
-        unit.step(0.0231)
-        saved = unit.save()
-        expected_rows = follow(unit)
-        unit.restore(saved)
-        assert follow(unit) == expected_rows
+    unit = started(values)
+    unit.set({"left.clutch_command": 0.9, "right.clutch_command": 0.5})
+    unit.step(0.0231)
+    saved = unit.save()
+    expected_rows = follow(unit)
+    unit.restore(saved)
+    assert follow(unit) == expected_rows
 
 
 def test_model_exchange_agrees(through_fmpy):
@@ -112,15 +108,14 @@ def test_model_exchange_agrees(through_fmpy):
         assert np.abs(there - own[name]).max() < 1e-6 * np.abs(own[name]).max(), name
 
 
-def test_the_lock_follows_its_actuator_in_small_steps(fmu):
+def test_the_lock_follows_its_actuator_in_small_steps(run):
     """The lock's limit is its command behind the actuator; it follows in steps of about one hundredth."""
     values = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "scene.gear_contact": "ideal",
               "left.speed_command": 50.0, "right.speed_command": 40.0, "lock.torque": TORQUE, "lock.response_time": TAU,
               "lock.stroke_time": 0.3, "lock.dead_band": 0.1}
     stop = 0.6
-    with Differential(values, fmu=fmu.file) as unit:
-        found = unit.run(outputs=["left.shaft_torque", "right.shaft_torque"], stop=stop, step=5e-3,
-                         inputs={"lock.command": ([0.0, 0.1, 0.1, stop], [0.0, 0.0, 0.7, 0.7])})
+    found = run(values, stop, 5e-3, ["left.shaft_torque", "right.shaft_torque"],
+                {"lock.command": ([0.0, 0.1, 0.1, stop], [0.0, 0.0, 0.7, 0.7])})
     points, first = np.unique(found["time"], return_index=True)
     limit = 0.5 * (found["right.shaft_torque"] - found["left.shaft_torque"])[first]
     goal = 0.6 / 0.9
@@ -131,14 +126,13 @@ def test_the_lock_follows_its_actuator_in_small_steps(fmu):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_an_actuated_clutch_holds_is_released_and_is_mirrored(fmu, sign):
+def test_an_actuated_clutch_holds_is_released_and_is_mirrored(run, sign):
     """A wheel that the clutch holds starts to slip when the output of the actuator has fallen to the torque that it carries."""
     values = {"scene.carrier_drive": "speed", "scene.right_drive": "torque", "scene.left_drive": "torque", "scene.gear_contact": "lumped",
               "carrier.speed_command": 30.0 * sign, "effects.clutches": True, "clutches.torque": TORQUE, "clutches.response_time": TAU,
               "left.clutch_command": 1.0, "left.load_torque": 60.0 * sign, "right.load_torque": -60.0 * sign}
     outputs = ["held.clutches", "left.clutch_torque", "solver.energy_residual"]
-    with Differential(values, fmu=fmu.file) as unit:
-        found = unit.run(outputs=outputs, stop=0.8, step=1e-3, inputs={"left.clutch_command": ([0.0, 0.4, 0.4, 0.8], [1.0, 1.0, 0.0, 0.0])})
+    found = run(values, 0.8, output=outputs, inputs={"left.clutch_command": ([0.0, 0.4, 0.4, 0.8], [1.0, 1.0, 0.0, 0.0])})
     assert found["held.clutches"][200] == 1.0
     assert found["left.clutch_torque"][200] == pytest.approx(120.0 * sign, rel=0.02)
     # critically damped: (1 + s) e^-s = 120/300

@@ -77,10 +77,10 @@ def test_numbers_of_the_page_are_those_of_the_source():
     def constant(file, name):
         return re.search(rf"const {name}: usize = (\d+);", FILES[file].read_text(encoding="utf-8"))[1]
 
-    sizes = {name: constant("src/model/dynamics/shape.rs", name) for name in ("PLAIN_SIZE", "TWO_GROUPS_SIZE", "ENDS_SIZE", "MAX_SIZE")}
+    sizes = {name: constant("src/model/dynamics/shape.rs", name) for name in ("PLAIN_SIZE", "TWO_GROUPS_SIZE", "FEW_SIZE", "MAX_SIZE")}
     assert f"There are {constant('src/model/assembly/cache.rs', 'ENTRIES')} entries for each kind" in page
     assert f"| plain teeth | {sizes['PLAIN_SIZE']}, {sizes['TWO_GROUPS_SIZE']} |" in page
     assert f"two planets that differ | {sizes['TWO_GROUPS_SIZE']} |" in page
-    assert f"half-shafts that twist | {sizes['ENDS_SIZE']} |" in page
+    assert f"half-shafts that twist | {sizes['FEW_SIZE']} |" in page
     assert f"| teeth, `Largest` | up to {sizes['MAX_SIZE']} |" in page
-    assert f"| gears without teeth | up to {sizes['ENDS_SIZE']}, 8 |" in page
+    assert f"| gears without teeth | up to {sizes['FEW_SIZE']}, 8 |" in page

@@ -53,6 +53,13 @@ def test_bias_is_that_of_the_packs(fmu_file, tmp_path):
                                                                rows["torque_bias_ratio_[1]"].max())]
 
 
+def test_a_bias_in_proportion_to_the_torque_does_not_fall(fmu_file, tmp_path):
+    only = {"scene.gear_contact": "lumped", "limited_slip.preload": 0.0, "limited_slip.torque_coefficient": 0.2, "limited_slip.cold_factor": 1.0}
+    says = bench("bias", tmp_path, values=PLAIN | only, fmu=fmu_file, workers=0)
+    # (1 + 0.2)/(1 − 0.2)
+    assert says.startswith("TBR is 1.50 at ") and " and 1.50 at " in says and "friction that grows with the torque determines it" in says
+
+
 def test_breakaway_is_reported_separately_from_bias(fmu_file, tmp_path):
     says = bench("breakaway", tmp_path, values=PLAIN, fmu=fmu_file, workers=0)
     for torque, direction, temperature, left, _, _, effect in table(tmp_path / "breakaway.csv").tolist():
@@ -224,6 +231,23 @@ def test_a_winter_start_begins_with_the_drag_of_its_oil(fmu_file, tmp_path):
         # viscosity is updated in steps of temperature
         assert record["power.loss"][at] == pytest.approx((0.5 + 2.0 * 0.2) * 50.0 + viscous * 50.0**2 + 1e-4 * 50.0**3, rel=0.02)
     assert loss == round(record["power.loss"][0]) > 5.0 * later
+
+
+def test_an_own_scene_needs_none_of_the_outputs_of_the_test(fmu_file, tmp_path):
+    given = scene_file("winter_start").read_text(encoding="utf-8").replace("stop_time = 1800.0", "stop_time = 60.0")
+    own = re.sub(r"outputs = \[.*\]", 'outputs = ["carrier.torque"]', given)
+    assert own != given
+    for name, text in (("given", given), ("own", own)):
+        (tmp_path / f"{name}.toml").write_text(text, encoding="utf-8")
+    said, expected = (command(f"bench winter_start --scene {tmp_path / name}.toml --out {tmp_path / name}").out for name in ("own", "given"))
+    assert said.split(" (")[0] == expected.split(" (")[0]
+
+
+@pytest.mark.parametrize("name, words", [
+    ("judder", "tables of both wheel speeds, also of 'left.speed_command'"), ("winter_start", "effects.warm_up = false"),
+    ("hot_lap", "stop_time = 0.5 s")])
+def test_an_own_scene_without_what_a_test_needs_is_refused(tmp_path, name, words):
+    assert words in command(f"bench {name} --scene limited_slip --out {tmp_path / 'out'}", status=2).err
 
 
 def test_speeds_and_temperatures_are_in_the_units_that_are_wanted(fmu_file, tmp_path):

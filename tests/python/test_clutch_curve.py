@@ -10,6 +10,7 @@ from bevel_differential import Differential, DifferentialError, Scene, accuracy
 from bevel_differential.answers import about, ask
 from bevel_differential.command import main
 from bevel_differential.curve import CURVE, beside, expanded
+from refusals import refused
 
 RPM = math.tau / 60.0
 NAMES = [f"{CURVE}[{number}].{column}" for number in range(1, 9) for column in ("slip", "torque")]
@@ -111,22 +112,20 @@ def test_the_command_line_replaces_the_curve_of_a_scene(fmu_file, folder, capsys
 
 
 @pytest.mark.parametrize(("curve", "parts"), [
-    ([[0, 50], ["10 rpn", 60]], ["limited_slip.curve, point 2, slip = \"10 rpn\"", "units that do: rad/s"]),
-    ([[0, 50], [0, 60]], ["point 2", "not above the slip of the point before"]),
-    ([[0, 50, 1]], ["point 1 has 3 entries", "[slip, torque]"]),
-    ([0, 50], ["point 1 = 0", "[slip, torque]"]),
-    ([], ["has no points"]),
-    ([[number, 1] for number in range(9)], ["point 9", "at most 8 points"]),
-    ([[None, 1]], ["is not a list such as"]),
-    (5, ["limited_slip.curve = 5", "list of points"]),
-    ((5, "rpm"), ["5 rpm: there is no such file"]),
-    ("clutches.csv", ["clutches.csv: there is no such file", "working folder"]),
+    ([[0, 50], ["10 rpn", 60]], "limited_slip.curve, point 2, slip = \"10 rpn\" … units that do: rad/s"),
+    ([[0, 50], [0, 60]], "point 2 … not above the slip of the point before"),
+    ([[0, 50, 1]], "point 1 has 3 entries … [slip, torque]"),
+    ([0, 50], "point 1 = 0 … [slip, torque]"),
+    ([], "has no points"),
+    ([[number, 1] for number in range(9)], "point 9 … at most 8 points"),
+    ([[None, 1]], "is not a list such as"),
+    (5, "limited_slip.curve = 5 … list of points"),
+    ((5, "rpm"), "5 rpm: there is no such file"),
+    ("clutches.csv", "clutches.csv: there is no such file … working folder"),
 ], ids=str)
 def test_a_wrong_curve_is_refused_with_position_value_and_remedy(fmu, folder, curve, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts) as error:
         Differential({CURVE: curve}, fmu=fmu)
-    for part in parts:
-        assert part in str(error.value)
     assert error.value.kind == "use" and error.value.problems
 
 

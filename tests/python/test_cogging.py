@@ -48,12 +48,6 @@ def threshold():
     return np.max(np.abs(np.gradient(well, spins))) * theory.SIDE_TEETH / theory.PLANET_TEETH
 
 
-@pytest.mark.parametrize("share, rolls", [(0.97, False), (1.03, True)])
-def test_free_planets_roll_beyond_the_steepest_slope_of_their_well(drive, threshold, share, rolls):
-    driven = drive({"left.load_torque": theory.LOAD + share * threshold}).to(0.2, 1e-3)
-    assert (abs(driven["planet[1].spin_speed"]) > 10.0) == rolls, threshold
-
-
 @pytest.mark.parametrize("law", ["impact", "line", "line_weber"])
 def test_the_threshold_is_the_largest_torque_that_turning_the_planets_slowly_takes(drive, law, threshold):
     points = 400

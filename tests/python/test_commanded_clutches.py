@@ -8,6 +8,7 @@ from scipy.interpolate import CubicSpline
 from scipy.integrate import solve_ivp
 
 from bevel_differential import Differential
+from clutch_reference import Clutches, Gears, Reference, alternating_loads
 
 SIDES = ("left", "right")
 # all wheels have imposed speeds; the carrier is driven by torque
@@ -16,11 +17,6 @@ RIG = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.righ
 TORQUE = 300.0
 OUTPUTS = ["carrier.speed", "carrier.torque", "clutches.housing_torque", "power.in", "power.out", "heat.clutch_command",
            *(f"{side}.{what}" for side in SIDES for what in ("shaft_torque", "clutch_torque", "clutch_slip", "speed"))]
-
-
-def record(fmu, values, stop, step=1e-3, outputs=OUTPUTS):
-    with Differential(values, fmu=fmu.file) as unit:
-        return unit.run(outputs=outputs, stop=stop, step=step)
 
 
 def wheel_speeds(sign_of_carrier, difference):
@@ -35,12 +31,12 @@ QUADRANTS = list(itertools.product([1.0, -1.0], [1.0, -1.0]))
 @pytest.mark.parametrize("side", [0, 1])
 @pytest.mark.parametrize("ratio", [1.0, 1.125, 0.875, 0.0])
 @pytest.mark.parametrize("contact, within", [("ideal", 1e-9), ("tooth", 1e-3)])
-def test_torques_powers_and_heat_balance_in_steady_slip(fmu, contact, within, ratio, side, forward, driving):
+def test_torques_powers_and_heat_balance_in_steady_slip(run, contact, within, ratio, side, forward, driving):
     command, torque = 0.4, driving * 500.0
     values = RIG | wheel_speeds(forward, 2.0) | {
         "scene.gear_contact": contact, f"clutches.{SIDES[side]}_ratio": ratio, "clutches.torque": TORQUE,
         f"{SIDES[side]}.clutch_command": command, "carrier.torque_command": torque, "solver.relative_tolerance": 1e-9 if contact == "ideal" else 1e-6}
-    found = record(fmu, values, 0.5)
+    found = run(values, output=OUTPUTS)
     # over whole mesh cycles of 2 rad/s between side gear and carrier: 16 teeth pass in 2 pi/2 s
     period = 2.0 * np.pi / 2.0 / 16.0
     last = found[found["time"] > 0.5 - 2.0 * period] if contact == "tooth" else found[-1:]
@@ -85,7 +81,7 @@ def turning_inertia(fmu):
     acceleration under the clutch's torque, without a twist of the half-shaft."""
     names = ["left.acceleration", "left.clutch_torque", "left.shaft_torque"]
     with fmu.open() as opened:
-        opened.initialise(STICKING | {"left.speed_command": 30.0})
+        opened.initialise(STICKING | {"left.speed_command": 30.0, "scene.start": "rolling"})
         opened.step(1e-6)
         acceleration, clutch, shaft = opened.read(names)
     return (clutch - shaft) / acceleration
@@ -118,14 +114,14 @@ def expected_times(inertia, start, twist):
 
 
 @pytest.mark.parametrize("start", [-5.0, 5.0])
-def test_a_clutch_sticks_when_the_wheel_reaches_its_shaft_and_its_torque_crosses_zero(fmu, start):
+def test_a_clutch_sticks_when_the_wheel_reaches_its_shaft_and_its_torque_crosses_zero(fmu, run, start):
     """The speed of the wheel rises or falls through that of the clutch's shaft. The clutch sticks there, and its spring unwinds."""
     sticks, crosses = expected_times(turning_inertia(fmu), start, at_start(fmu, start))
     step, end = 1e-4, sticks + 1.2 * (crosses - sticks)
     last = RATIO * CARRIER + start - np.sign(start) * RATE * end
-    with Differential(STICKING | {"left.speed_command": RATIO * CARRIER + start}, fmu=fmu.file) as unit:
-        found = unit.run(outputs=["left.clutch_torque", "held.clutches", "left.clutch_slip"], stop=end, step=step,
-                         inputs={"left.speed_command": ([0.0, end], [RATIO * CARRIER + start, last])})
+    found = run(STICKING | {"left.speed_command": RATIO * CARRIER + start}, end, step,
+                ["left.clutch_torque", "held.clutches", "left.clutch_slip"],
+                {"left.speed_command": ([0.0, end], [RATIO * CARRIER + start, last])})
     time, torque, slip = (found[name] for name in ("time", "left.clutch_torque", "left.clutch_slip"))
     first = int(np.argmax(found["held.clutches"] > 0.5))
     assert time[first - 1] <= sticks <= time[first] and found["held.clutches"][first:].min() == 1.0
@@ -139,29 +135,46 @@ def test_a_clutch_sticks_when_the_wheel_reaches_its_shaft_and_its_torque_crosses
 
 
 @pytest.mark.parametrize("direction", [1.0, -1.0])
-def test_a_clutch_holds_for_an_hour_without_creep_and_is_released(fmu, direction):
+def test_a_clutch_holds_for_an_hour_without_creep_and_is_released(run, direction):
     values = RIG | {
         "scene.gear_contact": "ideal", "scene.start": "rest", "scene.left_drive": "torque", "scene.right_drive": "speed",
         "right.speed_command": 0.0, "inertia.left_end": 1.0, "effects.half_shaft": True, "clutches.left_ratio": 0.0, "clutches.torque": TORQUE,
         "left.clutch_command": 0.3, "carrier.torque_command": 0.0, "left.load_torque": -direction * 50.0, "carrier.speed_command": 0.0}
-    with Differential(values, fmu=fmu.file) as unit:
-        found = unit.run(outputs=["left.angle", "held.clutches", "solver.steps"], stop=3600.0, step=60.0)
-        assert found["held.clutches"][1:].min() == 1.0
-        angles = found["left.angle"][1:]
-        assert np.ptp(angles[5:]) < 1e-9
-        assert found["solver.steps"][-1] < 5000
-    released = record(fmu, values | {"left.clutch_command": 0.1}, 0.5, outputs=["left.speed", "held.clutches"])
+    found = run(values, 3600.0, 60.0, ["left.angle", "held.clutches", "solver.steps"])
+    assert found["held.clutches"][1:].min() == 1.0
+    assert np.ptp(found["left.angle"][6:]) < 1e-9
+    assert found["solver.steps"][-1] < 5000
+    released = run(values | {"left.clutch_command": 0.1}, output=["left.speed", "held.clutches"])
     assert released["held.clutches"][-1] == 0.0 and direction * released["left.speed"][-1] > 1.0
 
 
-def test_a_pressed_clutch_warms_up_and_fades(fmu):
+def test_clutches_stick_and_slip_as_in_a_separate_integration(started):
+    gears = Gears(stiffness=3e9, damping=2e4, depth=1e-5, side=0.5, planet=5e-4)
+    # the command times the torque, independent of slip and load
+    clutches = Clutches(0.3 * 100.0, 0.0, 1.0, False, [(0.0, 0.0), (1.0, 0.0)], 1e5)
+    driven = started(gears.values() | {
+        "effects.clutches": True, "clutches.torque": 100.0, "clutches.stiffness": clutches.stiffness, "left.clutch_command": 0.3,
+        "right.clutch_command": 0.3, "solver.relative_tolerance": 1e-10})
+    reference, step = Reference(gears, clutches), 0.04
+    for loads in alternating_loads():
+        driven.set(dict(zip(("left.load_torque", "right.load_torque"), loads)))
+        reference.advance(step, loads)
+        driven.step(step)
+        left, right, carrier = driven.read(["left.angle", "right.angle", "carrier.angle"])
+        assert np.abs(np.array([left - carrier, right - carrier]) - reference.state[:2]).max() < 1e-6
+        if reference.switches >= 50:
+            break
+    assert reference.switches >= 50 and max(np.abs(reference.state[:2])) > 0.1
+
+
+def test_a_pressed_clutch_warms_up_and_fades(run):
     """Without cooling, C dT/dt = P (1 - k (T - T_0)), if friction falls linearly to `hot_factor`."""
     capacity, fade, slip, command = 300.0, 0.4 / 120.0, 2.0, 0.5
     values = RIG | wheel_speeds(1.0, -slip) | {
         "scene.gear_contact": "ideal", "clutches.torque": TORQUE, "left.clutch_command": command, "carrier.torque_command": 300.0,
         "effects.warm_up": True, "oil.temperature": 353.15, "warm_up.clutch_capacity": capacity, "warm_up.clutch_to_oil": 0.0,
         "clutches.hot_factor": 0.6, "solver.relative_tolerance": 1e-8}
-    found = record(fmu, values, 60.0, step=0.1, outputs=["temperature.clutch", "left.clutch_torque", "heat.clutch_command"])
+    found = run(values, 60.0, 0.1, ["temperature.clutch", "left.clutch_torque", "heat.clutch_command"])
     power = command * TORQUE * slip
     risen = (1.0 - np.exp(-fade * power / capacity * found["time"])) / fade
     assert risen[-1] > 40.0
@@ -184,8 +197,8 @@ def test_two_clutches_that_hold_stop_the_car_and_this_is_said_once(fmu):
         assert (abs(found["carrier.speed"][-1]) < 1e-3) == stops
 
 
-def test_without_commands_the_effect_changes_no_bit(fmu):
+def test_without_commands_the_effect_changes_no_bit(run):
     values = {"scene.planet_spin": "imposed", "spin.command": 3.0}
     names = ["left.speed", "carrier.torque", "left.normal_force", "solver.rhs_calls"]
-    off, on = (record(fmu, values | {"effects.clutches": by}, 0.05, outputs=names) for by in (False, True))
+    off, on = (run(values | {"effects.clutches": by}, 0.05, output=names) for by in (False, True))
     assert all(np.array_equal(off[name], on[name]) for name in names[:3])

@@ -14,8 +14,8 @@ TORQUE = "carrier.torque_command"
 pytestmark = pytest.mark.usefixtures("folder")
 
 
-def free(name, torque, stop=0.5, **more):
-    return Scene(name, **{"stop": stop, "step": 0.01, "outputs": ["carrier.speed"], "set": {**FREE, TORQUE: torque}, **more})
+def free(name, torque, **more):
+    return Scene(name, **{"stop": 0.5, "step": 0.01, "outputs": ["carrier.speed"], "set": {**FREE, TORQUE: torque}, **more})
 
 
 def written(file, torque, stop=0.5, outputs='"carrier.speed", "left.speed"', more=""):

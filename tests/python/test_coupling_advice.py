@@ -9,7 +9,7 @@ from bevel_differential import Scene
 from bevel_differential.coupling import Host as Spring
 from bevel_differential.coupling import coupling
 from bevel_differential.vehicle import Car, Tyre
-from coupled_hosts import ERRORS, FREE, LAG, LOADS, MOTION, Coupled, Host, couple
+from coupled_hosts import ADVISED, ERRORS, FREE, LAG, LOADS, MOTION, Coupled, Host, couple
 
 ADVICE = ["coupling.energy_ratio", "coupling.step_advice"]
 # meanings of coupling.advice_state
@@ -93,7 +93,7 @@ def test_a_launch_gets_advice_although_the_wheels_accelerate(fmu):
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_an_hour_at_a_standstill_changes_nothing_and_the_advice_returns(fmu, sign):
+def test_an_hour_at_a_standstill_changes_nothing_and_the_advice_returns(started, sign):
     host = Host(500.0, 0.5, 1.0, 0.2)
 
     def drive(port, torque, steps):
@@ -104,70 +104,65 @@ def test_an_hour_at_a_standstill_changes_nothing_and_the_advice_returns(fmu, sig
             host.advance(1e-3, before, rows[-1][:2])
         return np.array(rows)[:, 2:]
 
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "effects.wheel_brake": True, "scene.start": "rest"})
-        port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], *ERRORS, *ADVICE])
-        host.start(*port.read()[:2])
-        first = drive(port, 20.0, 2000)
-        instance.set(dict.fromkeys(BRAKES, 300.0))
-        host.damping = 20.0
-        held = drive(port, 0.0, 3000)
-        waited = [port.step([0.0, 0.0], 36.0)[2:] for _ in range(100)]
-        assert waited[-1][:-1] == pytest.approx(held[-1, :-1], rel=1e-6) and waited[-1][-1] == 0.0
-        instance.set(dict.fromkeys(BRAKES, 0.0))
-        host.damping = 0.5
-        again = drive(port, 20.0, 2000)
-        assert not [message for message in instance.messages if "coupling" in message]
+    instance = started(ADVISED | {"effects.wheel_brake": True, "scene.start": "rest"})
+    port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], *ERRORS, *ADVICE])
+    host.start(*port.read()[:2])
+    first = drive(port, 20.0, 2000)
+    instance.set(dict.fromkeys(BRAKES, 300.0))
+    host.damping = 20.0
+    held = drive(port, 0.0, 3000)
+    waited = [port.step([0.0, 0.0], 36.0)[2:] for _ in range(100)]
+    assert waited[-1][:-1] == pytest.approx(held[-1, :-1], rel=1e-6) and waited[-1][-1] == 0.0
+    instance.set(dict.fromkeys(BRAKES, 0.0))
+    host.damping = 0.5
+    again = drive(port, 20.0, 2000)
+    assert not [message for message in instance.messages if "coupling" in message]
     assert first[-1, -1] > 0.0 and again[-1, -1] > 0.0
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-def test_a_reversal_keeps_the_advice(fmu, sign):
+def test_a_reversal_keeps_the_advice(started, sign):
     host, size, states = Host(500.0, 0.5, 1.0, 0.2), 1e-3, []
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "scene.start": "rest"})
-        port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], STATE])
-        row = port.read()
-        host.start(*row[:2])
-        for step in range(4000):
-            before = row[:2]
-            row = port.step([sign * (20.0 if step < 2000 else -20.0), host.torque(*before)], size)
-            host.advance(size, before, row[:2])
-            states.append(row[2])
+    instance = started(ADVISED | {"scene.start": "rest"})
+    port = instance.port(["carrier.torque_command", LOADS["left"]], [*MOTION["left"], STATE])
+    row = port.read()
+    host.start(*row[:2])
+    for step in range(4000):
+        before = row[:2]
+        row = port.step([sign * (20.0 if step < 2000 else -20.0), host.torque(*before)], size)
+        host.advance(size, before, row[:2])
+        states.append(row[2])
     assert states[2000:].count(GIVEN) > 0.9 * 2000
 
 
 @pytest.mark.parametrize("gears", ["ideal", "lumped"])
-def test_wheels_that_stand_in_their_brakes_get_no_old_advice(fmu, gears):
+def test_wheels_that_stand_in_their_brakes_get_no_old_advice(started, gears):
     host, size = Host(500.0, 0.5, 1.0, 0.2), 1e-3
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "effects.wheel_brake": True, "scene.gear_contact": gears, "contact.law": "line",
-                                    "scene.start": "rest"})
-        port = instance.port(["carrier.torque_command", *BRAKES, LOADS["left"]], [*MOTION["left"], STATE, ADVICE[1]])
-        row = port.read()
-        host.start(*row[:2])
-        for step in range(3000):
-            before, brake = row[:2], 0.0 if step < 1000 else 300.0
-            row = port.step([20.0 if step < 1000 else 0.0, brake, brake, host.torque(*before)], size)
-            host.advance(size, before, row[:2])
-            if step == 999:
-                assert row[2] == GIVEN and row[3] > 0.0
-                # the inertia behind the spring soon stands, too
-                host.damping = 20.0
+    instance = started(ADVISED | {"effects.wheel_brake": True, "scene.gear_contact": gears, "contact.law": "line", "scene.start": "rest"})
+    port = instance.port(["carrier.torque_command", *BRAKES, LOADS["left"]], [*MOTION["left"], STATE, ADVICE[1]])
+    row = port.read()
+    host.start(*row[:2])
+    for step in range(3000):
+        before, brake = row[:2], 0.0 if step < 1000 else 300.0
+        row = port.step([20.0 if step < 1000 else 0.0, brake, brake, host.torque(*before)], size)
+        host.advance(size, before, row[:2])
+        if step == 999:
+            assert row[2] == GIVEN and row[3] > 0.0
+            # the inertia behind the spring soon stands, too
+            host.damping = 20.0
     assert row[2:] == [STILL, 0.0]
 
 
-def test_an_exchange_without_an_energy_error_has_no_advice_and_says_so(fmu):
+def test_an_exchange_without_an_energy_error_has_no_advice_and_says_so(started):
     # a spring behind a Gauss-Seidel master
     run, host, angle = [], Host(500.0, 0.5, 1e3), 0.0
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "coupling.host_delay": -0.5, "scene.start": "rest"})
-        port = instance.port(["carrier.torque_command", LOADS["left"]], [MOTION["left"][1], STATE, ADVICE[1]])
-        row = port.read()
-        for _ in range(600):
-            angle += 1e-3 * row[0]
-            row = port.step([20.0, host.stiffness * angle + host.damping * row[0]], 1e-3)
-            run.append(row[1:])
+    instance = started(ADVISED | {"coupling.host_delay": -0.5, "scene.start": "rest"})
+    port = instance.port(["carrier.torque_command", LOADS["left"]], [MOTION["left"][1], STATE, ADVICE[1]])
+    row = port.read()
+    for _ in range(600):
+        angle += 1e-3 * row[0]
+        row = port.step([20.0, host.stiffness * angle + host.damping * row[0]], 1e-3)
+        run.append(row[1:])
     assert run[-1] == [NOT_POSSIBLE, 0.0]
 
 
@@ -238,15 +233,15 @@ def test_the_cut_of_a_car_costs_less_energy_than_the_page_says(fmu):
     assert car.longest_step() == pytest.approx(6.9e-3, rel=0.01)
 
 
-def played(fmu, torque, size=1e-3, stop=1.0):
+def played(fmu, torque):
     """Run with a torque on the left side that depends only on time."""
     run = Coupled()
     with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0, "right.load_torque": 10.0})
+        instance.initialise(ADVISED | {"carrier.torque_command": 20.0, "right.load_torque": 10.0})
         port = instance.port([LOADS["left"]], [*ADVICE, STATE])
         run.states = []
-        for step in range(round(stop / size)):
-            ratio, advice, state = port.step([torque(step * size)], size)
+        for step in range(1000):
+            ratio, advice, state = port.step([torque(step * 1e-3)], 1e-3)
             run.ratio.append(ratio)
             run.advice.append(advice)
             run.states.append(state)
@@ -278,11 +273,10 @@ def test_jumps_at_given_times_are_no_reaction(fmu):
     assert run.ratio[-1] > 0.0 and not any(run.advice)
 
 
-def test_a_standstill_gets_no_advice(fmu):
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.speed_command": 0.0})
-        port = instance.port([LOADS["left"]], ADVICE)
-        assert all(port.step([0.0], 1e-3) == [0.0, 0.0] for _ in range(50))
+def test_a_standstill_gets_no_advice(started):
+    instance = started(ADVISED | {"carrier.speed_command": 0.0})
+    port = instance.port([LOADS["left"]], ADVICE)
+    assert all(port.step([0.0], 1e-3) == [0.0, 0.0] for _ in range(50))
 
 
 def test_a_costly_cut_is_reported_once_with_port_ratio_step_advice_and_remedies(coupled):
@@ -302,17 +296,15 @@ def test_a_growing_oscillation_is_reported_although_its_ratio_is_small(fmu):
     assert not stable.warnings
 
 
-def test_a_side_driven_by_speed_has_the_energy_of_its_late_speed(fmu):
+def test_a_side_driven_by_speed_has_the_energy_of_its_late_speed(started):
     size, acceleration, steps = 1e-3, 30.0, 400
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "scene.left_drive": "speed", "scene.right_drive": "speed",
-                                    "left.speed_command": 10.0, "right.speed_command": 10.0, "carrier.speed_command": 10.0,
-                                    "carrier.torque_command": 200.0})
-        port = instance.port(["left.speed_command", "right.speed_command"], ["left.shaft_torque", *ERRORS])
-        impulse, error = 0.0, 0.0
-        for step in range(steps):
-            torque, _, error, _ = port.step([10.0 + acceleration * step * size] * 2, size)
-            impulse += torque * size if step < steps - LAG else 0.0
+    instance = started(ADVISED | {"scene.left_drive": "speed", "scene.right_drive": "speed", "left.speed_command": 10.0,
+                               "right.speed_command": 10.0, "carrier.speed_command": 10.0, "carrier.torque_command": 200.0})
+    port = instance.port(["left.speed_command", "right.speed_command"], ["left.shaft_torque", *ERRORS])
+    impulse, error = 0.0, 0.0
+    for step in range(steps):
+        torque, _, error, _ = port.step([10.0 + acceleration * step * size] * 2, size)
+        impulse += torque * size if step < steps - LAG else 0.0
     # the speed is half a step late: the wheel turns faster than the unit's end of the shaft
     assert error == pytest.approx(0.5 * acceleration * size * impulse, rel=0.02)
 
@@ -321,44 +313,40 @@ def values_of(port, torques):
     return [port.step([torque], 1e-3) for torque in torques]
 
 
-def test_rollback_and_saved_states_keep_all_values(fmu):
+def test_rollback_and_saved_states_keep_all_values(started):
     shown = [*ERRORS, *ADVICE, STATE]
     torques = [20.0 * math.sin(0.3 * step) for step in range(60)]
-    with fmu.open() as instance:
-        instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.torque_command": 20.0})
-        port = instance.port([LOADS["left"]], shown)
-        values_of(port, torques)
-        at, time, state = port.read(), instance.time, instance.raw.getFMUState()
-        saved = instance.raw.serializeFMUState(state)
-        first = values_of(port, torques)
-        for again in (state, instance.raw.deSerializeFMUstate(saved)):
-            instance.raw.setFMUState(again)
-            instance.time = time
-            assert port.read() == at
-            assert values_of(port, torques) == first
+    instance = started(ADVISED | {"carrier.torque_command": 20.0})
+    port = instance.port([LOADS["left"]], shown)
+    values_of(port, torques)
+    at, time, state = port.read(), instance.time, instance.raw.getFMUState()
+    saved = instance.raw.serializeFMUState(state)
+    first = values_of(port, torques)
+    for again in (state, instance.raw.deSerializeFMUstate(saved)):
+        instance.raw.setFMUState(again)
+        instance.time = time
+        assert port.read() == at
+        assert values_of(port, torques) == first
 
 
-def test_all_signs_reversed_give_the_same_ratio_and_advice(fmu):
+def test_all_signs_reversed_give_the_same_ratio_and_advice(started):
     def ends(sign):
-        with fmu.open() as instance:
-            instance.initialise(FREE | {"effects.coupling_advice": True, "carrier.speed_command": sign * 5.0,
-                                        "carrier.torque_command": sign * 20.0})
-            port = instance.port([LOADS["left"], LOADS["right"]], ["left.wheel_speed", "right.wheel_speed", *ERRORS, *ADVICE])
-            row, rows = port.read(), []
-            for _ in range(300):
-                row = port.step([3.0 * row[0], 2.0 * row[1]], 1e-3)
-                rows.append(row[2:])
+        instance = started(ADVISED | {"carrier.speed_command": sign * 5.0, "carrier.torque_command": sign * 20.0})
+        port = instance.port([LOADS["left"], LOADS["right"]], ["left.wheel_speed", "right.wheel_speed", *ERRORS, *ADVICE])
+        row, rows = port.read(), []
+        for _ in range(300):
+            row = port.step([3.0 * row[0], 2.0 * row[1]], 1e-3)
+            rows.append(row[2:])
         return rows
 
     assert np.any(ends(1.0)) and ends(1.0) == ends(-1.0)
 
 
-def test_the_advice_changes_no_bit_of_the_motion(fmu):
+def test_the_advice_changes_no_bit_of_the_motion(started):
     def motion(on):
-        with fmu.open() as instance:
-            instance.initialise({"effects.coupling_advice": on, "scene.carrier_drive": "torque", "inertia.left_end": 0.5,
-                                 "inertia.right_end": 0.5})
-            port = instance.port([LOADS["left"]], ["left.angle", "right.speed", "carrier.speed", "solver.steps"])
-            return [port.step([800.0 + step], 1e-3) for step in range(100)]
+        instance = started({"effects.coupling_advice": on, "scene.carrier_drive": "torque", "inertia.left_end": 0.5,
+                            "inertia.right_end": 0.5})
+        port = instance.port([LOADS["left"]], ["left.angle", "right.speed", "carrier.speed", "solver.steps"])
+        return [port.step([800.0 + step], 1e-3) for step in range(100)]
 
     assert motion(True) == motion(False)

@@ -222,21 +222,20 @@ def test_the_exponential_of_stiff_teeth_is_that_of_scipy(scene):
         np.testing.assert_allclose(exponential(made.unit.a * step, balancing(made.unit.a)), right, rtol=1e-7, atol=1e-7 * np.abs(right).max())
 
 
-def test_the_linearised_unit_predicts_a_small_step(fmu):
+def test_the_linearised_unit_predicts_a_small_step(started):
     values = LOADED | {"scene.gear_contact": "tooth", "solver.relative_tolerance": 1e-10}
-    with fmu.open() as instance:
+    instance = started(values)
+    unit = linearised(instance, ["left.load_torque"], ["left.wheel_speed", "carrier.speed"])
+    free, held, _ = unit.exact(1e-4)
+    expected, x = [], np.zeros((len(unit.a), 1))
+    for _ in range(20):
+        x = free @ x + held * 1.0
+        expected.append(unit.c @ x)
+    found = []
+    for load in (400.0, 401.0):
         instance.initialise(values)
-        unit = linearised(instance, ["left.load_torque"], ["left.wheel_speed", "carrier.speed"])
-        free, held, _ = unit.exact(1e-4)
-        expected, x = [], np.zeros((len(unit.a), 1))
-        for _ in range(20):
-            x = free @ x + held * 1.0
-            expected.append(unit.c @ x)
-        found = []
-        for load in (400.0, 401.0):
-            instance.initialise(values)
-            port = instance.port(["left.load_torque"], ["left.wheel_speed", "carrier.speed"])
-            found.append(np.array([port.do_step(load, n * 1e-4, 1e-4) for n in range(20)]))
+        port = instance.port(["left.load_torque"], ["left.wheel_speed", "carrier.speed"])
+        found.append(np.array([port.do_step(load, n * 1e-4, 1e-4) for n in range(20)]))
     difference, expected = found[1] - found[0], np.array(expected)[:, :, 0]
     np.testing.assert_allclose(difference, expected, atol=5e-3 * np.abs(expected).max())
 

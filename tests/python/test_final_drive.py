@@ -4,8 +4,8 @@ from math import pi
 
 import numpy as np
 import pytest
-from bevel_differential import Differential
 from final_drive_scenes import RATIO
+from refusals import refused_start
 
 # relative to the largest value of each output
 SAME = 1e-9
@@ -18,7 +18,7 @@ STOP = 0.05
 
 
 @pytest.fixture
-def with_and_without(fmu_file, outputs):
+def with_and_without(run):
     """with_and_without(values, drive, course): records with a final drive, and of the equivalent carrier; `course`: command of the
     carrier at the start and at the end."""
     def simulate(values, drive, course):
@@ -28,8 +28,7 @@ def with_and_without(fmu_file, outputs):
         plain = base | {"inertia.carrier": CARRIER + RATIO**2 * PINION, "carrier.speed_command": speed}
         records, times = [], np.array([0.0, STOP])
         for scene, port, factor in ((driven, "pinion", RATIO if drive == "speed" else 1.0 / RATIO), (plain, "carrier", 1.0)):
-            with Differential(scene, fmu=fmu_file) as differential:
-                records.append(differential.run({f"{port}.{drive}_command": (times, factor * np.array(course))}, outputs, STOP))
+            records.append(run(scene, STOP, inputs={f"{port}.{drive}_command": (times, factor * np.array(course))}))
         return records
 
     return simulate
@@ -113,24 +112,23 @@ def view(sign, drive, elastic, load, more):
 
 
 @pytest.fixture
-def images(fmu_file, outputs):
+def images(run, outputs):
     """images(drive, elastic, load, course, more): records of a scene and of its image; `course`: command of the pinion, by time."""
     def simulate(drive, elastic, load, course, more):
         names, records = [name for name in outputs if name.endswith(ODD + EVEN)], []
         times, commands = np.array(course).T
         for sign in (1.0, -1.0):
             values = view(sign, drive, elastic, load, more | {"pinion.speed_command": 40.0 * sign})
-            with Differential(values, fmu=fmu_file) as differential:
-                records.append(differential.run({f"pinion.{drive}_command": (times, sign * commands)}, names, times[-1]))
+            records.append(run(values, times[-1], output=names, inputs={f"pinion.{drive}_command": (times, sign * commands)}))
         return records
 
     return simulate
 
 
-def mirrored(here, there, within=SAME):
-    """Names of outputs that are not those of the mirror image, up to this share of their largest values."""
+def mirrored(here, there):
+    """Names of outputs that are not those of the mirror image."""
     return [name for name in here.dtype.names[1:]
-            if np.abs(there[name] - (-1.0 if name.endswith(ODD) else 1.0) * here[name]).max() > within * np.abs(here[name]).max()]
+            if np.abs(there[name] - (-1.0 if name.endswith(ODD) else 1.0) * here[name]).max() > SAME * np.abs(here[name]).max()]
 
 
 WITH_SHAFT = {"effects.propeller_shaft": True, "propeller_shaft.joint_angle": 0.3}
@@ -172,3 +170,20 @@ def test_all_inputs_reversed_give_the_mirror_image_through_the_lash(images, driv
         "scene.gear_contact": "ideal", "scene.start": "rest", "solver.relative_tolerance": 1e-10})
     assert here["carrier.torque"].min() < -50.0 and here["carrier.torque"].max() > 50.0
     assert np.abs(there["carrier.speed"] + here["carrier.speed"]).max() < 1e-6 * np.abs(here["carrier.speed"]).max()
+
+
+def test_a_backlash_beyond_the_pitch_is_refused(fmu):
+    values = {"effects.final_drive": True, "final_drive.elastic_mesh": True, "inertia.pinion": 0.01, "final_drive.mean_radius": 0.06}
+    refused_start(fmu, values | {"final_drive.backlash": 0.0095},
+                  "final_drive.backlash: 9.5 mm is not below the pitch of final_drive.ring_teeth = 41 at final_drive.mean_radius, 9.194905 mm")
+
+
+def test_a_command_of_the_carrier_names_the_command_that_acts_instead(started):
+    instance = started({"effects.final_drive": True, "scene.carrier_drive": "torque", "carrier.torque_command": 100.0})
+    assert any("Here, pinion.torque_command acts instead" in text for text in instance.messages), instance.messages
+
+
+def test_the_initial_speed_of_the_pinion_has_no_influence_at_rest(started):
+    values = {"effects.final_drive": True, "scene.carrier_drive": "torque", "scene.start": "rest", "pinion.speed_command": 300.0}
+    instance = started(values)
+    assert any(text.startswith("pinion.speed_command: ") and "changes nothing" in text for text in instance.messages), instance.messages

@@ -2,6 +2,7 @@
 
 import ctypes
 import zipfile
+from math import cos, sin
 from pathlib import Path
 
 import fmpy
@@ -19,7 +20,9 @@ SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3ModelDescription.
 BRAKING = {"effects.wheel_brake": True, "scene.carrier_drive": 2, "carrier.torque_command": 0.0, "left.load_torque": 0.0,
            "right.load_torque": 0.0, "inertia.left_end": 0.6, "inertia.right_end": 0.9, "left.brake_torque": 900.0,
            "right.brake_torque": 700.0, "carrier.speed_command": 30.0, "scene.start": 2}
-CLUTCH = {**theory.CLUTCHES, "limited_slip.preload": 120.0, "left.load_torque": 600.0, "right.load_torque": 300.0,
+# half-shafts that are not wound up at the start, so that the packs stick and slip
+CLUTCH = {**theory.CLUTCHES, "scene.start": 2, "scene.gear_contact": 1, "effects.half_shaft": True, "limited_slip.torque_coefficient": 0.0,
+          "limited_slip.preload": 120.0, "left.load_torque": 600.0, "right.load_torque": 300.0,
           "inertia.left_end": 0.5, "inertia.right_end": 0.8, "carrier.torque_command": 900.0, "scene.carrier_drive": 2}
 FAULT = {"effects.tooth_fault": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 0.0437}
 # the study's turn, driven by a torque: teeth roll, and the solver takes about a step each millisecond
@@ -66,15 +69,12 @@ def test_a_scene_has_the_same_bits_by_both_versions(fmu3, fmu, plain_outputs, na
         assert np.array_equal(found[:, column], expected[output]), output
 
 
-def march(unit, values, outputs, end=END, step=STEP, handle=True):
+def march(unit, values, outputs):
     """Steps from point to point, continuing after every early return. Returns the points and all [time, kind, early, needed]."""
-    unit.initialise(values, end)
-    if handle:
-        unit.raw.updateDiscreteStates()
-        unit.raw.enterStepMode()
+    unit.begin(values, END)
     points, events = [unit.reals(outputs)], []
-    for k in range(round(end / step)):
-        time, until = k * step, (k + 1) * step
+    for k in range(round(END / STEP)):
+        time, until = k * STEP, (k + 1) * STEP
         while time < until:
             needed, _, early, time = unit.step(time, until - time)
             if needed or early:
@@ -96,7 +96,7 @@ def test_events_end_steps_only_where_the_host_allows_it_and_change_no_bit(fmu3, 
     for events in (False, True):
         for early in (False, True):
             with Unit3(fmu3, eventModeUsed=events, earlyReturnAllowed=early) as unit:
-                found[events, early] = march(unit, values, plain_outputs, handle=events)
+                found[events, early] = march(unit, values, plain_outputs)
     calm, _ = found[False, False]
     for (events, early), (points, seen) in found.items():
         assert np.array_equal(points, calm), (events, early)
@@ -113,7 +113,7 @@ def test_times_of_events_are_within_the_tolerance_of_those_located_at_1e_10(fmu3
     found = {}
     for tolerance in (1e-6, 1e-10):
         with Unit3(fmu3, earlyReturnAllowed=True) as unit:
-            _, events = march(unit, {**SCENES[scene], "solver.relative_tolerance": tolerance}, ["time"], handle=False)
+            _, events = march(unit, {**SCENES[scene], "solver.relative_tolerance": tolerance}, ["time"])
             found[tolerance] = [(time, kind) for time, kind, *_ in events]
     rough, fine = found[1e-6], found[1e-10]
     assert [kind for _, kind in rough] == [kind for _, kind in fine]
@@ -123,9 +123,7 @@ def test_times_of_events_are_within_the_tolerance_of_those_located_at_1e_10(fmu3
 
 def test_event_mode_publishes_the_events(fmu3):
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
-        unit.initialise(BRAKING)
-        unit.raw.updateDiscreteStates()
-        unit.raw.enterStepMode()
+        unit.begin(BRAKING)
         needed, _, early, time = unit.step(0.0, 0.2)
         assert needed and early and 0.0 < time < 0.2
         names = ["event.kind", "event.place", "held.wheels"]
@@ -147,10 +145,10 @@ def test_at_the_solver_s_steps_the_host_reads_sets_and_returns_without_changing_
             requested[0] = True
 
     with Unit3(fmu3) as unit:
-        calm, _ = march(unit, TURN, [*plain_outputs], handle=False)
+        calm, _ = march(unit, TURN, [*plain_outputs])
         steps = unit.reals(["solver.steps"])[0]
     with Unit3(fmu3, intermediateUpdate=look, earlyReturnAllowed=True) as unit:
-        watched, _ = march(unit, TURN, plain_outputs, handle=False)
+        watched, _ = march(unit, TURN, plain_outputs)
         assert np.array_equal(watched, calm)
         times = [time for time, _ in seen]
         # the solver's steps and the communication points
@@ -177,6 +175,33 @@ def test_inputs_set_at_the_solver_s_steps_act_from_there(fmu3):
         assert unit.reals(["left.speed"])[0] - pushed > 0.1
 
 
+@pytest.mark.parametrize("contact", [1, 2, 3])
+def test_an_input_that_follows_time_at_each_solver_step_does_not_shorten_the_steps(fmu3, contact):
+    def torque(time):
+        return 300.0 + 50.0 * sin(20.0 * time)
+
+    def follow(_environment, time, set_requested, *_):
+        if set_requested:
+            times.append(time)
+            unit.set({"carrier.torque_command": torque(time)})
+
+    step, end, times, sizes = 2e-3, 0.04, [], []
+    scene = {"scene.gear_contact": contact, "scene.carrier_drive": 2, "carrier.speed_command": 20.0, "effects.half_shaft": True,
+             "inertia.left_end": 1.0, "inertia.right_end": 1.3, "left.load_torque": 0.0, "right.load_torque": 0.0,
+             "carrier.torque_command": torque(0.0)}
+    with Unit3(fmu3, intermediateUpdate=follow) as unit:
+        unit.initialise(scene)
+        for k in range(round(end / step)):
+            unit.step(k * step, step)
+            sizes.append(len(times))
+        speed, = unit.reals(["left.wheel_speed"])
+    # about as many as with constant torques, not ever more
+    assert max(np.diff(sizes, prepend=0)) < 60 and len(times) < 400, np.diff(sizes, prepend=0)
+    # half of the impulse of the torque
+    impulse = 300.0 * end + 2.5 * (1.0 - cos(20.0 * end))
+    assert speed == pytest.approx(20.0 + 0.5 * impulse, rel=5e-3)
+
+
 def test_arrays_have_the_values_of_the_scalars_in_their_number(fmu3):
     for planets in (2, 4):
         with Unit3(fmu3) as unit:
@@ -196,14 +221,13 @@ def test_states_go_back_and_are_refused_by_the_other_version(fmu3, fmu, plain_ou
     with Unit3(fmu3) as unit, fmu.open() as two:
         unit.initialise(CLUTCH)
         unit.step(0.0, 0.01)
-        state = unit.raw.getFMUState()
-        bytes3 = unit.raw.serializeFMUState(state)
+        state, bytes3 = unit.raw.getFMUState(), unit.save()
         unit.step(0.01, 0.01)
         expected = unit.reals(plain_outputs)
         unit.raw.setFMUState(state)
         unit.step(0.01, 0.01)
         assert np.array_equal(unit.reals(plain_outputs), expected)
-        unit.raw.setFMUState(unit.raw.deserializeFMUState(bytes3))
+        unit.restore(bytes3)
         unit.step(0.01, 0.01)
         assert np.array_equal(unit.reals(plain_outputs), expected)
         two.initialise()
@@ -248,9 +272,7 @@ def test_a_controller_that_acts_at_a_wheel_s_stop_needs_a_twentieth_of_the_steps
         unit.set({f"{side}.brake_torque": 0.0 for bit, side in ((1, "left"), (2, "right")) if int(held) & bit})
 
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
-        unit.initialise(BRAKING)
-        unit.raw.updateDiscreteStates()
-        unit.raw.enterStepMode()
+        unit.begin(BRAKING)
         time, few = 0.0, 0
         while time < end - 1e-12:
             event, _, _, time = unit.step(time, min(5e-3, end - time))

@@ -77,8 +77,9 @@ def movers(unit, kind):
 
 
 def differences(read, move, size):
-    """Central difference of order 4 that changes least with its step, and the size of this change."""
-    found = []
+    """Central difference of order 4 that changes least with its step, and the size of this change: the difference of the slopes on both
+    sides, if it does not fall with the step, because the point is a kink."""
+    here, found, bends = read(), [], []
     for step in size * FIRST * 10.0 ** (-0.5 * np.arange(STEPS)):
         points = []
         for place in (-2, -1, 1, 2):
@@ -86,10 +87,13 @@ def differences(read, move, size):
             points.append(read())
         a, b, c, d = points
         found.append((a - 8 * b + 8 * c - d) / (12 * step))
+        bends.append(np.abs(c - 2.0 * here + b) / step)
     move(0.0)
     changes = np.abs(np.diff(found, axis=0))
     best, column = changes.argmin(axis=0), np.arange(changes.shape[1])
-    return np.array(found)[best + 1, column], changes[best, column]
+    # over a hundredth of the step
+    kink = np.where(bends[6] > 0.5 * bends[2], bends[6], 0.0)
+    return np.array(found)[best + 1, column], np.maximum(changes[best, column], kink)
 
 
 def have_kinks(unit):

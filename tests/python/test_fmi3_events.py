@@ -7,7 +7,7 @@ import pytest
 from fmi3 import Unit3
 from fmpy import simulate_fmu
 
-CONTACTS = ["ideal", "lumped", "tooth"]
+CONTACTS = pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
 HELD = ["held.sides", "held.planets", "held.wheels"]
 NOTHING, STOPS, LOOSE, STICKS, SLIPS, BREAKS = range(6)
 LEFT, RIGHT = 1, 2
@@ -50,13 +50,6 @@ def opened(file, events, early, **options):
     return Unit3(file, eventModeUsed=events, earlyReturnAllowed=early, **options)
 
 
-def begin(unit, values, events):
-    unit.initialise(values)
-    if events:
-        unit.update()
-        unit.raw.enterStepMode()
-
-
 class Run:
     """Run with `commands`, which are set at the start of steps, in event mode or in step mode. Records the outputs and the last event
     at all communication points, and each event with the step and the time of its report."""
@@ -64,7 +57,7 @@ class Run:
     def __init__(self, file, outputs, values, commands, events=False, early=False, in_event_mode=False, step=STEP):
         self.rows, self.last, self.reported, self.flags = [], [], [], []
         with opened(file, events, early) as unit:
-            begin(unit, values, events)
+            unit.begin(values)
             for k in range(8):
                 time, until, early = k * step, (k + 1) * step, True
                 if in_event_mode and k in commands:
@@ -87,7 +80,7 @@ class Run:
         return [(kind, place) for step, _, kind, place, *_ in self.reported if step == k]
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("name", COMMANDS)
 @pytest.mark.parametrize("way", ["at the end of the step", "by early return", "in event mode", "in event mode, with early return"])
 def test_a_hold_by_command_is_an_event(fmu3, plain_outputs, level, contact, name, way):
@@ -115,11 +108,11 @@ def test_a_hold_by_command_is_an_event(fmu3, plain_outputs, level, contact, name
     assert numbers == list(range(1, len(numbers) + 1))
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("early", [False, True])
 def test_held_bodies_are_shown_after_the_update_in_which_a_command_was_set(fmu3, level, contact, early):
     with opened(fmu3, True, early) as unit:
-        begin(unit, REST | level(contact), True)
+        unit.begin(REST | level(contact))
         unit.step(0.0, STEP)
         for command, held in ((brakes(100.0), [0, 0, 2]), ({"lock.command": 1.0}, [2, 0, 2]), (brakes(0.0), [2, 0, 0]),
                               ({"lock.command": 0.0}, [0, 0, 0])):
@@ -137,7 +130,7 @@ def test_held_bodies_are_shown_after_the_update_in_which_a_command_was_set(fmu3,
         assert unit.step(STEP, STEP)[0] is False
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(fmu3, plain_outputs, level, contact):
     """Brakes on rolling wheels hold nothing, and loads are not commands that hold."""
     commands = {2: brakes(40.0), 4: {"left.load_torque": -80.0}, 5: {"left.load_torque": 10.0, "right.brake_torque": 0.0}}
@@ -149,7 +142,7 @@ def test_an_update_without_a_change_of_friction_leaves_the_command_to_the_step(f
         assert run.reported == []
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("early", [False, True])
 def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, plain_outputs, level, contact, early):
     """A controller applies a brake, reads that it holds, and releases the other brake, all at the same time."""
@@ -158,7 +151,7 @@ def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, plain_out
     plain = Run(fmu3, plain_outputs, values, {3: last})
     rows = []
     with opened(fmu3, True, early) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         for k in range(8):
             if k == 3:
                 unit.raw.enterEventMode()
@@ -173,7 +166,7 @@ def test_a_further_command_in_the_same_event_mode_keeps_the_bits(fmu3, plain_out
     assert np.array_equal(rows, plain.rows)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_a_broken_tooth_by_trigger_is_an_event_at_the_start_of_the_step(fmu3, plain_outputs, level, contact):
     if contact != "tooth":
         pytest.skip("a tooth breaks only where there are teeth")
@@ -187,7 +180,7 @@ def test_a_broken_tooth_by_trigger_is_an_event_at_the_start_of_the_step(fmu3, pl
 def stops(file, values, early, end):
     """All events of a step of `end` [s], with or without early returns, and the outputs at its end."""
     with opened(file, True, early) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         time, reported, going = 0.0, [], True
         while going:
             needed, _, going, time = unit.step(time, end - time)
@@ -195,7 +188,7 @@ def stops(file, values, early, end):
         return reported, unit.reals(HELD).tolist()
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_two_wheels_that_stop_in_one_step_are_reported_in_order(fmu3, level, contact):
     values = ROLLING | level(contact) | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}
     early, held = stops(fmu3, values, True, 0.3)
@@ -213,7 +206,7 @@ def test_two_wheels_that_stop_in_one_step_are_reported_in_order(fmu3, level, con
 def test_a_host_that_iterates_once_gets_the_other_events_after_the_next_steps(fmu3):
     values = ROLLING | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}
     with opened(fmu3, True, False) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         numbers, time = [], 0.0
         for size in (0.3, STEP, STEP, STEP, STEP):
             needed, _, _, time = unit.step(time, size)
@@ -248,7 +241,7 @@ def mirrored(values):
             else value for name, value in values.items()}
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("values", [ROLLING | {"left.brake_torque": 900.0, "right.brake_torque": 700.0}, DRIVEN],
                          ids=["rolling", "driven"])
 @pytest.mark.parametrize("in_event_mode", [False, True])
@@ -265,7 +258,7 @@ def test_a_mirrored_scene_has_the_same_events(fmu3, plain_outputs, level, contac
     assert [event[4] for event in reported] == pytest.approx([event[4] for event in reported_back], abs=1e-5)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("early", [False, True])
 @pytest.mark.parametrize("in_event_mode", [False, True])
 def test_a_restored_state_has_the_events_and_holds_of_its_time(fmu3, plain_outputs, level, contact, early, in_event_mode):
@@ -290,28 +283,28 @@ def test_a_restored_state_has_the_events_and_holds_of_its_time(fmu3, plain_outpu
 
     values = REST | level(contact)
     with opened(fmu3, True, early) as unit, opened(fmu3, True, early) as other:
-        begin(unit, values, True)
-        begin(other, values, True)
+        unit.begin(values)
+        other.begin(values)
         unit.handle_event({"lock.command": 1.0})
         for k in range(2):
             unit.step(k * STEP, STEP)
         before = (unit.event(), unit.reals(HELD).tolist())
         assert before == ((STICKS, RIGHT, 0.0, 2), [2, 0, 0])
         state = unit.raw.getFMUState()
-        kept = unit.raw.serializeFMUState(state)
+        kept = unit.save()
         first = go_on(unit)
         assert first[-1][0][:2] == (STOPS, RIGHT)
         unit.raw.setFMUState(state)
         assert (unit.event(), unit.reals(HELD).tolist()) == before
         assert go_on(unit) == first
-        other.raw.setFMUState(other.raw.deserializeFMUState(kept))
+        other.restore(kept)
         assert (other.event(), other.reals(HELD).tolist()) == before
         assert go_on(other) == first
 
 
 def test_a_state_saved_between_two_reports_reports_the_rest(fmu3):
     with opened(fmu3, True, True) as unit:
-        begin(unit, REST, True)
+        unit.begin(REST)
         unit.raw.enterEventMode()
         unit.set(brakes(100.0))
         assert unit.raw.updateDiscreteStates()[0] and unit.event()[:2] == (STOPS, LEFT)
@@ -326,14 +319,13 @@ def test_a_state_saved_between_two_reports_reports_the_rest(fmu3):
 def test_a_state_of_a_host_with_the_other_kind_of_events_keeps_its_outputs(fmu3, events):
     with opened(fmu3, events, False) as unit, opened(fmu3, not events, False) as other:
         for one in (unit, other):
-            begin(one, REST, one is unit and events or one is other and not events)
+            one.begin(REST)
         unit.set(brakes(100.0))
         if unit.step(0.0, STEP)[0]:
             unit.handle_event()
         state = (unit.event(), unit.reals(HELD).tolist())
         assert state == ((STOPS, RIGHT, 0.0, 2), [0, 0, 2])
-        kept = unit.raw.serializeFMUState(unit.raw.getFMUState())
-        other.raw.setFMUState(other.raw.deserializeFMUState(kept))
+        other.restore(unit.save())
         assert (other.event(), other.reals(HELD).tolist()) == state
 
 
@@ -350,7 +342,7 @@ def test_held_bodies_are_right_in_initialisation_mode(fmu3):
         assert unit.reals(HELD).tolist() == [0, 0, 2] and unit.event() == (NOTHING, 0, 0.0, 0)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("early", [False, True])
 def test_a_command_within_a_step_is_an_event_there(fmu3, level, contact, early):
     """The host sets brakes at a step of the solver, in its intermediate update."""
@@ -364,7 +356,7 @@ def test_a_command_within_a_step_is_an_event_there(fmu3, level, contact, early):
     # a small load on the left wheel makes the solver take steps; the right wheel stays at rest
     values = REST | level(contact) | {"effects.half_shaft": True, "left.load_torque": 0.01}
     with opened(fmu3, True, early, intermediateUpdate=brake) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         needed, _, returned, time = unit.step(0.0, 0.05)
         assert needed and returned == early and time == (times[0] if early else 0.05)
         assert unit.reals(HELD)[2] == 0
@@ -377,7 +369,7 @@ def test_a_parameter_that_is_tuned_after_an_early_return_loses_no_motion(fmu3):
     values = {"effects.wheel_brake": True, "left.brake_torque": 900.0, "scene.start": 2, "carrier.speed_command": 30.0,
               "left.load_torque": 0.0, "right.load_torque": 0.0, "inertia.left_end": 0.6, "inertia.right_end": 0.6}
     with opened(fmu3, True, True) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         needed, _, early, time = unit.step(0.0, 0.2)
         assert needed and early and 0.0 < time < 0.2
         unit.raw.enterEventMode()
@@ -394,7 +386,7 @@ def test_events_of_three_planets_that_differ_name_each_of_them(fmu3):
               "solver.merge_planets": False, "scene.start": 3, "scene.carrier_drive": 2, "carrier.torque_command": 300.0, "carrier.speed_command": 0.0, "left.load_torque": 100.0,
               "right.load_torque": 200.0, "inertia.left_end": 0.5, "inertia.right_end": 0.8}
     with opened(fmu3, True, True) as unit:
-        begin(unit, values, True)
+        unit.begin(values)
         time, places = 0.0, set()
         while time < 0.05:
             needed, _, _, time = unit.step(time, 0.05 - time)
@@ -403,7 +395,7 @@ def test_events_of_three_planets_that_differ_name_each_of_them(fmu3):
         assert places == {1, 2, 3}
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_in_model_exchange_commands_are_events_too(exchange, level, contact):
     unit = exchange(REST | level(contact))
     assert unit.event() == (NOTHING, 0, 0.0, 0)

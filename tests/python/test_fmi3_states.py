@@ -130,12 +130,7 @@ def test_in_co_simulation_no_state_is_set(fmu3, options):
 def test_an_instance_keeps_its_stop_time_and_tolerance_when_a_state_is_restored(fmu3, plain_outputs, options):
     def begun(stop, tolerance=None):
         unit = Unit3(fmu3, **options)
-        unit.set(WHEELS)
-        unit.raw.enterInitializationMode(startTime=0.0, stopTime=stop, tolerance=tolerance)
-        unit.raw.exitInitializationMode()
-        if options:
-            unit.update()
-            unit.raw.enterStepMode()
+        unit.begin(WHEELS, stop, tolerance=tolerance)
         return unit
 
     def go(unit, first, last):
@@ -146,9 +141,9 @@ def test_an_instance_keeps_its_stop_time_and_tolerance_when_a_state_is_restored(
     with begun(0.01) as uncut, begun(0.005) as first, begun(0.01) as second, begun(None) as endless, begun(0.01, 1e-9) as tight:
         expected = go(uncut, 0, 10)
         go(first, 0, 5)
-        saved = first.raw.serializeFMUState(first.raw.getFMUState())
+        saved = first.save()
         for unit in (second, endless, tight):
-            unit.raw.setFMUState(unit.raw.deserializeFMUState(saved))
+            unit.restore(saved)
         assert go(second, 5, 10) == expected
         with pytest.raises(Exception, match="fmi3DoStep"):
             endless.step(5e-3, 1e-3)

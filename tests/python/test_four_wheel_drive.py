@@ -11,6 +11,7 @@ from bevel_differential import DifferentialError, Scene
 from bevel_differential.coupling import GAUSS_SEIDEL, JACOBI, coupling, other_unit
 from command_line import command
 from fmpy.ssp.ssd import read_ssd
+from ssp_archives import content, system, written
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 EXAMPLE = EXAMPLES / "four_wheel_drive"
@@ -19,8 +20,6 @@ FOLDERS = [str(folder) for folder in (EXAMPLE, EXAMPLE / "ssp", EXAMPLES / "driv
 sys.path[:0] = FOLDERS
 import car  # noqa: E402
 import car_structure  # noqa: E402
-import content  # noqa: E402
-import system  # noqa: E402
 import whole  # noqa: E402
 for folder in FOLDERS:
     sys.path.remove(folder)
@@ -140,17 +139,9 @@ def test_the_script_prints_its_table_and_draws_a_picture(fmu_file, tmp_path, mon
 
 @pytest.fixture(scope="module")
 def archives(fmu_file, tmp_path_factory):
-    """Archives by version, and their structure. Files without content replace motor, tyres and body."""
-    folder = tmp_path_factory.mktemp("ssp")
+    """Archives by version, and their structure."""
     made = car_structure.structure(car.FourWheelDrive(fmu=fmu_file))
-    fmus = {name: folder / f"{name}.fmu" for name in made.parts.values()}
-    for file in fmus.values():
-        file.touch()
-    fmus["BevelDifferential"] = Path(fmu_file)
-    files = {version: system.archive_file(folder, made.name, version) for version in system.VERSIONS}
-    for version, file in files.items():
-        system.write_ssp(file, fmus, made, version)
-    return files, made
+    return written(tmp_path_factory.mktemp("ssp"), made, fmu_file), made
 
 
 def test_the_archive_contains_the_three_units_with_the_values_of_their_scenes(archives, fmu):

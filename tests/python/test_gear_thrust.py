@@ -77,14 +77,13 @@ def test_plates_take_the_place_of_the_washers_of_side_gears(fmu):
         assert any("thrust_friction.side_washer_area" in text and "limited_slip.thrust_arm" in text for text in turn.warnings)
 
 
-def test_teeth_have_a_little_less_thrust_because_their_normal_turns(fmu):
+def test_teeth_have_a_little_less_thrust_because_their_normal_turns(run):
     arm, slip = 0.02, 10.0
     # period of the meshes: a planet's tooth passes
     period = 2.0 * math.pi / (slip * theory.SIDE_TEETH)
     values = {"contact.law": "line", "limited_slip.thrust_arm": arm, "left.speed_command": 50.0 + slip, "right.speed_command": 50.0 - slip}
     points = 40
-    with Differential(TURN | values, fmu=fmu.file) as turn:
-        record = turn.run(outputs=["left.shaft_torque", "right.shaft_torque"], stop=10 * period, step=period / points)
+    record = run(TURN | values, 10 * period, period / points, ["left.shaft_torque", "right.shaft_torque"])
     mean = np.array([record[f"{side}.shaft_torque"][-2 * points:].mean() for side in ("left", "right")])
     share = locking_value(mean) / (arm * TANGENT / theory.RESULTANT)
     assert 0.88 < share < 0.97

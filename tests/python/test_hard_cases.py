@@ -83,23 +83,6 @@ def test_a_start_from_rest_settles_to_the_state_of_a_rolling_start(drive):
     np.testing.assert_allclose(ends, [ends[0]] * 3, rtol=1e-5)
 
 
-@pytest.mark.parametrize("extra", [1.0, 20.0])
-def test_a_small_imbalance_is_held_by_the_teeth(drive, extra):
-    scene = drive({"scene.start": "rolling", "left.load_torque": theory.LOAD + extra}).to(0.6, 1e-3)
-    for side in SIDES:
-        assert scene[f"{side}.speed"] == pytest.approx(CARRIER, rel=1e-5)
-    assert abs(scene["planet[1].spin_angle"]) < 0.1
-    assert scene.imbalance() < UNDAMPED
-
-
-def test_a_large_imbalance_rolls_and_the_lighter_side_is_faster(drive):
-    scene = drive({"scene.start": "rolling", "left.load_torque": theory.LOAD + 60.0}).to(0.05, 1e-3)
-    assert scene["right.speed"] > CARRIER + 10.0
-    assert scene["left.speed"] < CARRIER - 10.0
-    assert scene["planet[1].spin_speed"] < -10.0
-    assert scene.imbalance_of_blows() < BLOWS
-
-
 @pytest.mark.parametrize("planet, side, count", [(9, 14, 4), (11, 15, 2), (10, 18, 3), (10, 18, 4)])
 @pytest.mark.parametrize("start", ["equilibrium", "rolling"])
 def test_other_teeth_and_phases_carry_the_load_too(drive, planet, side, count, start):

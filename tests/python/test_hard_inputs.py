@@ -66,7 +66,7 @@ def test_an_absurd_input_is_refused_by_name_value_unit_and_range_and_the_run_goe
             kept, begin = opened.get(variable.name), len(opened.messages)
             with pytest.raises(DifferentialError) as failure:
                 put(opened, variable.name, value)
-            assert failure.value.status in (DISCARD, ERROR)
+            assert failure.value.status == DISCARD
             assert_message(opened.messages[begin].split(": ", 1)[1], variable, value)
             assert opened.get(variable.name) == kept
         for one in (undisturbed, opened):
@@ -118,21 +118,20 @@ def test_all_wrong_values_are_reported_together(fmu):
         assert_usable_after_reset(opened)
 
 
-def test_loads_that_break_the_run_discard_the_step_and_leave_a_state_to_go_on_from(fmu, outputs):
+def test_loads_that_break_the_run_discard_the_step_and_leave_a_state_to_go_on_from(started, outputs):
     for load in (5e6, 1e8, -1e8):
-        with fmu.open() as opened:
-            opened.initialise()
-            opened.step(1e-3)
-            kept, before = opened.raw.getFMUstate(), opened.read(outputs)
-            opened.set({"right.load_torque": load})
-            with pytest.raises(DifferentialError) as failure:
-                opened.do_step(1e-3, 1e-3)
-            assert failure.value.status == DISCARD
-            assert "t = 0.001" in opened.messages[-1] and "fmi2SetFMUstate" in opened.messages[-1]
-            assert all(map(math.isfinite, opened.read(outputs)))
-            opened.raw.setFMUstate(kept)
-            assert opened.read(outputs) == before
+        opened = started()
+        opened.step(1e-3)
+        kept, before = opened.raw.getFMUstate(), opened.read(outputs)
+        opened.set({"right.load_torque": load})
+        with pytest.raises(DifferentialError) as failure:
             opened.do_step(1e-3, 1e-3)
-            assert abs(opened.get("solver.energy_residual")) < 1e-6 * opened.get("power.in") * 2e-3
-            opened.raw.freeFMUstate(kept)
-            assert_usable_after_reset(opened)
+        assert failure.value.status == DISCARD
+        assert "t = 0.001" in opened.messages[-1] and "fmi2SetFMUstate" in opened.messages[-1]
+        assert all(map(math.isfinite, opened.read(outputs)))
+        opened.raw.setFMUstate(kept)
+        assert opened.read(outputs) == before
+        opened.do_step(1e-3, 1e-3)
+        assert abs(opened.get("solver.energy_residual")) < 1e-6 * opened.get("power.in") * 2e-3
+        opened.raw.freeFMUstate(kept)
+        assert_usable_after_reset(opened)

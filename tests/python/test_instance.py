@@ -85,16 +85,16 @@ def test_a_call_refused_by_the_fmu_has_its_message_and_status_and_a_reset_clears
 
 
 @pytest.mark.parametrize("use, parts", [
-    (lambda opened: opened.set({"left.speed": 1.0}), ["left.speed", "cannot be set"]),
-    (lambda opened: opened.set(contact__law="lin"), ["contact.law", "did you mean line"]),
-    (lambda opened: opened.get("left.sped"), ["left.sped", "did you mean left.speed"]),
-    (lambda opened: opened.set_slopes({"left.sped": 1.0}), ["left.sped"]),
-    (lambda opened: opened.fmu.open("Exchange"), ["'Exchange'", "CoSimulation, ModelExchange"]),
+    (lambda opened: opened.set({"left.speed": 1.0}), "left.speed … cannot be set"),
+    (lambda opened: opened.set(contact__law="lin"), "contact.law … did you mean line"),
+    (lambda opened: opened.get("left.sped"), "left.sped … did you mean left.speed"),
+    (lambda opened: opened.set_slopes({"left.sped": 1.0}), "left.sped"),
+    (lambda opened: opened.fmu.open("Exchange"), "'Exchange' … CoSimulation, ModelExchange"),
 ])
 def test_impossible_calls_are_refused_before_the_fmu_is_called(opened, use, parts):
-    with pytest.raises(DifferentialError) as error:
+    with refused(parts) as error:
         use(opened)
-    assert error.value.status is None and all(part in str(error.value) for part in parts)
+    assert error.value.status is None
 
 
 def test_times_of_steps_may_have_units(opened):

@@ -94,14 +94,13 @@ def largest_after_ramp(fmu, values):
 
 
 @pytest.mark.parametrize("name", OPENED)
-def test_teeth_that_errors_keep_apart_carry_from_the_start_on_without_a_blow(fmu, name):
+def test_teeth_that_errors_keep_apart_carry_from_the_start_on_without_a_blow(fmu, started, name):
     values = INERTIAS | OPENED[name]
-    with fmu.open() as opened:
-        opened.initialise(values)
-        assert left_over(opened, values) < BALANCED
-        assert min(opened.read(forces(values))) > 0.0
-        assert not said(opened)
-        assert without_blow(fmu, values, opened)
+    opened = started(values)
+    assert left_over(opened, values) < BALANCED
+    assert min(opened.read(forces(values))) > 0.0
+    assert not said(opened)
+    assert without_blow(fmu, values, opened)
 
 
 def test_random_starts_with_errors_are_in_equilibrium_or_there_is_none_and_the_log_says_so(fmu, request):
@@ -134,12 +133,11 @@ def test_random_starts_with_errors_begin_without_a_blow(fmu, request):
 
 
 @pytest.mark.parametrize("planet_teeth, side_teeth, load", [(24, 7, 33e3), (196, 19, 71e3), (33, 7, 40e3), (165, 10, 64e3)])
-def test_a_load_for_which_no_equilibrium_is_found_is_carried_nowhere(fmu, planet_teeth, side_teeth, load):
+def test_a_load_for_which_no_equilibrium_is_found_is_carried_nowhere(fmu, started, planet_teeth, side_teeth, load):
     values = INERTIAS | {"geometry.planet_count": 2, "geometry.planet_teeth": planet_teeth, "geometry.side_teeth": side_teeth,
                          "contact.law": "line", "effects.body_compliance": True, "left.load_torque": load, "right.load_torque": load}
-    with fmu.open() as opened:
-        opened.initialise(values)
-        assert is_without_equilibrium(opened)
+    opened = started(values)
+    assert is_without_equilibrium(opened)
     with Statics(fmu, values) as statics:
         # up to a deflection beyond that at which another tooth would be loaded
         assert statics.carried(np.linspace(-0.5, 0.5, 9) * 2.0 * np.pi / planet_teeth, 1.2 * np.pi / side_teeth) < 1.0
@@ -173,13 +171,12 @@ BALANCED_DRIVES = {
 
 
 @pytest.mark.parametrize("name", BALANCED_DRIVES)
-def test_gears_under_drag_and_drives_start_without_accelerating_against_each_other(fmu, name):
+def test_gears_under_drag_and_drives_start_without_accelerating_against_each_other(started, name):
     values = INERTIAS | {"contact.law": "line", **BALANCED_DRIVES[name]}
-    with fmu.open() as opened:
-        opened.initialise(values)
-        left, right, carrier, planet = opened.read(
-            ["der(left.speed)", "der(right.speed)", "der(carrier.speed)", "der(planet[1].spin_speed)"])
-        assert values["inertia.side_gear"] * max(abs(left - carrier), abs(right - carrier), abs(planet)) < BALANCED * 300.0
-        assert not said(opened)
-        at_start = max(opened.read(forces(values)))
-        assert largest_force(opened, values, 0.01) < MOST * at_start
+    opened = started(values)
+    left, right, carrier, planet = opened.read(
+        ["der(left.speed)", "der(right.speed)", "der(carrier.speed)", "der(planet[1].spin_speed)"])
+    assert values["inertia.side_gear"] * max(abs(left - carrier), abs(right - carrier), abs(planet)) < BALANCED * 300.0
+    assert not said(opened)
+    at_start = max(opened.read(forces(values)))
+    assert largest_force(opened, values, 0.01) < MOST * at_start

@@ -12,10 +12,10 @@ PATH = ["left.shaft_torque", "right.shaft_torque", "left.thrust_force", "right.t
         "planet[1].pin_force", "planet[1].spin_angle", "locking_value", "torque_bias_ratio"]
 
 
-def over_whole_cycles(record, names, begin=0.3):
+def over_whole_cycles(record, names):
     """Means over whole mesh cycles after the start has settled."""
     cycle = record["planet[1].spin_angle"] / theory.TOOTH_PITCH
-    first = np.ceil(np.interp(begin, record["time"], cycle))
+    first = np.ceil(np.interp(0.3, record["time"], cycle))
     last = np.floor(cycle[-1])
     assert last - first >= 4
     inside = (cycle >= first) & (cycle < last)

@@ -47,11 +47,7 @@ def test_fmpy_simulates_the_start(fmu_file, fmu3, version, kind, time):
 def test_a_host_of_fmi_3_reads_saves_and_ends(fmu3, options):
     with Unit3(fmu3, **options) as unit, Unit3(fmu3, **options) as longer:
         for each, stop in ((unit, 2.0), (longer, 3.0)):
-            each.raw.enterInitializationMode(startTime=2.0, stopTime=stop)
-            each.raw.exitInitializationMode()
-            if options:
-                each.update()
-                each.raw.enterStepMode()
+            each.begin({}, stop, 2.0)
         assert unit.read(["time", *OUTPUTS]) == [2.0, *STARTED.values()]
         with pytest.raises(Exception, match="fmi3DoStep"):
             unit.step(2.0, 1e-3)
@@ -63,8 +59,7 @@ def test_a_host_of_fmi_3_reads_saves_and_ends(fmu3, options):
 
 def test_a_host_of_model_exchange_reads_the_derivatives(fmu3):
     with Unit3(fmu3, "ModelExchange") as unit:
-        unit.raw.enterInitializationMode(startTime=1.0, stopTime=1.0)
-        unit.raw.exitInitializationMode()
+        unit.initialise({}, 1.0, 1.0)
         unit.update()
         unit.raw.enterContinuousTimeMode()
         assert unit.read(["der(carrier.angle)"]) == unit.read(["carrier.speed"])

@@ -41,9 +41,7 @@ def messages(fmu, kind, values, steps=()):
 def messages3(fmu_file, kind, values):
     """Messages that an instance of FMI 3.0 logs at the start."""
     with Unit3(fmu_file.replace("BevelDifferential.fmu", "BevelDifferential3.fmu"), kind, loggingOn=True) as unit:
-        unit.set(values)
-        unit.raw.enterInitializationMode(startTime=0.0, stopTime=None)
-        unit.raw.exitInitializationMode()
+        unit.initialise(values)
         return [text for _, text in unit.messages]
 
 
@@ -276,18 +274,17 @@ def test_an_oil_temperature_without_effect_is_reported(opened, oil):
     assert not opened.unfelt
 
 
-def test_an_oil_temperature_set_while_the_oil_warms_up_is_reported_to_change_nothing(fmu):
+def test_an_oil_temperature_set_while_the_oil_warms_up_is_reported_to_change_nothing(started):
     warm = {"scene.gear_contact": "ideal", "effects.warm_up": True}
     for given in (False, True):
-        with fmu.open() as opened:
-            opened.initialise({**warm, "warm_up.sump_given": given, "oil.temperature": 330.0})
-            opened.step(0.1)
-            assert not opened.unfelt
-            opened.set({"oil.temperature": 340.0})
-            opened.set({"oil.temperature": 341.0})
-            opened.step(0.1)
-            assert list(opened.unfelt) == ([] if given else ["oil.temperature"])
-            assert (opened.get("temperature.oil") == 341.0) == given
+        opened = started({**warm, "warm_up.sump_given": given, "oil.temperature": 330.0})
+        opened.step(0.1)
+        assert not opened.unfelt
+        opened.set({"oil.temperature": 340.0})
+        opened.set({"oil.temperature": 341.0})
+        opened.step(0.1)
+        assert list(opened.unfelt) == ([] if given else ["oil.temperature"])
+        assert (opened.get("temperature.oil") == 341.0) == given
 
 
 def test_a_car_lists_the_values_that_nobody_gave():

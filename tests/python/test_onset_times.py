@@ -37,14 +37,14 @@ def begin(instance, values, start):
     instance.raw.exitInitializationMode()
 
 
-def two(fmu, values, start, names=OUTPUTS):
+def two(fmu, values, start):
     """Outputs at all communication points of co-simulation, FMI 2.0."""
     with fmu.open() as instance:
         begin(instance, values, start)
-        rows = [instance.read(names)]
+        rows = [instance.read(OUTPUTS)]
         for k in range(COUNT):
             instance.raw.doStep(start + k * SIZE, SIZE)
-            rows.append(instance.read(names))
+            rows.append(instance.read(OUTPUTS))
     return np.array(rows, float)
 
 
@@ -52,8 +52,7 @@ def three(fmu3, values, start):
     """Record and events of FMI 3.0: in event mode, a step ends when the tooth breaks."""
     rows, events = [], []
     with Unit3(fmu3, eventModeUsed=True, earlyReturnAllowed=True) as unit:
-        unit.initialise(values, start=start)
-        unit.raw.enterStepMode()
+        unit.begin(values, start=start)
         time = start
         for k in range(COUNT):
             while time < start + (k + 1) * SIZE:

@@ -116,13 +116,12 @@ def test_outputs_are_numbers_in_a_separate_list(opened):
     assert port.read()[0] == opened.get(SHOWN[0])
 
 
-def test_a_port_without_inputs_steps_and_reads(fmu, opened):
+def test_a_port_without_inputs_steps_and_reads(started, opened):
     port = opened.port([], SHOWN)
-    with fmu.open() as other:
-        other.initialise(AXLE)
-        for _ in range(5):
-            other.step(SIZE)
-            assert port.step([], SIZE) == other.read(SHOWN)
+    other = started(AXLE)
+    for _ in range(5):
+        other.step(SIZE)
+        assert port.step([], SIZE) == other.read(SHOWN)
 
 
 @pytest.mark.parametrize("has_rates, expected", [(False, ["set", "step", "get"]), (True, ["set", "slopes", "step", "get"])])
@@ -208,14 +207,13 @@ def test_names_are_checked_when_the_port_is_made(opened, inputs, outputs, parts)
         opened.port(inputs, outputs)
 
 
-def test_a_tunable_parameter_is_set_and_has_no_rate(fmu):
-    with fmu.open() as opened:
-        opened.initialise({"effects.limited_slip": True})
-        port = opened.port(["limited_slip.preload"], ["limited_slip.preload"])
-        assert port.step(70.0, SIZE) == [70.0]
-        said = refusal(lambda: port.step(70.0, SIZE, 1.0))
-        assert said[0].startswith("limited_slip.preload is not an input")
-        assert said == refusal(lambda: opened.set_slopes({"limited_slip.preload": 1.0}))
+def test_a_tunable_parameter_is_set_and_has_no_rate(started):
+    opened = started({"effects.limited_slip": True})
+    port = opened.port(["limited_slip.preload"], ["limited_slip.preload"])
+    assert port.step(70.0, SIZE) == [70.0]
+    said = refusal(lambda: port.step(70.0, SIZE, 1.0))
+    assert said[0].startswith("limited_slip.preload is not an input")
+    assert said == refusal(lambda: opened.set_slopes({"limited_slip.preload": 1.0}))
 
 
 @pytest.mark.parametrize("size", [0.0, -1e-3, math.nan, 1.0], ids=repr)

@@ -21,11 +21,10 @@ def ranged(fmu, *kinds):
 
 
 @pytest.fixture
-def running(fmu):
-    with fmu.open() as instance:
-        instance.initialise(BRAKED | {"effects.limited_slip": True, "effects.warm_up": True})
-        instance.step(1e-3)
-        yield instance
+def running(started):
+    instance = started(BRAKED | {"effects.limited_slip": True, "effects.warm_up": True})
+    instance.step(1e-3)
+    return instance
 
 
 def test_inputs_and_tunable_parameters_take_the_limit_that_rounding_exceeds(fmu, running):
@@ -107,37 +106,35 @@ def test_fmi_3_takes_limits_and_sets_all_or_none(fmu3):
         assert "none of the 2 values of this call was set" in unit.messages[-1][1]
 
 
-def test_ramps_by_input_derivatives_may_end_at_a_limit(fmu):
+def test_ramps_by_input_derivatives_may_end_at_a_limit(started):
     chance = random.Random(1)
-    with fmu.open() as instance:
-        instance.initialise(BRAKED | {"scene.gear_contact": "ideal"})
-        for _ in range(100):
-            begin, count, size = chance.uniform(0.01, 3000.0), chance.randint(1, 40), chance.choice([1e-3, 1.0 / 60.0, 3e-3])
-            instance.set({"left.brake_torque": begin, "lock.command": 0.0})
-            for _ in range(count):
-                instance.set_slopes({"left.brake_torque": -begin / (count * size), "lock.command": 1.0 / (count * size)})
-                instance.step(size)
-            assert instance.get("left.brake_torque") == pytest.approx(0.0, abs=1e-9 * begin)
-            assert instance.get("lock.command") == pytest.approx(1.0, abs=1e-9)
+    instance = started(BRAKED | {"scene.gear_contact": "ideal"})
+    for _ in range(100):
+        begin, count, size = chance.uniform(0.01, 3000.0), chance.randint(1, 40), chance.choice([1e-3, 1.0 / 60.0, 3e-3])
+        instance.set({"left.brake_torque": begin, "lock.command": 0.0})
+        for _ in range(count):
+            instance.set_slopes({"left.brake_torque": -begin / (count * size), "lock.command": 1.0 / (count * size)})
+            instance.step(size)
+        assert instance.get("left.brake_torque") == pytest.approx(0.0, abs=1e-9 * begin)
+        assert instance.get("lock.command") == pytest.approx(1.0, abs=1e-9)
 
 
 @pytest.mark.parametrize("beyond, taken", [(0.5, True), (3.0, False)])
-def test_an_input_whose_derivative_leads_beyond_its_limit_by_rounding_keeps_the_limit(fmu, beyond, taken):
+def test_an_input_whose_derivative_leads_beyond_its_limit_by_rounding_keeps_the_limit(fmu, started, beyond, taken):
     # an input without effect in this scene, so that any value is harmless
     name, size = "carrier.torque_command", 1e-3
     limit = fmu.variable(name).maximum
-    with fmu.open() as instance:
-        instance.initialise({"scene.gear_contact": "ideal"})
-        instance.set({name: limit - 1.0})
-        instance.set_slopes({name: (1.0 + beyond * ROUNDING * limit) / size})
-        if not taken:
-            with pytest.raises(DifferentialError, match=name):
-                instance.step(size)
-            return
-        instance.step(size)
-        assert instance.get(name) == limit
-        # the state can be saved and restored
-        instance.restore(instance.save())
+    instance = started({"scene.gear_contact": "ideal"})
+    instance.set({name: limit - 1.0})
+    instance.set_slopes({name: (1.0 + beyond * ROUNDING * limit) / size})
+    if not taken:
+        with pytest.raises(DifferentialError, match=name):
+            instance.step(size)
+        return
+    instance.step(size)
+    assert instance.get(name) == limit
+    # the state can be saved and restored
+    instance.restore(instance.save())
 
 
 def test_tables_and_controllers_may_exceed_a_range_by_rounding(fmu_file):

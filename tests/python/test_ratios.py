@@ -7,7 +7,7 @@ import pytest
 from driving import SIDES
 from fmpy.fmi2 import FMU2Model
 
-CONTACTS = ["ideal", "lumped", "tooth"]
+CONTACTS = pytest.mark.parametrize("contact", ["ideal", "lumped", "tooth"])
 PRELOAD = 20.0
 CLUTCH = {"effects.limited_slip": True, "limited_slip.preload": PRELOAD, "limited_slip.torque_coefficient": 0.0}
 LEFT = {"scene.left_drive": "speed"}
@@ -23,7 +23,7 @@ FLOWS = {
 
 
 @pytest.mark.parametrize("sign", [1.0, -1.0])
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("flow", FLOWS)
 def test_efficiency_is_the_part_of_the_input_power_that_is_not_lost(drive, flow, contact, sign):
     values = {name: sign * value if name.endswith(("command", "torque")) else value for name, value in FLOWS[flow].items()}
@@ -48,7 +48,7 @@ def test_a_wheel_that_drives_the_other_one_loses_the_friction_of_both_packs(driv
     assert driven["efficiency"] == pytest.approx(load / (load + 2.0 * PRELOAD), rel=1e-9)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_efficiency_is_one_without_input_power(drive, contact):
     # the differential coasts: clutch and inertia, no drive
     driven = drive(CLUTCH | {"scene.gear_contact": contact, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
@@ -58,7 +58,7 @@ def test_efficiency_is_one_without_input_power(drive, contact):
 
 
 @pytest.mark.parametrize("apart", [2.0, -2.0])
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_opposed_torques_without_a_sum_have_no_bias_at_any_level(drive, contact, apart):
     driven = drive({"scene.gear_contact": contact, "effects.limited_slip": True, "limited_slip.preload": 50.0,
                     "limited_slip.torque_coefficient": 0.0, "scene.carrier_drive": "torque", "carrier.torque_command": 0.0,
@@ -86,7 +86,7 @@ def test_a_small_sum_of_torques_has_the_same_locking_value_at_every_level(drive,
 
 
 @pytest.mark.parametrize("warm_up", [False, True])
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_flanks_that_nobody_rates_have_the_temperature_of_the_gears(drive, contact, warm_up):
     driven = drive({"scene.gear_contact": contact, "oil.temperature": 331.0, "effects.warm_up": warm_up,
                     "warm_up.gears_above_oil": 12.0 if warm_up else 0.0})

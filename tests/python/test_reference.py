@@ -46,11 +46,15 @@ def largest(errors, kind, late=slice(None)):
     return max((np.max(error[late]), name) for name, error in errors.items() if name.endswith(kind))
 
 
+def assert_follows(errors, late=slice(None), factor=1.0):
+    """Asserts the errors of all outputs; `factor`: on the allowed error of speeds."""
+    assert largest(errors, "speed", late) <= (factor * SPEED_ERROR, "")
+    assert largest(errors, ("force", "torque", "error"), late) <= (FORCE_ERROR, "")
+
+
 @pytest.mark.parametrize("case", ["straight_equilibrium", "turn_equilibrium"])
 def test_the_study_follows_the_reference_from_the_first_instant(errors, case):
-    _, found = errors(case)
-    assert largest(found, "speed") <= (SPEED_ERROR, "")
-    assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
+    assert_follows(errors(case)[1])
 
 
 @pytest.mark.parametrize("every", [2, 5, 10, 20])
@@ -58,25 +62,15 @@ def test_the_turn_follows_the_reference_whatever_the_communication_step(errors, 
     # with any first row, so that pairs enter and leave contact at different places of the integrator's steps
     rows = len(CASES["turn_equilibrium"].times)
     for first in range(1, every + 1):
-        _, found = errors("turn_equilibrium", at=[0, *range(first, rows, every)])
-        assert largest(found, "speed") <= (SPEED_ERROR, ""), first
-        assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, ""), first
+        assert_follows(errors("turn_equilibrium", at=[0, *range(first, rows, every)])[1])
 
 
 @pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
-def test_the_study_follows_the_reference_once_the_blows_of_a_rolling_start_are_over(errors, case):
+def test_the_study_follows_the_reference_through_and_after_the_blows_of_a_rolling_start(errors, case):
     times, found = errors(case)
-    late = times > SETTLED
-    assert largest(found, "speed", late) <= (SPEED_ERROR, "")
-    assert largest(found, ("force", "torque", "error"), late) <= (FORCE_ERROR, "")
-
-
-@pytest.mark.parametrize("case", ["straight_rolling", "turn_rolling"])
-def test_the_blows_of_a_rolling_start_follow_the_reference(errors, case):
-    # speeds pass through several times the settled ones within microseconds, so ten times the error is allowed
-    _, found = errors(case)
-    assert largest(found, "speed") <= (10.0 * SPEED_ERROR, "")
-    assert largest(found, ("force", "torque", "error")) <= (FORCE_ERROR, "")
+    assert_follows(found, times > SETTLED)
+    # speeds pass through several times the settled ones within microseconds
+    assert_follows(found, factor=10.0)
 
 
 def test_the_clunk_follows_the_reference(errors):

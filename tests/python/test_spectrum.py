@@ -5,7 +5,7 @@ from math import ceil, log, pi
 
 import numpy as np
 import pytest
-from duty_cycles import FLANKS, HEAD, ROOTS, spectrum_of
+from duty_cycles import FLANKS, HEAD, ROOTS
 
 from bevel_differential import Differential, DifferentialError, DifferentialWarning
 from bevel_differential.spectrum import Event, spectrum
@@ -21,12 +21,6 @@ BENDING, BENDING_CYCLES, BENDING_SLOPE = 1000e6, 3e6, log(3e6 / 1e3) / log(2.5)
 CONTACT, CONTACT_CYCLES, CONTACT_SLOPE = 1500e6, 5e7, log(5e7 / 1e5) / log(1.6)
 IDLER, SENSITIVITY = 0.7, 0.4
 LUMPED = {"scene.gear_contact": "lumped"}
-
-
-@pytest.fixture
-def cycle(fmu_file, tmp_path):
-    """cycle(lines, ...): the spectrum of a duty cycle with these lines."""
-    return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
 
 
 @pytest.fixture
@@ -175,14 +169,13 @@ def test_the_left_wheel_is_the_slow_one_of_a_turn_to_the_left(cycle, fmu_file):
 
 @pytest.mark.parametrize("low, high", [(0.0, 800.0), (-500.0, 700.0), (300.0, 800.0)])
 @pytest.mark.parametrize("contact", ["lumped", "tooth"])
-def test_a_history_of_one_amplitude_does_the_damage_that_the_fmu_counts(fmu_file, contact, low, high):
+def test_a_history_of_one_amplitude_does_the_damage_that_the_fmu_counts(run, fmu_file, contact, low, high):
     times = np.linspace(0.0, 2.0, 201)
     load = low + (high - low) * np.sin(pi * 2.0 * times) ** 2
     swing = event(duration=2.0, signals={side: (times, load) for side in ("left.load_torque", "right.load_torque")}, step=2e-3)
     gears = {"scene.gear_contact": contact}
     ours = spectrum([swing], gears, order="written", fmu=fmu_file).damage
-    with Differential({**swing.values, **gears, "effects.strength": True}, fmu=fmu_file) as differential:
-        theirs = differential.run(swing.signals, ROOTS, 2.0, 2e-3)[-1]
+    theirs = run({**swing.values, **gears, "effects.strength": True}, 2.0, 2e-3, ROOTS, swing.signals)[-1]
     assert ours["damage.planet"] == pytest.approx(theirs["damage.planet"], rel=1e-3)
     # with single pairs, drive and overrun load different teeth of the side gears
     if contact == "lumped" or low >= 0.0:
@@ -281,7 +274,7 @@ def test_short_turns_to_both_sides_pass_the_same_tooth_each_time(fmu_file, stres
     ("lumped", [36.3, -22.7], [1200.0, -1200.0]),
     ("tooth", [0.0, 5.3, 0.0, 0.0, 2.2, 0.0], [1200.0, -1200.0, 1000.0, -200.0, 600.0, 1400.0]),
 ])
-def test_sums_are_those_of_the_worst_tooth_that_the_fmu_follows(fmu_file, contact, rolls, torques):
+def test_sums_are_those_of_the_worst_tooth_that_the_fmu_follows(run, fmu_file, contact, rolls, torques):
     events, gears = [rolled(*each) for each in zip(rolls, torques)], {"scene.gear_contact": contact, "contact.law": "line"}
     written, unknown = (all_damages(spectrum(events, gears, order=order, fmu=fmu_file)) for order in ("written", "unknown"))
     # the FMU changes torques at rest and speeds slowly, so that no jump adds dynamic loads
@@ -292,8 +285,7 @@ def test_sums_are_those_of_the_worst_tooth_that_the_fmu_follows(fmu_file, contac
                  ((0.0, 0.0), (0.1, 0.0), (0.3, one.values["spin.command"]), (2.1, one.values["spin.command"]), (2.3, 0.0), (2.4, 0.0))]
     times, spins, loads = np.array(rows).T
     signals = {"spin.command": (times, spins), "left.load_torque": (times, loads), "right.load_torque": (times, loads)}
-    with Differential({**event(left=0.0, right=0.0).values, **gears, "effects.strength": True}, fmu=fmu_file) as differential:
-        record = differential.run(signals, MODES, times[-1], 0.01)[-1]
+    record = run({**event(left=0.0, right=0.0).values, **gears, "effects.strength": True}, times[-1], 0.01, MODES, signals)[-1]
     theirs = np.array([record[name] for name in MODES])
     assert written[2:] == pytest.approx(theirs[2:], rel=0.02)
     # half cycles that are open at the ends close in a duty cycle that repeats; impacts are not in steady events

@@ -3,17 +3,11 @@
 import numpy as np
 import pytest
 from command_line import command
-from duty_cycles import DUTY_CYCLE, HEAD, ROOT, spectrum_of
+from duty_cycles import DUTY_CYCLE, HEAD, ROOT
 
 from bevel_differential import DifferentialError
 from bevel_differential.spectrum import spectrum
 from refusals import refused
-
-
-@pytest.fixture
-def cycle(fmu_file, tmp_path):
-    """cycle(lines, ...): the spectrum of a duty cycle with these lines."""
-    return lambda *lines, **options: spectrum_of(lines, tmp_path, fmu_file, **options)
 
 
 def test_the_example_is_complete_and_sorted(tmp_path):
@@ -103,18 +97,17 @@ def test_errors_in_a_cycle_are_reported_with_their_place(cycle, lines, parts):
 
 
 @pytest.mark.parametrize("lines, parts", [
-    (["time [s],torque [N.m]", "0,1", "1,x"], ["line 3, column torque [N.m], value \"x\""]),
-    (["time [s],torque [N.m]", "1,1", "0,1"], ["line 3, column time [s]", "must not fall"]),
-    (["time [s],torque [N.m]", "0,1"], ["two times or more"]),
-    (["torque [N.m]", "0"], ["no column time"]),
-    (["time [s],contact.damping", "0,1"], ["contact.damping", "not an input of"]),
-    (["time [s],torque [N.m]", "0,", "1,1"], ["line 2, column torque [N.m]", "write a value"]),
+    (["time [s],torque [N.m]", "0,1", "1,x"], "line 3, column torque [N.m], value \"x\""),
+    (["time [s],torque [N.m]", "1,1", "0,1"], "line 3, column time [s] … must not fall"),
+    (["time [s],torque [N.m]", "0,1"], "two times or more"),
+    (["torque [N.m]", "0"], "no column time"),
+    (["time [s],contact.damping", "0,1"], "contact.damping … not an input of"),
+    (["time [s],torque [N.m]", "0,", "1,1"], "line 2, column torque [N.m] … write a value"),
 ])
 def test_errors_in_a_history_are_reported_with_their_place(cycle, tmp_path, lines, parts):
     (tmp_path / "history.csv").write_text("\n".join(lines))
-    with pytest.raises(DifferentialError) as error:
+    with refused(f"history.csv … {parts}"):
         cycle("name,count,speed [km/h],history", "a,1,20,history.csv")
-    assert all(part in str(error.value) for part in ["history.csv", *parts]), error.value
 
 
 def test_the_command_reports_results(tmp_path):

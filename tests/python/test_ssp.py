@@ -1,36 +1,19 @@
 """SSP archives of the drivetrain example: those of SSP 1.0 and 2.0 describe the same system, which exists in the FMU."""
 
-import sys
 import zipfile
-from pathlib import Path
 
 import pytest
 from fmpy.ssp.ssd import read_ssd
-
-# only while they are imported, because the laboratory has modules of the same names
-EXAMPLE = str(Path(__file__).resolve().parents[2] / "examples" / "drivetrain")
-sys.path.insert(0, EXAMPLE)
-import content  # noqa: E402
-import parameters  # noqa: E402
-import system  # noqa: E402
-sys.path.remove(EXAMPLE)
+from ssp_archives import content, parameters, system, written
 
 VALUES, DESCRIPTION = "resources/left_wheel.ssv", "SystemStructure.ssd"
 
 
 @pytest.fixture(scope="module")
 def archives(fmu_file, tmp_path_factory):
-    """archives[contact, version]: an archive with the FMU under test. Files without content replace the other parts."""
-    folder = tmp_path_factory.mktemp("ssp")
-    fmus = {name: folder / f"{name}.fmu" for name in set(parameters.PARTS.values())}
-    for file in fmus.values():
-        file.touch()
-    fmus["BevelDifferential"] = Path(fmu_file)
-    files = {(contact, version): system.archive_file(folder, f"drivetrain_{contact}", version) for contact in parameters.CONTACT
-             for version in system.VERSIONS}
-    for (contact, version), file in files.items():
-        system.write_ssp(file, fmus, parameters.structure(contact), version)
-    return files
+    """archives[contact, version]: an archive with the FMU under test."""
+    return {(contact, version): file for contact in parameters.CONTACT for version, file in
+            written(tmp_path_factory.mktemp(contact), parameters.structure(contact), fmu_file).items()}
 
 
 @pytest.mark.parametrize("contact", parameters.CONTACT)

@@ -27,11 +27,9 @@ def loaded(torque):
     return {"left.load_torque": torque, "right.load_torque": torque}
 
 
-def stopped(fmu_file, values, stop, step=0.1):
+def stopped(run, values, stop):
     """Record of a car that stops before half of the time; at the end the wheels are at rest and the brakes hold them."""
-    with Differential(STOP | values, fmu=fmu_file) as car:
-        record = car.run(outputs=["left.wheel_speed", "right.wheel_speed", "solver.steps", "held.wheels", "power.in"],
-                         stop=stop, step=step)
+    record = run(STOP | values, stop, 0.1, ["left.wheel_speed", "right.wheel_speed", "solver.steps", "held.wheels", "power.in"])
     assert np.abs([record["left.wheel_speed"][-1], record["right.wheel_speed"][-1]]).max() < 1e-6
     assert record["held.wheels"][-1] == 2
     return record
@@ -46,29 +44,28 @@ def steps_in_last(record, seconds):
 @pytest.mark.parametrize("load", [0.0, 1e-9, 1e-3, 10.0])
 @pytest.mark.parametrize("method", ["adaptive", "radau"])
 @pytest.mark.parametrize("way", WAYS)
-def test_braked_wheels_stop_and_stand(fmu_file, way, method, load):
-    record = stopped(fmu_file, WAYS[way] | loaded(load) | {"solver.method": method}, 4.0)
+def test_braked_wheels_stop_and_stand(run, way, method, load):
+    record = stopped(run, WAYS[way] | loaded(load) | {"solver.method": method}, 4.0)
     assert steps_in_last(record, 2.0) <= STANDING
     # braking from 50 rad/s takes half a second, and all of it takes a few hundred steps
     assert record["solver.steps"][-1] <= 400
 
 
-def test_heavy_wheels_stop_and_stand(fmu_file):
+def test_heavy_wheels_stop_and_stand(run):
     heavy = {"inertia.left_end": 60.0, "inertia.right_end": 60.0, "left.brake_torque": 1500.0, "right.brake_torque": 1500.0}
-    assert steps_in_last(stopped(fmu_file, heavy, 6.0), 2.0) <= STANDING
+    assert steps_in_last(stopped(run, heavy, 6.0), 2.0) <= STANDING
 
 
 @pytest.mark.parametrize("load", [0.0, 1e-9, 1e-3, 10.0])
 @pytest.mark.parametrize("law", LAWS)
-def test_teeth_come_to_rest_with_friction_and_drag(fmu_file, law, load):
-    record = stopped(fmu_file, LAWS[law] | QUIET | loaded(load), 5.0)
+def test_teeth_come_to_rest_with_friction_and_drag(run, law, load):
+    record = stopped(run, LAWS[law] | QUIET | loaded(load), 5.0)
     assert steps_in_last(record, 2.0) <= STANDING
 
 
 @pytest.mark.parametrize("law", LAWS)
-def test_gears_in_equilibrium_under_a_billionth_of_a_newton_metre_roll_on(fmu_file, law):
-    with Differential(LAWS[law] | loaded(1e-9) | {"scene.start": "equilibrium"}, fmu=fmu_file) as gears:
-        record = gears.run(outputs=["left.speed", "carrier.speed", "solver.steps"], stop=2.0, step=0.1)
+def test_gears_in_equilibrium_under_a_billionth_of_a_newton_metre_roll_on(run, law):
+    record = run(LAWS[law] | loaded(1e-9) | {"scene.start": "equilibrium"}, 2.0, 0.1, ["left.speed", "carrier.speed", "solver.steps"])
     np.testing.assert_allclose(record["left.speed"], record["carrier.speed"], rtol=1e-9)
     assert record["solver.steps"][-1] <= 100
 
@@ -92,12 +89,11 @@ def test_an_hour_parked_takes_one_step_a_second(fmu_file, level, load):
 @pytest.mark.parametrize("inertia", [1e-3, 1.0, 60.0])
 @pytest.mark.parametrize("torque", [1e-3, 1.0, 1e4])
 @pytest.mark.parametrize("stiffness", [1e3, 1e5, 1e9])
-def test_brakes_of_any_stiffness_and_torque_stop_a_wheel(fmu_file, stiffness, torque, inertia):
+def test_brakes_of_any_stiffness_and_torque_stop_a_wheel(run, stiffness, torque, inertia):
     slow = min(50.0, 0.8 * torque / inertia)
     values = {"wheel_brake.stiffness": stiffness, "left.brake_torque": torque, "right.brake_torque": torque,
               "inertia.left_end": inertia, "inertia.right_end": inertia, "carrier.speed_command": slow}
-    with Differential(STOP | values, fmu=fmu_file) as car:
-        record = car.run(outputs=["left.wheel_speed", "solver.steps"], stop=2.0, step=0.1)
+    record = run(STOP | values, 2.0, 0.1, ["left.wheel_speed", "solver.steps"])
     # the smallest torque does not stop the lightest wheels before the gears, which have no brake
     assert record["solver.steps"][-1] <= 400
 

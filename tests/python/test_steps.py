@@ -68,26 +68,25 @@ with Fmu.of(file).open() as opened:
 
 
 @pytest.mark.parametrize("scene", SCENES)
-def test_a_state_continues_with_the_same_bits_in_another_process(fmu, outputs, tmp_path, scene):
+def test_a_state_continues_with_the_same_bits_in_another_process(fmu, started, outputs, tmp_path, scene):
     def go_on():
         for step in range(20):
             opened.step(1e-3)
         return [value.hex() for value in opened.read(outputs)]
 
-    with fmu.open() as opened:
-        opened.initialise(SCENES[scene])
-        for step in range(61):
-            opened.step(5e-4)
-        # in the middle of a contact: teeth carry the load
-        assert opened.get("planet[1].left_pairs") >= 1.0 and opened.get("left.normal_force") > 1e4
-        state, kept = opened.raw.getFMUstate(), opened.save()
-        (tmp_path / "state").write_bytes(pickle.dumps(kept))
-        here = go_on()
-        # repeated in this instance
-        opened.raw.setFMUstate(state)
-        opened.time = kept[0]
-        assert go_on() == here
-        opened.raw.freeFMUstate(state)
+    opened = started(SCENES[scene])
+    for step in range(61):
+        opened.step(5e-4)
+    # in the middle of a contact: teeth carry the load
+    assert opened.get("planet[1].left_pairs") >= 1.0 and opened.get("left.normal_force") > 1e4
+    state, kept = opened.raw.getFMUstate(), opened.save()
+    (tmp_path / "state").write_bytes(pickle.dumps(kept))
+    here = go_on()
+    # repeated in this instance
+    opened.raw.setFMUstate(state)
+    opened.time = kept[0]
+    assert go_on() == here
+    opened.raw.freeFMUstate(state)
     command = [sys.executable, "-c", GO_ON, str(fmu.file), str(tmp_path / "state"), json.dumps(outputs)]
     done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, "LC_ALL": "C"})
     assert done.returncode == 0, done.stderr
@@ -95,11 +94,10 @@ def test_a_state_continues_with_the_same_bits_in_another_process(fmu, outputs, t
     assert there == here
 
 
-def test_a_spring_for_each_mesh_rolls_without_kinks_of_tooth_pairs(fmu):
-    with fmu.open() as opened:
-        opened.initialise({**TURN, "scene.gear_contact": "lumped", "scene.start": "equilibrium"})
-        opened.step(1.0)
-        before = opened.get("solver.steps")
-        # five teeth per second roll past each mesh, whose force does not change
-        opened.step(10.0)
-        assert opened.get("solver.steps") - before < 20
+def test_a_spring_for_each_mesh_rolls_without_kinks_of_tooth_pairs(started):
+    opened = started({**TURN, "scene.gear_contact": "lumped", "scene.start": "equilibrium"})
+    opened.step(1.0)
+    before = opened.get("solver.steps")
+    # five teeth per second roll past each mesh, whose force does not change
+    opened.step(10.0)
+    assert opened.get("solver.steps") - before < 20

@@ -8,7 +8,6 @@ from math import ceil, pi
 
 import numpy as np
 import pytest
-from bevel_differential import Differential
 from test_strength_fatigue import miner
 
 PLANET_TEETH, SIDE_TEETH, PLANETS = 10, 16, 2
@@ -42,15 +41,14 @@ def load(mean, amplitude, frequency, time):
     return mean + amplitude * np.sin(2.0 * pi * frequency * time)
 
 
-def simulated(fmu, mean, amplitude, frequency, spin, stop, points=60, values=None):
+def simulated(run, mean, amplitude, frequency, spin, stop, points=60):
     """Damage of planet and side gear by the FMU, and both stresses at 1 N·m."""
     step = 1.0 / (points * frequency)
     time = np.arange(ceil(stop / step) + 1) * step
     torque = load(mean, amplitude, frequency, time)
     sides = dict.fromkeys(["left.load_torque", "right.load_torque"], (time, torque))
     scene = {**SCENE, "spin.command": spin, "left.load_torque": torque[0], "right.load_torque": torque[0]}
-    with Differential({**scene, **(values or {})}, fmu=fmu) as differential:
-        record = differential.run(sides, OUTPUTS, stop, step)
+    record = run(scene, stop, step, OUTPUTS, sides)
     largest = np.max(abs(load(mean, amplitude, frequency, np.linspace(0.0, stop, 1 << 16))))
     return [record[name][-1] for name in OUTPUTS[:2]], [np.max(record[name]) / largest for name in OUTPUTS[2:]]
 
@@ -81,9 +79,9 @@ def counted(mean, amplitude, frequency, spin, stop, per_torque):
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: "{:g}±{:g} N·m, {:g} Hz, {:g} rad/s".format(*case))
-def test_damage_is_that_of_a_count_tooth_by_tooth(fmu_file, case):
+def test_damage_is_that_of_a_count_tooth_by_tooth(run, case):
     stop = duration(*case[2:])
-    ours, per_torque = simulated(fmu_file, *case, stop)
+    ours, per_torque = simulated(run, *case, stop)
     assert ours == pytest.approx(counted(*case, stop, per_torque), rel=0.05)
 
 
@@ -102,12 +100,11 @@ def pieces(count):
 
 
 @pytest.mark.parametrize("spin", [0.4, -3.0])
-def test_damage_does_not_depend_on_communication_steps(fmu, spin):
+def test_damage_does_not_depend_on_communication_steps(started, spin):
     damages = []
     for steps in [1, 3, 10]:
-        with fmu.open() as unit:
-            unit.initialise({**SCENE, "spin.command": spin})
-            damages.append(swung(unit, pieces(400), steps))
+        unit = started({**SCENE, "spin.command": spin})
+        damages.append(swung(unit, pieces(400), steps))
     # stresses follow the solver's tolerance of 1e-6, and damage follows their ninth power
     assert min(damages[0]) > 0.0
     assert damages[1:] == [pytest.approx(damages[0], rel=1e-4)] * 2

@@ -5,7 +5,7 @@ from collections import Counter
 
 import numpy as np
 import pytest
-from bevel_differential import Differential, Scene
+from bevel_differential import Scene
 from driving import CARRIER, SIDES, put
 
 METHODS = ["adaptive", "radau", "fixed_step"]
@@ -57,6 +57,10 @@ def rounding(way, count, size):
     return tuple(np.sign([at - count * size, before + (at - before) - count * size]))
 
 
+def breaking(onset):
+    return FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset}
+
+
 def counts(name, way, size):
     """Numbers of steps before an event for a method: all, or the first ones of each kind of rounding."""
     found, kinds = [], Counter()
@@ -79,7 +83,7 @@ def test_no_step_is_lost_where_a_tooth_breaks_on_a_communication_point(fmu, name
     with fmu.open() as instance:
         for size in SIZES:
             for count in counts(name, way, size):
-                instance.initialise(method(name) | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": count * size})
+                instance.initialise(method(name) | breaking(count * size))
                 assert_nothing_is_lost(instance, grid(way, count, size))
 
 
@@ -89,22 +93,20 @@ def test_no_step_is_lost_where_a_tooth_breaks_just_before_or_after_a_communicati
     with fmu.open() as instance:
         for size in SIZES:
             for count in short(name, (3, 10, 20, 59), size):
-                instance.initialise(method(name) | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": (count + off) * size})
+                instance.initialise(method(name) | breaking((count + off) * size))
                 assert_nothing_is_lost(instance, grid("multiplied", count, size))
 
 
 @pytest.mark.parametrize("off", [0.0, -2e-16, 1e-13])
-def test_a_tooth_breaks_at_its_time_wherever_communication_points_are(fmu, off):
+def test_a_tooth_breaks_at_its_time_wherever_communication_points_are(started, off):
     """The contact loses the energy of the broken tooth: equal heat in steps that end at the onset and in one step past it."""
     onset = 7e-3
-    values = SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset * (1.0 + off),
-                              "solver.relative_tolerance": 1e-9}
+    values = SPEED | breaking(onset * (1.0 + off)) | {"solver.relative_tolerance": 1e-9}
     heats = []
     for times in ([0.0, 9e-3], [1e-3 * k for k in range(10)], [0.0, onset, 9e-3]):
-        with fmu.open() as instance:
-            instance.initialise(values)
-            assert_nothing_is_lost(instance, times)
-            heats.append(instance.get("heat.contact"))
+        instance = started(values)
+        assert_nothing_is_lost(instance, times)
+        heats.append(instance.get("heat.contact"))
     assert heats[0] > 0.0
     assert heats == pytest.approx([heats[0]] * 3, rel=1e-6)
 
@@ -129,7 +131,7 @@ def test_no_step_is_lost_where_an_input_steps(fmu, name, kind):
 @pytest.mark.parametrize("name", METHODS)
 def test_an_onset_with_simultaneous_steps_of_inputs_loses_nothing(fmu, name):
     """All inputs step at the onset, while brakes and a lock hold."""
-    effects = FAULT | {"effects.wheel_brake": True, "tooth_fault.at_onset": True, "tooth_fault.onset": 5e-3}
+    effects = breaking(5e-3) | {"effects.wheel_brake": True}
     with fmu.open() as instance:
         for size in SIZES[:3]:
             count = round(5e-3 / size)
@@ -145,7 +147,7 @@ def test_an_onset_with_simultaneous_steps_of_inputs_loses_nothing(fmu, name):
 
 @pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize("off", [-1e-3, -1e-10, 0.0, 1e-10, 1e-3])
-def test_tables_that_jump_on_communication_points_lose_nothing(fmu_file, name, off):
+def test_tables_that_jump_on_communication_points_lose_nothing(run, name, off):
     """Loads jump, in steps of the package, and the carrier's speed jumps: its angle is the integral of the table."""
     size, count = 1e-3, 24
     jumps = (np.array([3, 7, 8, 20]) + off) * size
@@ -153,8 +155,7 @@ def test_tables_that_jump_on_communication_points_lose_nothing(fmu_file, name, o
     steps = np.repeat(np.concatenate([[0.0], jumps, [1.0]]), 2)[1:-1]
     inputs = {"left.load_torque": (steps, np.repeat([835.0, 0.0, 400.0, -300.0, 835.0], 2)),
               "carrier.speed_command": (steps, np.repeat(speeds, 2))}
-    with Differential(method(name), fmu=fmu_file) as differential:
-        record = differential.run(outputs=["carrier.angle"], stop=count * size, step=size, inputs=inputs)
+    record = run(method(name), count * size, size, ["carrier.angle"], inputs)
     bounds = np.concatenate([[0.0], jumps, [1.0]])
     expected = [sum(w * max(0.0, min(t, b) - a) for w, a, b in zip(speeds, bounds, bounds[1:], strict=False) if t > a)
                 for t in record["time"]]
@@ -180,7 +181,7 @@ def test_a_host_that_integrates_itself_breaks_the_tooth_on_rounded_times(fmu):
     """In model exchange the event's time is known in advance, and a host whose summed time reaches it does not find it ahead."""
     with fmu.open("ModelExchange") as instance:
         onset = 0.3
-        instance.initialise(SPEED | FAULT | {"tooth_fault.at_onset": True, "tooth_fault.onset": onset})
+        instance.initialise(SPEED | breaking(onset))
         raw = instance.raw
         assert raw.newDiscreteStates()[4:] == (True, onset)
         raw.enterContinuousTimeMode()

@@ -16,6 +16,7 @@ from bevel_differential.tolerance.laws import Gear, Given, RunoutGrade, band, ge
 from bevel_differential.tolerance.plan import Plan
 from bevel_differential.tolerance.study import Alternative, Study
 from bevel_differential.want import Condition, Want
+from refusals import refused
 
 TURN = {"scene.carrier_drive": "torque", "carrier.torque_command": "1670 N.m", "scene.left_drive": "speed",
         "scene.right_drive": "speed", "left.speed_command": 60.0, "right.speed_command": 40.0, "effects.thrust_friction": True,
@@ -308,39 +309,38 @@ def test_the_command_prints_and_writes_all(files, tmp_path):
 
 
 @pytest.mark.parametrize("old, new, parts", [
-    ("geometry.backlash =", "geometry.backslash =", ["[factors]", "geometry.backslash", "did you mean geometry.backlash"]),
-    ("+- 0.04 mm", "+- -0.04 mm", ["geometry.backlash", "negative"]),
-    ("+- 0.04 mm", "+- 0.2 mm", ["geometry.backlash", "draws are outside 0 mm to 50 mm", "narrower"]),
-    ("+- 0.04 mm", "+- 0.04 kg", ["geometry.backlash", "unit kg of"]),
-    ("accuracy_grade = \"grade 7\"", "accuracy_grade = \"grade 12\"", ["accuracy_grade", "grade 12", "2 (finest) to 11"]),
-    ("side_runout = \"grade 7\"", "side_runout = \"grade 1\"", ["tooth_errors.side_runout", "grade 1", "2 (finest) to 11"]),
-    ("side_runout = \"grade 7\"", "side_runout = \"grade 6.5\"", ["tooth_errors.side_runout", "whole number"]),
-    ("\"0.1 mm +- 0.04 mm\"", "\"grade 7\"", ["geometry.backlash", "no accuracy grade"]),
-    ("limits = [\"planet[1].left", "limits = [\"planet[1].right", ["right_transmission_error", "is not wanted"]),
-    ("triangular(0.04, 0.05, 0.07)", "triangular(0.08, 0.05, 0.07)", ["tooth_friction.coefficient", "do not define a distribution"]),
-    ("\"coarser\"", "\"grade 12\"", ["[[alternative]]", "grade 12"]),
-    ("accuracy_grade = \"coarser\"", "seed = \"finer\"", ["tooth_errors.seed", "whole numbers"]),
-    ("accuracy_grade = \"coarser\"", "crowning = \"finer\"", ["tooth_errors.crowning", "not one of the factors"]),
-    ("tooth_friction.coefficient = \"tri", "tooth_friction.law = \"tri", ["tooth_friction.law", "only real"]),
-    ("triangular(0.04, 0.05, 0.07)", "lognormal(0.05, much)", ["tooth_friction.coefficient", "much"]),
-    ("[factors]", "factors = 7\n[other]", ["factors = 7: it is a table"]),
-    ("wants = [", "wants = [7, ", ["wants: it contains only texts"]),
-    ("cost = -0.01", "cost = \"cheap\"", ["[[alternative]]", "cost", "fraction of the price"]),
-    ("runs = 8", "runs = 20", ["runs = 20", "power of two"]),
-    ("runs = 8", "seed = -1", ["seed = -1"]),
-    ("runs = 8", "capability = 0", ["capability = 0"]),
-    ("runs = 8", "rums = 8", ["rums", "did you mean runs"]),
-    ("runs = 8", "set.effects.tooth_errors = false", ["tooth_errors.", "has a tolerance, but", "effects.tooth_errors = true"]),
-    ("runs = 8", "set.tooth_errors.runout_by_grade = true", ["tooth_errors.side_runout", "runout_by_grade"]),
-    ("[factors]", "[factors.more]", ["more.tooth_errors", "no such variable"]),
+    ("geometry.backlash =", "geometry.backslash =", "[factors] … geometry.backslash … did you mean geometry.backlash"),
+    ("+- 0.04 mm", "+- -0.04 mm", "geometry.backlash … negative"),
+    ("+- 0.04 mm", "+- 0.2 mm", "geometry.backlash … draws are outside 0 mm to 50 mm … narrower"),
+    ("+- 0.04 mm", "+- 0.04 kg", "geometry.backlash … unit kg of"),
+    ("accuracy_grade = \"grade 7\"", "accuracy_grade = \"grade 12\"", "accuracy_grade … grade 12 … 2 (finest) to 11"),
+    ("side_runout = \"grade 7\"", "side_runout = \"grade 1\"", "tooth_errors.side_runout … grade 1 … 2 (finest) to 11"),
+    ("side_runout = \"grade 7\"", "side_runout = \"grade 6.5\"", "tooth_errors.side_runout … whole number"),
+    ("\"0.1 mm +- 0.04 mm\"", "\"grade 7\"", "geometry.backlash … no accuracy grade"),
+    ("limits = [\"planet[1].left", "limits = [\"planet[1].right", "right_transmission_error … is not wanted"),
+    ("triangular(0.04, 0.05, 0.07)", "triangular(0.08, 0.05, 0.07)", "tooth_friction.coefficient … do not define a distribution"),
+    ("\"coarser\"", "\"grade 12\"", "[[alternative]] … grade 12"),
+    ("accuracy_grade = \"coarser\"", "seed = \"finer\"", "tooth_errors.seed … whole numbers"),
+    ("accuracy_grade = \"coarser\"", "crowning = \"finer\"", "tooth_errors.crowning … not one of the factors"),
+    ("tooth_friction.coefficient = \"tri", "tooth_friction.law = \"tri", "tooth_friction.law … only real"),
+    ("triangular(0.04, 0.05, 0.07)", "lognormal(0.05, much)", "tooth_friction.coefficient … much"),
+    ("[factors]", "factors = 7\n[other]", "factors = 7: it is a table"),
+    ("wants = [", "wants = [7, ", "wants: it contains only texts"),
+    ("cost = -0.01", "cost = \"cheap\"", "[[alternative]] … cost … fraction of the price"),
+    ("runs = 8", "runs = 20", "runs = 20 … power of two"),
+    ("runs = 8", "seed = -1", "seed = -1"),
+    ("runs = 8", "capability = 0", "capability = 0"),
+    ("runs = 8", "rums = 8", "rums … did you mean runs"),
+    ("runs = 8", "set.effects.tooth_errors = false", "tooth_errors. … has a tolerance, but … effects.tooth_errors = true"),
+    ("runs = 8", "set.tooth_errors.runout_by_grade = true", "tooth_errors.side_runout … runout_by_grade"),
+    ("[factors]", "[factors.more]", "more.tooth_errors … no such variable"),
 ])
 def test_errors_in_a_file_are_named(old, new, parts, files):
     text = files.read_text(encoding="utf-8")
     assert old in text
     files.write_text(text.replace(old, new, 1), encoding="utf-8")
-    with pytest.raises(DifferentialError) as error:
+    with refused(f"{files.name} … {parts}"):
         Plan.load(files)
-    assert all(part in str(error.value) for part in [files.name, *parts]), error.value
 
 
 def test_a_wrong_factor_is_one_error_also_where_an_alternative_names_it(files):

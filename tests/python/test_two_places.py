@@ -23,19 +23,18 @@ EFFECTS = {effect.name: effect for effect in effects(os.environ["FMU"]) if effec
 
 
 @pytest.mark.parametrize("effect", EFFECTS)
-def test_heat_is_the_integral_of_the_power_that_is_lost(fmu, effect):
+def test_heat_is_the_integral_of_the_power_that_is_lost(fmu, started, effect):
     on = EFFECTS[effect].on if "tooth" in EFFECTS[effect].contact else {"scene.gear_contact": EFFECTS[effect].contact[-1]}
     heats = tuple(name for name in fmu.variables if name.startswith("heat.") and name != OUTSIDE)
-    with fmu.open() as opened:
-        opened.initialise(TURN | on | {"solver.relative_tolerance": TOLERANCE})
-        walk = Walk(opened, [(heats, "power.loss")], TOLERANCE)
-        for size in STEPS:
-            # if a step passes the end of a contact, its inner points are not balanced until the step is complete
-            before = abs(opened.get("solver.energy_residual"))
-            wrong = walk.step(size)
-            after = abs(opened.get("solver.energy_residual"))
-            assert all(abs(gained - lost) <= allowed + before + after for _, gained, lost, allowed in wrong), wrong
-        assert sum(opened.read(heats)) > 0.0
+    opened = started(TURN | on | {"solver.relative_tolerance": TOLERANCE})
+    walk = Walk(opened, [(heats, "power.loss")], TOLERANCE)
+    for size in STEPS:
+        # if a step passes the end of a contact, its inner points are not balanced until the step is complete
+        before = abs(opened.get("solver.energy_residual"))
+        wrong = walk.step(size)
+        after = abs(opened.get("solver.energy_residual"))
+        assert all(abs(gained - lost) <= allowed + before + after for _, gained, lost, allowed in wrong), wrong
+    assert sum(opened.read(heats)) > 0.0
 
 
 # crowning, lateral displacement of the pins, and load of each side [m, N.m]; the whole face carries
@@ -43,15 +42,14 @@ FACES = [(0.0, 0.0, 835.0), (1e-5, 0.0, 835.0), (2e-5, 1e-5, 835.0), (0.0, 2e-5,
 
 
 @pytest.mark.parametrize("crowning, offset, load", FACES)
-def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_heel(fmu, crowning, offset, load):
+def test_the_largest_pressure_is_that_of_the_quadratic_through_toe_middle_and_heel(fmu, started, crowning, offset, load):
     """Under the law `line`, load per width over radius is c₀/R + c₁ + c₂ R over the face, and so is the square of pressure."""
     values = {"contact.law": "line", "effects.strength": True, "effects.tooth_errors": True, "tooth_errors.crowning": crowning,
               "tooth_errors.axis_offset": offset, "scene.planet_spin": "imposed",
               "left.load_torque": load, "right.load_torque": load}
-    with fmu.open() as opened:
-        opened.initialise(values)
-        scene = Scene(fmu, opened)
-        o = scene.read(opened)
+    opened = started(values)
+    scene = Scene(fmu, opened)
+    o = scene.read(opened)
     cones = np.array([scene.inner, scene.mean, scene.outer])
     names = ("toe", "middle", "heel")
     largest = 0.0

@@ -4,11 +4,10 @@ from math import atan, pi, sin, tanh
 
 import numpy as np
 import pytest
-from bevel_differential import DifferentialError
 from bevel_differential.command import main
 from bevel_differential.vehicle import UNITS, Body, Car, Motor, Tyre
 from bevel_differential.vehicle.equations import motor_torque
-from refusals import warnings_about
+from refusals import refused, warnings_about
 from scipy.integrate import solve_ivp
 
 # ideal gears with the inertias of the reference: carrier, side gear, two planets (kg.m2), too light to affect the carrier; ratio of
@@ -201,7 +200,7 @@ def test_constant_power_above_the_knee(fmu_file):
 
 
 @pytest.mark.parametrize("make, message", [
-    (lambda fmu: Tyre(radius=-0.3), "Tyre.radius = -0.3: it is a finite number above 0, m"),
+    (lambda fmu: Tyre(radius=-0.3), "Tyre.radius = -0.3: it is a finite number above 0 m"),
     (lambda fmu: Body(mass=float("nan")), "Body.mass = nan: it is a finite number in kg"),
     (lambda fmu: Motor(lag="slow"), "Motor.lag = 'slow': \"slow\" does not begin with a number"),
     (lambda fmu: Car({"left.load_torque": 3.0}, fmu=fmu), "left.load_torque: the car sets it"),
@@ -214,9 +213,8 @@ def test_constant_power_above_the_knee(fmu_file):
     (lambda fmu: Car(fmu=fmu).run(steer="left"), "steer = 'left': it is a finite number"),
 ])
 def test_impossible_values_are_refused_by_name(fmu_file, make, message):
-    with pytest.raises(DifferentialError) as refused:
+    with refused(message):
         make(fmu_file)
-    assert message in str(refused.value)
 
 
 def test_every_output_of_a_record_is_drawn(fmu_file, tmp_path):

@@ -6,6 +6,7 @@ from math import exp
 import pytest
 import theory
 from bevel_differential import DifferentialError
+from refusals import refused
 
 SLIP = {"scene.planet_spin": "imposed", "spin.command": 20.0, **theory.CLUTCHES}
 NODES = ["oil", "gears", "clutch", "washers", "case"]
@@ -167,9 +168,8 @@ def test_flanks_with_a_given_viscosity_do_not_follow_the_oil(drive, follows):
 
 
 def test_an_oil_that_thickens_as_it_warms_up_is_refused(drive):
-    with pytest.raises(DifferentialError) as refused:
+    with refused("oil.viscosity_100 … m2/s … oil.viscosity_40"):
         drive({"oil.viscosity_100": 2e-4, **theory.DRAG, "bearing_drag.viscosity_from_oil": True})
-    assert all(word in str(refused.value) for word in ["oil.viscosity_100", "m2/s", "oil.viscosity_40"])
 
 
 # 40 N·m in each pack at 20 rad/s of the planets
@@ -207,16 +207,15 @@ def test_a_start_with_steady_heat_stays_where_friction_depends_on_temperature(dr
     assert [far[f"temperature.{node}"] for node in NODES] == pytest.approx(begin, abs=0.5)
 
 
-@pytest.mark.parametrize(("values", "words"), [
-    ({"effects.warm_up": False}, ["scene.start", "steady_heat", "effects.warm_up"]),
-    ({"warm_up.clutch_to_oil": 0.0}, ["no steady temperatures", "clutch packs", "warm_up.clutch_to_oil"]),
-    ({"warm_up.case_to_ambient": 0.0, "warm_up.case_to_ambient_per_speed": 0.0}, ["no steady temperatures", "degC"]),
-    ({"scene.start": "equilibrium", "warm_up.case_above_oil": 350.0}, ["warm_up.case_above_oil", "350 K", "673.15 K"]),
+@pytest.mark.parametrize(("values", "said"), [
+    ({"effects.warm_up": False}, "scene.start … steady_heat … effects.warm_up"),
+    ({"warm_up.clutch_to_oil": 0.0}, "no steady temperatures … clutch packs … warm_up.clutch_to_oil"),
+    ({"warm_up.case_to_ambient": 0.0, "warm_up.case_to_ambient_per_speed": 0.0}, "no steady temperatures … degC"),
+    ({"scene.start": "equilibrium", "warm_up.case_above_oil": 350.0}, "warm_up.case_above_oil … 350 K … 673.15 K"),
 ])
-def test_a_start_without_steady_heat_is_refused_by_name(drive, values, words):
-    with pytest.raises(DifferentialError) as refused:
+def test_a_start_without_steady_heat_is_refused_by_name(drive, values, said):
+    with refused(said):
         drive(STEADY | {"scene.gear_contact": "ideal"} | values)
-    assert all(word in str(refused.value) for word in words), str(refused.value)
 
 
 # inertias that determine the acceleration [kg.m2]: carrier, side gear, wheel; the planets' inertia is negligible
@@ -260,9 +259,9 @@ def test_steady_heat_of_wheels_that_accelerate_against_each_other_names_a_wheel(
             "warm_up.cycle": 0.1, "inertia.left_end": 0.01, "inertia.right_end": 0.01},
 ])
 def test_steady_heat_of_a_motion_that_diverges_is_refused_without_advice_on_cooling(drive, values):
-    with pytest.raises(DifferentialError) as refused:
+    with pytest.raises(DifferentialError) as error:
         drive(values)
-    text = str(refused.value)
+    text = str(error.value)
     assert "not periodic" in text and re.search(r"(carrier.speed|left.wheel_speed) has a mean of", text), text
     assert "raise warm_up" not in text and "shorten" not in text, text
 

@@ -14,7 +14,7 @@ LEDGERS = {"stop": {"carrier.speed_command": 30.0}, "hold and release": {"scene.
 
 
 @pytest.mark.parametrize("shafts", [False, True])
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_a_standing_wheel_winds_up_by_its_torque_does_not_drift_and_rolls_above_its_brake(drive, contact, shafts):
     torque = 50.0
     driven = drive(BRAKED | brakes(750.0) | drive_torque(2.0 * torque)
@@ -46,7 +46,7 @@ def test_a_standing_wheel_winds_up_by_its_torque_does_not_drift_and_rolls_above_
     assert np.abs(wheel_angles(driven) - stopped).max() < 1e-6
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_a_brake_holds_a_wheel_that_a_load_of_that_torque_would_drive_backwards(drive, contact):
     """From rest, 750 N·m of load against 100 N·m of drive; the brake also holds the light side gear."""
     base = {"scene.gear_contact": contact, "scene.start": "rest", "scene.carrier_drive": "torque",
@@ -82,7 +82,7 @@ def test_a_stop_takes_the_angle_and_the_heat_of_its_closed_form(drive):
     assert driven.imbalance() < 1e-6
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_at_a_stop_only_the_energy_of_the_springs_returns_from_the_heat(drive, contact):
     brake = 300.0
     driven = drive(BRAKED | EXACT | brakes(brake) | drive_torque(0.0)
@@ -100,7 +100,7 @@ def test_at_a_stop_only_the_energy_of_the_springs_returns_from_the_heat(drive, c
 
 
 @pytest.mark.parametrize("shafts", [False, True])
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_heat_of_a_slip_is_its_torque_times_its_angle(drive, contact, shafts):
     left, right = 300.0, 120.0
     driven = drive(BRAKED | EXACT | brakes(left, right) | drive_torque(500.0)
@@ -113,7 +113,7 @@ def test_heat_of_a_slip_is_its_torque_times_its_angle(drive, contact, shafts):
     assert driven.imbalance() < 1e-6
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 @pytest.mark.parametrize("scene", LEDGERS)
 def test_the_ledger_closes(drive, contact, scene):
     """Within 1e-6 of the energy turned over at a tolerance of 1e-9. At 1e-6 the limit is twice the imbalance without brakes, or the
@@ -170,7 +170,7 @@ def test_gears_with_teeth_launch_a_braked_wheel_like_ideal_gears_on_average(driv
         assert driven[f"{side}.shaft_torque"] == pytest.approx(delivered, rel=1e-9)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_under_an_imposed_carrier_the_wheel_with_the_stronger_brake_stops(drive, contact):
     """The stopped wheel carries the torque of the other brake, and the other wheel turns twice as fast as the carrier."""
     speed, left, right = 20.0, 300.0, 200.0
@@ -195,7 +195,7 @@ def test_under_an_imposed_carrier_the_wheel_with_the_stronger_brake_stops(drive,
     assert alike["carrier.torque"] == pytest.approx(2.0 * left, rel=1e-6)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_rolling_wheels_start_in_balance_with_their_brakes(drive, contact):
     """Preload includes a brake that slides, so that the start equals one with loads of the same torque."""
     base = BRAKED | {"scene.carrier_drive": "speed", "carrier.speed_command": 20.0, "scene.gear_contact": contact}
@@ -208,7 +208,7 @@ def test_rolling_wheels_start_in_balance_with_their_brakes(drive, contact):
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-6)
 
 
-@pytest.mark.parametrize("contact", CONTACTS)
+@CONTACTS
 def test_a_speed_driven_wheel_works_against_its_brake_through_zero(drive, contact):
     """ω = 10 − 20 t: slip, a spring that unwinds from T and winds up to −T, slip backwards."""
     brake, start, slope = 200.0, 10.0, -20.0

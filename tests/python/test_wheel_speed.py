@@ -99,14 +99,14 @@ def speeds_for_tyres(fmu):
     return sorted(found)
 
 
-def traction_control(fmu, names, step, torque=600.0, stop=0.6):
+def traction_control(fmu, names, step):
     """Launch on ice with tyres by slip and a brake that slows the faster wheel. Returns rows of time, tyre torques, brake torque, shaft
     torques and wheel speeds."""
     rows, speed = [], BEGIN
     with fmu.open() as opened:
         opened.initialise(CAR)
-        opened.set({"carrier.torque_command": torque})
-        for _ in range(round(stop / step)):
+        opened.set({"carrier.torque_command": 600.0})
+        for _ in range(round(0.6 / step)):
             seen = np.array(opened.read(names))
             force = GRIP * np.tanh(STIFFNESS * (RADIUS * seen - speed) / max(speed, 1.0) / GRIP)
             brake = min(40.0 * max(seen[0] - seen[1], 0.0), 2000.0)

@@ -1,14 +1,13 @@
 """Runs that consist only of the calls of a host: calls.c, compiled and executed."""
 
 import math
-import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from bevel_differential.batches import CALLS
-from tools import say
+from tools import completed, say
 
 # outputs that a host reads at each communication point, if reading is part of the measurement
 TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right.shaft_torque", "left.tangential_force",
@@ -18,10 +17,8 @@ TEN = ["carrier.speed", "left.speed", "right.speed", "left.shaft_torque", "right
 def compiled(folder):
     """Builds calls.c in a folder, and returns the path of the program."""
     program = Path(folder) / "calls"
-    try:
-        subprocess.run(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl", "-lm"], check=True)
-    except FileNotFoundError:
-        raise SystemExit("a C compiler builds the host that is timed: install one (apt-get install gcc)") from None
+    completed(["cc", "-O2", "-o", program, Path(__file__).with_name("calls.c"), "-ldl", "-lm"],
+              "a C compiler builds the host that is timed: install one (apt-get install gcc)")
     return program
 
 
@@ -86,5 +83,5 @@ class Calls:
         references = [str(fmu.variable(name).reference) for name in outputs]
         command = [self.program, library_of(fmu), fmu.description.guid, self.folder / "set", parts, str(runs),
                    moving.argument(fmu) if moving else "constant", *references]
-        printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+        printed = completed(command).stdout
         return [tuple(map(float, line.split())) for line in printed.splitlines()]

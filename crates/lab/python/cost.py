@@ -16,7 +16,7 @@ from cost_figures.other_solvers import other_solvers
 from cost_figures.work_precision import counts, forces, speeds
 from cost_laws import laws
 from cost_summary import summary
-from tools import machine, say
+from tools import machine, say, tell
 
 PICTURES = [speeds, forces, counts, other_solvers, fidelity_ladder]
 # start of each part on the progress bar
@@ -35,12 +35,8 @@ def main():
     tell(f"{table}\n{of_laws}{measured}", folder / "decisions.md")
     if not alone:
         draw(folder)
+        print()
         tell(f"{summary(folder)}{measured}", folder / "summary.md")
-
-
-def tell(text, file):
-    file.write_text(text, encoding="utf-8")
-    print(text)
 
 
 def draw(folder):

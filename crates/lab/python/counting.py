@@ -6,11 +6,10 @@ differ by about 1 %. Counts of work do not differ: arithmetic, comparisons, bran
 import json
 import os
 import shutil
-import subprocess
 from collections import Counter
 from pathlib import Path
 
-from tools import WORKSPACE
+from tools import WORKSPACE, completed
 
 # communication steps of the two runs whose difference is counted, so that the start cancels
 COUNTED = (100, 300)
@@ -29,7 +28,7 @@ def stepping(folder, effects, name):
                 "CARGO_PROFILE_BENCH_STRIP": "debuginfo"}
     printed = completed([os.environ.get("CARGO", "cargo"), "build", "--package", "bevel-differential", "--bench", "steps", "--profile", "bench",
                          "--quiet", *([] if effects else ["--no-default-features", "--features", "full"]), "--message-format", "json",
-                         "--target-dir", folder], "cargo did not start", settings, cwd=WORKSPACE).stdout
+                         "--target-dir", folder], env=os.environ | settings, cwd=WORKSPACE).stdout
     built = [message["executable"] for message in map(json.loads, printed.splitlines())
              if message.get("executable") and message["target"]["name"] == "steps"]
     if not built:
@@ -39,21 +38,10 @@ def stepping(folder, effects, name):
     return Path(shutil.copy(built[0], Path(folder, name)))
 
 
-def completed(command, missing, settings=None, **options):
-    """Runs a program and returns the completed process. Exits with its errors if it fails, or with `missing` if it is not installed."""
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, env={**os.environ, **(settings or {})}, **options)
-    except FileNotFoundError:
-        raise SystemExit(missing) from None
-    if done.returncode:
-        raise SystemExit(f"{' '.join(map(str, command))}: {done.stderr}")
-    return done
-
-
 def callgrind(program, arguments, options=(), out="/dev/null"):
     """Runs a program under callgrind and returns callgrind's report."""
     command = ["valgrind", "--tool=callgrind", f"--callgrind-out-file={out}", *options, program, *arguments]
-    return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", NARROW).stderr
+    return completed(command, "valgrind counts the instructions: install it (apt-get install valgrind)", env=os.environ | NARROW).stderr
 
 
 def counts(folder, first=2):

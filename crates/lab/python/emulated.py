@@ -10,6 +10,7 @@ from types import SimpleNamespace
 import numpy as np
 
 from bevel_differential.instance import Instance
+from tools import completed
 
 # letters of the calls that set or get values of a kind
 LETTERS = {"Real": "r", "Integer": "n", "Boolean": "b"}
@@ -19,7 +20,7 @@ ITEM = {"Real": 8, "Integer": 4, "Boolean": 4}
 def compiled(compiler, folder):
     """Builds far.c with a compiler and its options, and returns the program."""
     program = Path(folder) / "far"
-    subprocess.run([*compiler, "-O2", "-o", program, Path(__file__).with_name("far.c"), "-ldl"], check=True)
+    completed([*compiler, "-O2", "-o", program, Path(__file__).with_name("far.c"), "-ldl"])
     return program
 
 

@@ -70,7 +70,7 @@ class Platform:
 
     def described(self):
         """Exported functions, required libraries, and the oldest system."""
-        exported, needed, glibc = binaries.of_linux(self.binary)
+        exported, needed, glibc, _ = binaries.of_linux(self.binary)
         return exported, needed, f"glibc {'.'.join(map(str, glibc))}"
 
     def start(self, values):

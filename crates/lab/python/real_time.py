@@ -11,8 +11,8 @@ from pathlib import Path
 
 from bevel_differential.text import markdown
 import real_time_sources
-from counting import callgrind, completed, counts, stepping
-from tools import Finding, machine, say
+from counting import callgrind, counts, stepping
+from tools import Finding, completed, machine, say
 
 # scenes with options, as named by the stepping program
 SCENES = (("straight",), ("turn", "rolling", "reversal"))
@@ -40,7 +40,7 @@ def counted(program, folder, size, scene, *options):
 def microseconds(program, size, scene, *options):
     """Shortest mean time of a communication step, in µs."""
     words = [program, scene, TIMED, "unread", "counts", f"fixed_step={size}", *options]
-    return min(1e6 * float(completed(words, "the stepping program").stdout.split()[3]) / int(TIMED) for _ in range(RUNS))
+    return min(1e6 * float(completed(words).stdout.split()[3]) / int(TIMED) for _ in range(RUNS))
 
 
 def levels(program, folder):

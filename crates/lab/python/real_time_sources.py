@@ -12,8 +12,8 @@ import numpy as np
 from bevel_differential import Fmu
 from bevel_differential.scene_file import flat
 from calls import write_start
-from counting import callgrind, completed, counts
-from tools import WORKSPACE, say
+from counting import callgrind, counts
+from tools import WORKSPACE, completed, say
 
 # path of the packed unit
 UNIT = WORKSPACE / "target" / "fmu" / "BevelDifferential_sources.fmu"
@@ -62,7 +62,7 @@ def compiled(folder):
         objects.append(folder / f"{file.stem}.o")
         completed(["gcc", "-O2", f"-I{headers}", f"-I{folder / 'sources'}", "-c", file, "-o", objects[-1]],
                   "gcc compiles the sources: install it (apt-get install gcc)")
-    completed(["gcc", *objects, "-o", folder / "loop", "-lm", "-lpthread"], "gcc")
+    completed(["gcc", *objects, "-o", folder / "loop", "-lm", "-lpthread"])
     return folder / "loop", Fmu(folder)
 
 
@@ -79,7 +79,7 @@ def rows(folder):
             say(0.5 + 0.5 * len(found) / 3, f"counting C, {name}, steps of {size} s")
             write_start(folder / "set", fmu, values | {"solver.method": "fixed_step", "solver.fixed_step": float(size)})
             arguments = [fmu.description.guid, folder / "set", folder / "drive", *(str(fmu.variable(one).reference) for one in OUTPUTS)]
-            for line in completed([program, *arguments], "the loop").stdout.splitlines():
+            for line in completed([program, *arguments]).stdout.splitlines():
                 what, _, number = line.rpartition(" ")
                 if what:
                     told[what] = max(told.get(what, 0), int(number))

@@ -22,10 +22,11 @@ import numpy as np
 import binaries
 import platform_scenes
 from bevel_differential.text import markdown
+from counting import NARROW
 from effects_list import effects
 from platform_hosts import Platform, course
 from platforms import FMU, compared
-from tools import WORKSPACE, Finding, say
+from tools import WORKSPACE, Finding, completed, say
 
 # level and method that the sources do not support
 SOLID, RADAU = "solid", "radau"
@@ -84,12 +85,12 @@ def compile_all(build, sources, headers, folder):
     files = sorted(sources.glob("*.c"))
     objects = [folder / f"{file.stem}.o" for file in files]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        done = list(pool.map(lambda pair: run([*build.compiler, f"-I{headers}", "-c", pair[0], "-o", pair[1]]), zip(files, objects)))
+        done = list(pool.map(lambda *pair: completed([*build.compiler, f"-I{headers}", "-c", pair[0], "-o", pair[1]]), files, objects))
     warnings = [line for one in done for line in one.stderr.splitlines() if "warning:" in line]
     seconds = processor_time() - before
     program = folder / "commands"
     commands = Path(__file__).with_name("commands.c")
-    run([*build.compiler, "-DMEMORY", f"-I{headers}", f"-I{sources}", commands, *objects, "-o", program, "-lm"])
+    completed([*build.compiler, "-DMEMORY", f"-I{headers}", f"-I{sources}", commands, *objects, "-o", program, "-lm"])
     return program, warnings, seconds, called(objects)
 
 
@@ -102,18 +103,11 @@ def processor_time():
 def called(objects):
     """Functions that the objects need from elsewhere, by their C names."""
     defined, wanted = set(), set()
-    for line in run(["nm", "--format=posix", *objects]).stdout.splitlines():
+    for line in completed(["nm", "--format=posix", *objects]).stdout.splitlines():
         name, kind = (line.split() + ["", ""])[:2]
         (wanted if kind == "U" else defined).add(name)
     names = {ALIASES.get(name, name) for name in wanted - defined}
     return {name for name in names if not name.startswith(OF_COMPILERS)}
-
-
-def run(command, **options):
-    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, **options)
-    if done.returncode:
-        raise SystemExit(f"{' '.join(map(str, command))}:\n{done.stderr[-4000:]}")
-    return done
 
 
 KINDS = {"Real": "r", "Integer": "i", "Enumeration": "i", "Boolean": "b"}
@@ -153,7 +147,7 @@ def seconds_of(program, calls, file):
         found = []
         for _ in range(REPEATS):
             before = processor_time()
-            run([program, file], env={**os.environ, "BEVEL_DIFFERENTIAL_VECTORS": "narrow"})
+            completed([program, file], env=os.environ | NARROW)
             found.append(processor_time() - before)
         return min(found)
 
@@ -197,7 +191,8 @@ def main():
              for name, duration in ({} if quick else TIMED).items()]
     native.close()
     library = folder / "library"
-    run(["gcc", "-O2", f"-I{headers}", Path(__file__).with_name("commands.c"), native.binary, "-o", library, f"-Wl,-rpath,{native.binary.parent}"])
+    completed(["gcc", "-O2", f"-I{headers}", Path(__file__).with_name("commands.c"), native.binary, "-o", library,
+               f"-Wl,-rpath,{native.binary.parent}"])
     problems, calls_of_c, rows = [], set(), [["compiler", "scenes", "bits", "speed", "compiled in, s"]]
     known = list(builds(zig, quick))
     for place, build in enumerate(known):
@@ -265,7 +260,7 @@ def by_fmpy(unit, folder, scenes, wanted, problems):
             agrees, words = compared(expected, platform.record(*scene))
             differing += [] if agrees else [f"fmpy: {name}: {words}"]
     platform.close()
-    exported, _, _ = binaries.of_linux(platform.binary)
+    exported, *_ = binaries.of_linux(platform.binary)
     problems += differing + [f"{name} is exported" for name in exported if not name.startswith("fmi2")]
     return ["fmpy, gcc -O3", str(tried), "different" if differing else "same", *"––"]
 
@@ -274,7 +269,7 @@ def checked_by_hand(sources, headers, size):
     """Problems with other requirements of the sources."""
     problems = [f"{size / 1e6:.1f} MB of sources, more than {MOST_BYTES / 1e6:g}"] if size > MOST_BYTES else []
     for name in OWN:
-        done = run(["gcc", "-O2", "-Wall", "-Wextra", f"-I{headers}", "-c", sources / name, "-o", "/dev/null"])
+        done = completed(["gcc", "-O2", "-Wall", "-Wextra", f"-I{headers}", "-c", sources / name, "-o", "/dev/null"])
         problems += [line for line in done.stderr.splitlines() if "warning:" in line]
     lines = sum(len((sources / name).read_text(encoding="utf-8").splitlines()) for name in ("bd_runtime.h", "bd_runtime.c"))
     if lines > 300:
@@ -297,8 +292,8 @@ def refusals(folder, sources, headers, built):
     for name, file, options in [("usual", sources / "bd_runtime.c", ["-DARITHMETIC=0"]),
                                 ("fused", fused, ["-mfma", "-ffp-contract=fast", "-DARITHMETIC=1"])]:
         program = folder / f"traps-{name}"
-        run(["gcc", "-O2", *options, f"-I{file.parent}", f"-I{headers}", f"-I{sources}", Path(__file__).with_name("traps.c"), file, *objects,
-             "-o", program, "-lm"])
+        completed(["gcc", "-O2", *options, f"-I{file.parent}", f"-I{headers}", f"-I{sources}", Path(__file__).with_name("traps.c"), file,
+                   *objects, "-o", program, "-lm"])
         done = subprocess.run([program], capture_output=True, text=True, check=False)
         if done.returncode:
             problems.append(f"{name}: {done.stdout}{done.stderr}")

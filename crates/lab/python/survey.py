@@ -28,7 +28,7 @@ from bevel_differential.scene_file import find, read_scene
 from bevel_differential.text import aligned, markdown
 from bevel_differential.want import Want
 from survey_scenes import drawn
-from tools import percent, say, significant
+from tools import percent, say, significant, tell
 
 WITHIN = (0.01, 0.05)
 # maximum duration of a scene in seconds
@@ -219,11 +219,6 @@ def main():
         writer.writerow(Case.__annotations__)
         writer.writerows([str(value).lower() if isinstance(value, bool) else value for value in vars(one).values()] for one in cases)
     tell(f"{verdict(cases, failed)}\n", folder / "survey.md")
-
-
-def tell(text, file):
-    file.write_text(text, encoding="utf-8")
-    print(text, end="")
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ import math
 import os
 import platform
 import queue
+import subprocess
 import sys
 import threading
 from pathlib import Path
@@ -29,6 +30,25 @@ class Finding(SystemExit):
 def say(fraction, what):
     """Moves the bar of the command that runs the script."""
     print(f"progress {fraction:.4f} {what}", file=sys.stderr, flush=True)
+
+
+def tell(text, file):
+    """Prints a text and writes it to a file."""
+    file.write_text(text, encoding="utf-8")
+    print(text, end="")
+
+
+def completed(command, missing="", **options):
+    """Runs a program and returns the completed process. Exits with the end of its errors if it fails, or with `missing` if it is not
+    installed."""
+    command = list(map(str, command))
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, **options)
+    except FileNotFoundError:
+        raise SystemExit(missing or f"{command[0]} is missing") from None
+    if done.returncode:
+        raise SystemExit(f"{' '.join(command)}:\n{done.stderr[-4000:]}")
+    return done
 
 
 def lines(process, patience):

@@ -14,7 +14,7 @@ import tempfile
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
-from tools import WORKSPACE, Finding, say
+from tools import WORKSPACE, Finding, completed, say
 
 MOST_IN, MOST_OUT = 14, 5
 INPUT, OUTPUT = "left.load_torque", "left.speed"
@@ -90,10 +90,8 @@ def backtraces(library, guid, references):
 def built(folder):
     """Library of a debug build, without optimisation, so that every function has a frame."""
     cargo, settings = os.environ.get("CARGO", "cargo"), {"CARGO_PROFILE_DEV_OPT_LEVEL": "0"}
-    done = subprocess.run([cargo, "build", "--package", "bevel-differential", "--lib", "--quiet", "--target-dir", folder], cwd=WORKSPACE,
-                          env={**os.environ, **settings}, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise SystemExit(done.stderr)
+    completed([cargo, "build", "--package", "bevel-differential", "--lib", "--quiet", "--target-dir", folder], cwd=WORKSPACE,
+              env=os.environ | settings)
     return Path(folder, "debug", "libbevel_differential.so").resolve()
 
 

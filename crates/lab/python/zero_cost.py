@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 from bevel_differential.text import markdown
-from counting import BRANCH, COUNTED, FLOAT, completed, executed, instructions, stepping
-from tools import Finding, say
+from counting import BRANCH, COUNTED, FLOAT, executed, instructions, stepping
+from tools import Finding, completed, say
 
 SCENES = ("straight", "turn")
 WORK = (FLOAT, BRANCH)
@@ -18,8 +18,7 @@ ARRANGEMENT = 0.01
 
 def measured(program):
     """Bits of a run, and its instructions per communication step by kind, for each scene."""
-    return {scene: (completed([program, scene, str(COUNTED[1])], f"{program} is missing").stdout.strip(), executed(program, scene))
-            for scene in SCENES}
+    return {scene: (completed([program, scene, COUNTED[1]]).stdout.strip(), executed(program, scene)) for scene in SCENES}
 
 
 def check(scene, off, left_out):

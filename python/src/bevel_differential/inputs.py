@@ -17,6 +17,8 @@ Inputs: TypeAlias = Mapping[str, Value | tuple[Times, Values]] | np.ndarray
 
 # rules for the values of a table in a question for a schedule
 LINEAR, HELD, SAMPLED = 0, 1, 2
+# rounding of values, relative to the largest of a table, or absolute if all are below 1
+ROUNDING = 1e-9
 
 
 class Table:
@@ -27,10 +29,19 @@ class Table:
         self.variable, self.period = variable, period
         self.times = np.asarray(times, float)
         self.values = np.array([variable.number(value) for value in values])
-        if len(self.times) != len(self.values) or len(self.times) == 0:
+        if len(self.times) != len(self.values):
             raise DifferentialError(f"{variable.name}: {len(self.times)} times for {len(self.values)} values")
-        if not np.all(np.isfinite(self.times)) or np.any(np.diff(self.times) < 0.0):
-            raise DifferentialError(f"{variable.name}: times must be finite and must not fall")
+        if len(self.times) == 0:
+            raise DifferentialError(f"{variable.name}: its table has no points; give at least one time with a value")
+        falls = np.flatnonzero(~np.isfinite(self.times) | (np.diff(self.times, prepend=-np.inf) < 0.0))
+        if len(falls):
+            raise DifferentialError(f"{variable.name}: times must be finite and must not fall; time {falls[0] + 1} of its table is "
+                                    f"{self.times[falls[0]]:g} s")
+        low, high = (limit if limit is not None else other for limit, other in ((variable.minimum, -np.inf), (variable.maximum, np.inf)))
+        # the FMU sets what exceeds a range by rounding to its limit
+        rounding = ROUNDING * max(1.0, np.max(np.abs(self.values)))
+        for k in np.flatnonzero((self.values < low - rounding) | (self.values > high + rounding))[:1]:
+            variable.check_range(self.values[k].item(), values[k], f"; its table has this value at {self.times[k]:g} s")
 
     def numbers(self, is_straight: bool) -> np.ndarray:
         """Numbers of the table in a question for a schedule; `is_straight`: true if the input follows the table within steps."""

@@ -234,7 +234,11 @@ class Instance(Closing):
 
     def restore(self, saved: tuple[float, bytes]) -> Self:
         """Restores a state that `save` returned."""
-        time, kept = saved
+        match saved:
+            case (int() | float() as time, bytes() as kept):
+                pass
+            case _:
+                raise DifferentialError("restore: it takes the pair of time and bytes that `save` returned", kind="use")
         state = self._through("restoring a state", self.raw.deSerializeFMUstate, kept)
         try:
             self._through("restoring a state", self.raw.setFMUstate, state)

@@ -22,7 +22,7 @@ def span(what: str, time: TimeValue) -> float:
     """Time above 0, s."""
     time = seconds(what, time)
     if not time > 0.0:
-        raise DifferentialError(f"{what} = {time!r}: it is more than 0, s")
+        raise DifferentialError(f"{what} = {time!r}: it is more than 0 s")
     return time
 
 

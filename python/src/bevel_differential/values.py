@@ -176,8 +176,9 @@ class Variable:
         found = split(value) if isinstance(value, str) else None
         return bool(found and found[1]) or (isinstance(value, tuple) and value[1] is not None)
 
-    def check_range(self, number: Number, written: Value) -> None:
-        """Refuses an SI number outside the range of the model description; the message shows values in the usual unit."""
+    def check_range(self, number: Number, written: Value, where: str = "") -> None:
+        """Refuses an SI number outside the range of the model description. The message shows values in the usual unit and ends with
+        `where`."""
         low, high = self.minimum, self.maximum
         if (low is None or number >= low) and (high is None or number <= high):
             return
@@ -185,8 +186,8 @@ class Variable:
         unit, ends = self.shown(np.array([-math.inf if low is None else low, math.inf if high is None else high]))
         low, high = (f"{end:.6g}" for end in ends)
         if low == high:
-            raise DifferentialError(f"{self.name}: {text} is not {low} {unit}, the only possible value. {self.description}")
-        raise DifferentialError(f"{self.name}: {text} is outside [{low}, {high}] {unit}".rstrip())
+            raise DifferentialError(f"{self.name}: {text} is not {low} {unit}, the only possible value. {self.description}{where}")
+        raise DifferentialError(f"{self.name}: {text} is outside [{low}, {high}] {unit}".rstrip() + where)
 
     def shown_in(self, unit: str | None) -> Self:
         """Copy of this variable with `unit`, one of `units`, as its usual unit. Differences are never shown in a unit with an offset: 5 K,

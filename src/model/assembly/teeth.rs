@@ -43,7 +43,7 @@ impl Teeth {
         let plan = self.plan.with_merged_planets()?;
         let is_plain = !self.effect_terms.body_effects.has_effects
             && !self.effect_terms.records_steps
-            && self.layout.plain() == Some(false)
+            && self.layout.attached_without_pins() == Some(0)
             && plan.contact != GearContact::Solid;
         is_plain.then(|| Box::new(Self { plan, layout: plan.layout(), ..self.clone() }))
     }

@@ -21,21 +21,19 @@ pub trait DogEquations<const N: usize>: FrictionEquations<N> {
 
     /// Distance of each dog clutch from its switch, negative if it is due; `None` if it does not switch.
     fn dog_margins(&self, at: &Point<N>) -> [Option<f64>; 2] {
-        let Dogs { closed, commanded } = &self.applied().dogs;
         [0, 1].map(|s| {
             let dog = self.dog(s)?;
-            let margin = dog.margin(closed[s], commanded[s], &self.dog_motion(s, at));
+            let margin = dog.margin(self.applied().dogs.of(s), &self.dog_motion(s, at));
             Some(margin).filter(|margin| margin.is_finite())
         })
     }
 
     /// Fraction of a step after which friction or a dog clutch switches, or `None` if neither does.
     fn switch_crossing(&self, start: TimedPoint<N>, end: TimedPoint<N>) -> Option<f64> {
-        let Dogs { closed, commanded } = &self.applied().dogs;
         let of = |s: usize| {
             let dog = self.dog(s)?;
             let motions = [start, end].map(|at| self.dog_motion(s, at.point));
-            dog.crossing(closed[s], commanded[s], motions.each_ref())
+            dog.crossing(self.applied().dogs.of(s), motions.each_ref())
         };
         self.friction_crossing(start, end).into_iter().chain((0..2).filter_map(of)).reduce(f64::min)
     }
@@ -53,8 +51,8 @@ pub trait DogEquations<const N: usize>: FrictionEquations<N> {
     {
         for s in 0..2 {
             let Some(&dog) = self.dog(s) else { continue };
-            let Dogs { closed, commanded } = self.applied().dogs;
-            let Some(after) = dog.switched(closed[s], commanded[s], &self.dog_motion(s, at)) else { continue };
+            let state = self.applied().dogs.of(s);
+            let Some(after) = dog.switched(state, &self.dog_motion(s, at)) else { continue };
             let before = self.energy(at)[1];
             self.applied_mut().dogs.closed[s] = after;
             heat[dog.heat_index] += before - self.energy(at)[1];

@@ -234,8 +234,8 @@ impl<const N: usize, S: Shape<N>> FrictionEquations<N> for Equations<'_, S, N> {
     }
 
     #[inline]
-    fn has_ends(&self) -> bool {
-        S::has_ends(&self.teeth.layout)
+    fn may_have_ends(&self) -> bool {
+        S::MAY_HAVE_ENDS
     }
 
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; PAIRS] {

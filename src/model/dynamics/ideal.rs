@@ -42,11 +42,6 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
         PLANET + 1 + s
     }
 
-    /// Number of degrees of freedom.
-    pub(super) fn count(&self) -> usize {
-        self.ideal.layout.count()
-    }
-
     /// Equations under `inputs`, with friction and temperatures of `state`.
     #[inline(never)]
     pub fn new(ideal: &'a IdealWithEffects, inputs: &Inputs, state: &State) -> Self {
@@ -77,33 +72,32 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
     pub(super) fn forces(
         &self,
         at: &Point<N>,
-        (inputs, rates): InputsNow,
+        now: InputsNow,
         ledger_rates: &mut LedgerRates,
     ) -> ([f64; N], [f64; IMPOSED]) {
         let mut sum = [0.0; N];
         let mut out = Action { force: &mut sum, heat: &mut ledger_rates.heat };
-        let motion = self.motion(at, (inputs, rates));
+        let motion = self.motion(at, now);
         for effect in self.ideal.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
         if self.has_dry_friction() {
-            self.add_friction_torques(at, &self.applied.friction().commanded_loads(inputs), &mut sum, ledger_rates);
+            self.add_friction_torques(at, &self.applied.friction().commanded_loads(now.0), &mut sum, ledger_rates);
         }
-        for s in (0..2).filter(|_| self.has_ends()) {
+        for s in (0..2).filter(|_| self.may_have_ends()) {
             let end = self.end(s);
             let rate = at.v[s] - at.v[end];
             ledger_rates.shaft[s] =
                 self.ideal.body_effects.half_shafts.torque(s, [at.q[end], rate], &self.applied.dogs);
         }
-        self.drive(at, (inputs, rates), &mut sum, ledger_rates);
-        (sum, [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+        let imposed = self.drive(at, now, &mut sum, ledger_rates);
+        (sum, imposed)
     }
 
     /// Positions, velocities and inputs, as passed to effects.
     #[inline]
     fn motion<'b>(&'b self, at: &'b Point<N>, (inputs, input_rates): InputsNow<'b>) -> BodyMotion<'b> {
-        let (layout, oil_viscosity) = (&self.ideal.layout, self.applied.oil_viscosity);
-        BodyMotion { q: &at.q, v: &at.v, layout, inputs, input_rates, dogs: &self.applied.dogs, oil_viscosity }
+        BodyMotion { inputs, input_rates, ..self.body_motion(at) }
     }
 
     /// Accelerations W Q + f u̇_c.
@@ -147,15 +141,14 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
         self.ideal.linear.as_deref().filter(|_| !self.has_dry_friction())
     }
 
-    /// Forces and imposed accelerations if only half-shafts act; [`Self::forces`] would return the same values. Calls
-    /// `see` with the side, the torque and the twist rate of each half-shaft.
+    /// Forces and imposed accelerations if only half-shafts act; [`Self::forces`] would return the same values.
     #[inline(always)]
     fn forces_of_shafts(
         &self,
+        linear: &Linear,
         at: &Point<N>,
-        (inputs, rates): InputsNow,
+        now: InputsNow,
         ledger_rates: &mut LedgerRates,
-        mut see: impl FnMut(&mut LedgerRates, usize, f64, f64),
     ) -> ([f64; N], [f64; IMPOSED]) {
         let mut sum = [0.0; N];
         for s in 0..2 {
@@ -164,16 +157,23 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
             let torque = self.ideal.body_effects.half_shafts.torque(s, [at.q[end], rate], &self.applied.dogs);
             sum[s] -= torque;
             sum[end] += torque;
-            see(ledger_rates, s, torque, rate);
+            ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
+            ledger_rates.shaft[s] = torque;
         }
-        self.drive(at, (inputs, rates), &mut sum, ledger_rates);
-        (sum, [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]])
+        let imposed = self.drive(at, now, &mut sum, ledger_rates);
+        (sum, imposed)
     }
 
-    /// Adds the torques and the power of inputs.
+    /// Adds the torques and the power of inputs. Returns the accelerations of imposed motions.
     #[inline(always)]
-    fn drive(&self, at: &Point<N>, (inputs, rates): InputsNow, sum: &mut [f64; N], ledger_rates: &mut LedgerRates) {
-        let (plan, has_ends) = (&self.ideal.plan, self.has_ends());
+    fn drive(
+        &self,
+        at: &Point<N>,
+        (inputs, rates): InputsNow,
+        sum: &mut [f64; N],
+        ledger_rates: &mut LedgerRates,
+    ) -> [f64; IMPOSED] {
+        let (plan, has_ends) = (&self.ideal.plan, self.may_have_ends());
         for s in 0..2 {
             let is_free = has_ends && plan.shafts[s];
             let wheel = if is_free { self.end(s) } else { s };
@@ -193,12 +193,13 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
             sum[port] += inputs.drive_torque;
             ledger_rates.input += inputs.drive_torque * at.v[port];
         }
+        [rates.drive_speed, rates.planet_spin, rates.side_speed[0], rates.side_speed[1]]
     }
 
     /// Accelerations under inputs.
     pub(super) fn accelerate(&self, at: &Point<N>, now: InputsNow) -> [f64; N] {
-        if self.linear().is_some() {
-            let (sum, imposed) = self.forces_of_shafts(at, now, &mut LedgerRates::default(), |_, _, _, _| {});
+        if let Some(linear) = self.linear() {
+            let (sum, imposed) = self.forces_of_shafts(linear, at, now, &mut LedgerRates::default());
             return self.accelerations_by_shafts(&sum, &imposed);
         }
         let ledger_rates = &mut LedgerRates::default();
@@ -234,10 +235,7 @@ impl<'a, const N: usize> IdealEquations<'a, N> {
     /// Returns accelerations under inputs and adds to the ledger rates.
     pub(super) fn evaluate_under(&self, at: &Point<N>, now: InputsNow, ledger_rates: &mut LedgerRates) -> [f64; N] {
         let (mut sum, imposed) = match self.linear() {
-            Some(linear) => self.forces_of_shafts(at, now, ledger_rates, |ledger_rates, s, torque, rate| {
-                ledger_rates.heat[linear.heat_index] += self.ideal.body_effects.half_shafts.heat(s, rate);
-                ledger_rates.shaft[s] = torque;
-            }),
+            Some(linear) => self.forces_of_shafts(linear, at, now, ledger_rates),
             None => self.forces(at, now, ledger_rates),
         };
         let a = self.accelerations_with_loss(at, now, (&mut sum, &imposed), ledger_rates);
@@ -365,7 +363,7 @@ impl<const N: usize> FrictionEquations<N> for IdealEquations<'_, N> {
         self.applied.has_dry_friction
     }
 
-    fn has_ends(&self) -> bool {
+    fn may_have_ends(&self) -> bool {
         self.ideal.layout.has_ends()
     }
 

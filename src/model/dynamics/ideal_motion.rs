@@ -12,7 +12,7 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
     type Rates = LedgerRates;
 
     fn degrees_of_freedom(&self) -> usize {
-        self.count()
+        self.ideal.layout.count()
     }
 
     #[inline]
@@ -44,7 +44,7 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
             rates[s] -= v[CARRIER];
         }
         // constant indices of the ends need no tests
-        for s in (0..2).filter(|_| self.has_ends()) {
+        for s in (0..2).filter(|_| self.may_have_ends()) {
             rates[self.end(s)] = v[s] - v[self.end(s)];
         }
         set_twist_rates(self.ideal.others.iter().copied(), v, &mut rates);
@@ -53,7 +53,7 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
 
     #[inline]
     fn times_rates(&self, m: &mut Matrix<N>) {
-        let has_ends = self.has_ends();
+        let has_ends = self.may_have_ends();
         for row in m.iter_mut() {
             row[CARRIER] -= row[0] + row[1];
             for s in (0..2).filter(|_| has_ends) {
@@ -114,7 +114,7 @@ impl<const N: usize> SecondOrder<N> for IdealEquations<'_, N> {
 
     fn undo_torque_change(&self, at: &Point<N>, ledger_rates: &mut LedgerRates) {
         self.undo_input_change(at, ledger_rates);
-        for s in (0..2).filter(|&s| !(self.has_ends() && self.ideal.plan.shafts[s])) {
+        for s in (0..2).filter(|&s| !(self.may_have_ends() && self.ideal.plan.shafts[s])) {
             ledger_rates.shaft[s] = self.applied.inputs.load_torque[s] - self.applied.change[s];
         }
     }

@@ -5,7 +5,7 @@ use super::{InputsAndFriction, PinionLoss};
 use crate::integrate::{Matrix, Point, TimedPoint};
 use crate::model::assembly::BodyEffects;
 use crate::model::effect_kinds::dry_friction::{DryFriction, LoadedSlip, SPEED_TOLERANCE};
-use crate::model::effect_kinds::{BodyMotion, FrictionState, Mode, RubbingSurface, Slip, SurfaceLoad};
+use crate::model::effect_kinds::{BodyMotion, FrictionState, Mode, PairFriction, RubbingSurface, Slip, SurfaceLoad};
 use crate::model::scene::{
     CARRIER, InputDerivatives, Inputs, Layout, PAIRS, PINION_PAIR, Plan, RubbingKind, RubbingPair,
 };
@@ -39,6 +39,18 @@ fn slip_position<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> f64 {
 #[inline]
 pub fn slip<const N: usize>(at: &Point<N>, pair: &RubbingPair) -> Slip {
     Slip { position: slip_position(at, pair), speed: slip_speed(at, pair) }
+}
+
+/// Torque of dry friction against the motion of pair `number` under `load` [N·m]; 0 without friction.
+fn friction_torque<const N: usize>(
+    of: &(impl FrictionEquations<N> + ?Sized),
+    number: usize,
+    at: &Point<N>,
+    load: impl FnOnce() -> SurfaceLoad,
+) -> f64 {
+    let Some(pair) = of.pair(number) else { return 0.0 };
+    let (friction, state) = of.friction_on(pair);
+    if friction.is_on() { friction.torque(state, &slip(at, pair), &load()) } else { 0.0 }
 }
 
 /// Pairs that may rub on each other.
@@ -75,8 +87,8 @@ pub trait FrictionEquations<const N: usize> {
     fn layout(&self) -> &Layout;
     /// True if there is dry friction.
     fn has_dry_friction(&self) -> bool;
-    /// True if half-shafts have ends.
-    fn has_ends(&self) -> bool;
+    /// True if half-shafts may have ends.
+    fn may_have_ends(&self) -> bool;
     /// Loads of the meshes on the surfaces of all pairs at `at`, if friction depends on them.
     fn mesh_loads(&self, at: &Point<N>) -> [SurfaceLoad; PAIRS];
     /// Accelerations at `at`, `time` [s] after the inputs were set.
@@ -178,7 +190,7 @@ pub trait FrictionEquations<const N: usize> {
         let (InputsAndFriction { inputs, change, .. }, plan) = (self.applied(), self.plan());
         for s in (0..2).filter(|&s| !plan.side_imposed[s]) {
             ledger_rates.input += change[s] * at.v[self.wheel(s)];
-            if self.has_ends() && !plan.shafts[s] {
+            if self.may_have_ends() && !plan.shafts[s] {
                 ledger_rates.shaft[s] = inputs.load_torque[s] - change[s];
             }
         }
@@ -190,7 +202,7 @@ pub trait FrictionEquations<const N: usize> {
     /// Degree of freedom of wheel `s`: the end of its half-shaft, or the side gear if the half-shaft is rigid.
     #[inline]
     fn wheel(&self, s: usize) -> usize {
-        if self.has_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
+        if self.may_have_ends() && self.plan().shafts[s] { self.layout().end(s) } else { s }
     }
 
     /// Pair with this number, if it exists.
@@ -305,18 +317,22 @@ pub trait FrictionEquations<const N: usize> {
     /// Torques of commanded friction against the motion of the pairs of this `kind`, left and right [N·m].
     fn commanded_torques(&self, kind: RubbingKind, at: &Point<N>) -> [f64; 2] {
         let loads = self.applied().friction().commanded_loads(&self.applied().inputs);
-        [0, 1].map(|s| {
-            let Some(pair) = self.pair(kind.number(s)) else { return 0.0 };
+        [0, 1].map(|s| friction_torque(self, kind.number(s), at, || loads[kind.number(s)]))
+    }
+
+    /// Torques of dry friction against the motion of all pairs, each for a single pair [N·m].
+    fn friction_torques(&self, at: &Point<N>) -> [f64; PAIRS] {
+        let (loads, mut torques) = (self.surface_loads(at, 0.0), [0.0; PAIRS]);
+        for pair in rubbing_pairs(self) {
             let (friction, state) = self.friction_on(pair);
-            if friction.is_on() { friction.torque(state, &slip(at, pair), &loads[pair.number]) } else { 0.0 }
-        })
+            torques[pair.number] = friction.torque(state, &slip(at, pair), &loads[pair.number]);
+        }
+        torques
     }
 
     /// Torque with which dry friction holds the pinion back, at the carrier's speed [N·m].
     fn pinion_friction(&self, at: &Point<N>) -> f64 {
-        let Some(pair) = self.pair(PINION_PAIR) else { return 0.0 };
-        let (friction, state) = self.friction_on(pair);
-        if friction.is_on() { friction.torque(state, &slip(at, pair), &self.pinion_load(at, 0.0)) } else { 0.0 }
+        friction_torque(self, PINION_PAIR, at, || self.pinion_load(at, 0.0))
     }
 
     /// Energy in the springs of stuck friction [J].
@@ -429,6 +445,20 @@ pub trait FrictionEquations<const N: usize> {
             let (friction, &(mut state)) = self.friction_on(&pair);
             friction.adapt(&mut state, &slip(at, &pair), heat, pair.count);
             self.applied_mut().friction_state[i] = state;
+        }
+    }
+
+    /// Winds up the springs of pairs at rest to their torques in `friction`, and lets those slide that begin to.
+    fn wind_friction(&mut self, at: &Point<N>, friction: &PairFriction) {
+        for i in 0..PAIRS {
+            let (Some(pair), torque) = (self.pair(i), friction.torque[i]) else { continue };
+            let (position, state) = (slip_position(at, pair), &mut self.applied_mut().friction_state[i]);
+            if state.mode == Mode::Stuck && state.stiffness > 0.0 {
+                state.anchor = position - torque / state.stiffness;
+                if friction.begins[i] != 0.0 {
+                    state.mode = if friction.begins[i] > 0.0 { Mode::Forward } else { Mode::Backward };
+                }
+            }
         }
     }
 

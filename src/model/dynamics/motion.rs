@@ -254,7 +254,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
         for effect in self.teeth.effect_terms.body_effects.forces.iter() {
             effect.act(&motion, &mut out);
         }
-        if self.has_ends() {
+        if self.may_have_ends() {
             ledger_rates.shaft = [0, 1].map(|s| self.shaft_torque(at, s));
         }
     }
@@ -262,7 +262,7 @@ impl<const N: usize, S: Shape<N>> Equations<'_, S, N> {
     /// Torque that the half-shaft of side `s` delivers to the wheel [N·m]. It is the load torque if the shaft has no
     /// degree of freedom.
     pub(in crate::model) fn shaft_torque(&self, at: &Point<N>, s: usize) -> f64 {
-        if !self.has_ends() || !self.teeth.plan.shafts[s] {
+        if !self.may_have_ends() || !self.teeth.plan.shafts[s] {
             return self.applied.inputs.load_torque[s];
         }
         let end = self.end(s);

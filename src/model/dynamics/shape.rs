@@ -5,14 +5,15 @@
 
 use std::ops::{Index, IndexMut};
 
-use crate::model::scene::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, PLANET};
+use crate::model::scene::{ATTACHED_COUNT, CARRIER, FEW, Layout, MAX_DOF, MAX_GROUPS, PLANET};
 
 /// Number of degrees of freedom of plain teeth with identical planets.
 pub const PLAIN_SIZE: usize = 4;
 /// Number of degrees of freedom of plain teeth with two planets that differ.
 pub const TWO_GROUPS_SIZE: usize = 5;
-/// Number of degrees of freedom with identical planets and half-shafts that twist.
-pub const ENDS_SIZE: usize = 6;
+/// Number of degrees of freedom with identical planets and two attached bodies: the ends of both half-shafts, or the
+/// pinion and its propeller shaft.
+pub const FEW_SIZE: usize = 6;
 /// Matrix size for identical planets with any attached bodies, and for other shapes with at most this number of degrees
 /// of freedom. It is a multiple of any vector width.
 pub const MEDIUM_SIZE: usize = 8;
@@ -20,7 +21,8 @@ pub const MEDIUM_SIZE: usize = 8;
 pub const MAX_SIZE: usize = 20;
 
 // otherwise another attached body could exceed these numbers unnoticed
-const _: () = assert!(MAX_DOF <= MAX_SIZE && PLANET + 1 + ATTACHED_COUNT <= MEDIUM_SIZE);
+const _: () =
+    assert!(MAX_DOF <= MAX_SIZE && PLANET + 1 + ATTACHED_COUNT <= MEDIUM_SIZE && PLANET + 1 + FEW == FEW_SIZE);
 
 /// A value for each planet group.
 pub trait ByGroup<T>: Copy + Index<usize, Output = T> + IndexMut<usize> {
@@ -43,6 +45,8 @@ pub trait Shape<const N: usize>: Copy {
     const MAY_ACT: bool;
     /// True if inputs may change with time.
     const MAY_CHANGE: bool;
+    /// True if half-shafts may have ends.
+    const MAY_HAVE_ENDS: bool;
     /// True if steps are monomorphised for this shape, with the meshes inlined.
     const HAS_OWN_STEPS: bool;
     /// True if steps of fixed size are compiled.
@@ -58,8 +62,6 @@ pub trait Shape<const N: usize>: Copy {
     fn planet(layout: &Layout, g: usize) -> usize;
     /// True if pins and axial seats move.
     fn has_pins(layout: &Layout) -> bool;
-    /// True if half-shafts have ends.
-    fn has_ends(layout: &Layout) -> bool;
     /// Index of the end of the half-shaft of side `s`.
     fn end(layout: &Layout, s: usize) -> usize;
     /// Index of the body on which the drive acts.
@@ -72,10 +74,18 @@ pub trait Shape<const N: usize>: Copy {
     fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]);
 }
 
-/// Shape with planets in `G` groups, and with ends of half-shafts if `HAS_ENDS`. Effects may act if `ACT`, and inputs
-/// may change with time if `CHANGE`. There are no other degrees of freedom.
+/// Shape with planets in `G` groups, and with the bodies `ATTACHED`: [`NONE`], [`SHAFT_ENDS`] or [`IN_FRONT`]. Effects
+/// may act if `ACT`, and inputs may change with time if `CHANGE`. There are no other degrees of freedom.
 #[derive(Clone, Copy)]
-pub struct Compact<const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool>;
+pub struct Compact<const G: usize, const ATTACHED: u8, const ACT: bool, const CHANGE: bool>;
+
+/// No attached bodies.
+pub const NONE: u8 = 0;
+/// The ends of both half-shafts.
+pub const SHAFT_ENDS: u8 = 1;
+/// One or two bodies in front of the carrier: pinion and propeller shaft. A second body that the scene does not have is
+/// a row of zeros.
+pub const IN_FRONT: u8 = 2;
 
 /// Shape whose sizes are known at run time, with at most `G` planet groups. Pins and seats may move if `PINS`, and steps
 /// are monomorphised for it if `OWN_STEPS`.
@@ -86,24 +96,27 @@ pub struct Loose<const G: usize, const PINS: bool, const OWN_STEPS: bool>;
 pub type Any = Loose<MAX_GROUPS, true, false>;
 
 /// Plain teeth with planets in `G` groups, on which no effect acts.
-pub type Plain<const G: usize> = Compact<G, false, false, false>;
+pub type Plain<const G: usize> = Compact<G, NONE, false, false>;
 /// Plain teeth with identical planets, under inputs that change with time.
-pub type PlainDriven = Compact<1, false, false, true>;
+pub type PlainDriven = Compact<1, NONE, false, true>;
 /// Teeth with effects and planets in `G` groups.
-pub type WithEffects<const G: usize> = Compact<G, false, true, true>;
+pub type WithEffects<const G: usize> = Compact<G, NONE, true, true>;
 /// Teeth with effects, identical planets, and half-shafts that twist.
-pub type WithEnds = Compact<1, true, true, true>;
+pub type WithEnds = Compact<1, SHAFT_ENDS, true, true>;
+/// Teeth with effects, identical planets, and a pinion or a propeller shaft that turns by itself.
+pub type WithPinion = Compact<1, IN_FRONT, true, true>;
 /// Teeth with effects, identical planets, and any attached bodies.
 pub type WithBodies = Loose<1, false, true>;
 
-impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, const CHANGE: bool> Shape<N>
-    for Compact<G, HAS_ENDS, ACT, CHANGE>
+impl<const N: usize, const G: usize, const ATTACHED: u8, const ACT: bool, const CHANGE: bool> Shape<N>
+    for Compact<G, ATTACHED, ACT, CHANGE>
 {
     type ByGroup<T: Copy> = [T; G];
     const MAY_ACT: bool = ACT;
     const MAY_CHANGE: bool = CHANGE;
+    const MAY_HAVE_ENDS: bool = ATTACHED == SHAFT_ENDS;
     const HAS_OWN_STEPS: bool = true;
-    const HAS_FIXED_STEPS: bool = ACT && G == 1 && !HAS_ENDS || ACT && !crate::FULL;
+    const HAS_FIXED_STEPS: bool = ACT && G == 1 && ATTACHED == NONE || ACT && !crate::FULL;
     const HAS_RADAU: bool = false;
 
     #[inline(always)]
@@ -123,28 +136,24 @@ impl<const N: usize, const G: usize, const HAS_ENDS: bool, const ACT: bool, cons
         false
     }
     #[inline(always)]
-    fn has_ends(_: &Layout) -> bool {
-        HAS_ENDS
-    }
-    #[inline(always)]
     fn end(_: &Layout, s: usize) -> usize {
         PLANET + G + s
     }
     #[inline(always)]
-    fn port(_: &Layout) -> usize {
-        CARRIER
+    fn port(layout: &Layout) -> usize {
+        if ATTACHED == IN_FRONT { layout.port } else { CARRIER }
     }
     #[inline(always)]
     fn is_attached(_: &Layout) -> bool {
-        HAS_ENDS
+        ATTACHED != NONE
     }
     #[inline(always)]
-    fn set_twist_rates(_: &Layout, v: &[f64; N], rates: &mut [f64; N]) {
-        set_twist_rates((0..if HAS_ENDS { ENDS } else { 0 }).map(|s| (PLANET + G + s, s)), v, rates);
+    fn set_twist_rates(layout: &Layout, v: &[f64; N], rates: &mut [f64; N]) {
+        set_twist_rates(bodies::<G, ATTACHED>(layout), v, rates);
     }
     #[inline(always)]
-    fn turn_twist_rates(_: &Layout, row: &mut [f64; N]) {
-        turn_twist_rates((0..if HAS_ENDS { ENDS } else { 0 }).map(|s| (PLANET + G + s, s)), row);
+    fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]) {
+        turn_twist_rates(bodies::<G, ATTACHED>(layout), row);
     }
 }
 
@@ -152,6 +161,7 @@ impl<const N: usize, const G: usize, const PINS: bool, const OWN_STEPS: bool> Sh
     type ByGroup<T: Copy> = [T; G];
     const MAY_ACT: bool = true;
     const MAY_CHANGE: bool = true;
+    const MAY_HAVE_ENDS: bool = true;
     const HAS_OWN_STEPS: bool = OWN_STEPS;
     const HAS_FIXED_STEPS: bool = !OWN_STEPS;
     const HAS_RADAU: bool = crate::FULL && !OWN_STEPS;
@@ -171,10 +181,6 @@ impl<const N: usize, const G: usize, const PINS: bool, const OWN_STEPS: bool> Sh
     #[inline]
     fn has_pins(layout: &Layout) -> bool {
         PINS && layout.has_pins
-    }
-    #[inline]
-    fn has_ends(layout: &Layout) -> bool {
-        layout.has_ends()
     }
     #[inline]
     fn end(layout: &Layout, s: usize) -> usize {
@@ -198,6 +204,13 @@ impl<const N: usize, const G: usize, const PINS: bool, const OWN_STEPS: bool> Sh
     fn turn_twist_rates(layout: &Layout, row: &mut [f64; N]) {
         layout.turn_twist_rates(row);
     }
+}
+
+/// Indices of the attached bodies of a [`Compact`] shape, and of the bodies relative to which they turn.
+#[inline(always)]
+fn bodies<const G: usize, const ATTACHED: u8>(layout: &Layout) -> impl Iterator<Item = (usize, usize)> {
+    let base = |k: usize| if ATTACHED == SHAFT_ENDS { k } else { layout.first_bases[k] };
+    (0..if ATTACHED == NONE { 0 } else { FEW }).map(move |k| (PLANET + G + k, base(k)))
 }
 
 /// Sets the twist rates of `attached` bodies from the velocities `v`. Each body comes with the body against which it

@@ -24,8 +24,8 @@ const ROUNDED_OPERATIONS: f64 = 8.0;
 pub struct Timeline {
     /// Present time [s].
     pub now: f64,
-    /// Start of the present interval of constant inputs [s]: the time at which the integration last restarted or
-    /// torques last changed. `None` before the first start.
+    /// Start of the present interval of constant inputs [s]: the communication point at which the integration last
+    /// restarted or torques last changed. `None` before the first start.
     pub constant_since: Option<f64>,
     /// Length of the previous interval of constant inputs [s]; infinite if there was none.
     pub constant_before: f64,
@@ -90,10 +90,13 @@ impl Timeline {
         }
     }
 
-    /// Starts an interval of constant inputs at the present, because inputs or something else have changed. A further
-    /// change at the same time, such as a reaction to an event, does not start another interval.
+    /// Ends the pause, if the motion has paused, and starts an interval of constant inputs at the present, because inputs
+    /// or something else have changed. A further change at the same time does not start another interval. A change at a
+    /// pause within a communication step does not either. The host may react to the end of each solver step, and a step
+    /// that is fitted to the length of the last one never becomes longer.
     pub fn begin_constant_inputs(&mut self) {
-        if self.constant_since != Some(self.now) {
+        let is_within_step = self.pause.take().is_some();
+        if !is_within_step && self.constant_since != Some(self.now) {
             self.constant_before = self.constant_since.map_or(f64::INFINITY, |since| self.now - since);
             self.constant_since = Some(self.now);
         }

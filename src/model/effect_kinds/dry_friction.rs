@@ -64,6 +64,11 @@ impl<'a> DryFriction<'a> {
         self.of.is_on()
     }
 
+    /// Stiffness of the spring that holds the body [N·m/rad].
+    pub fn stiffness(&self) -> f64 {
+        self.of.stiffness
+    }
+
     /// Index of the heat of its first surface.
     pub fn heat_index(&self) -> usize {
         self.of.surfaces().first().map_or(self.of.released_heat_index, |first| first.heat_index)
@@ -106,7 +111,7 @@ impl<'a> DryFriction<'a> {
     }
 
     /// Limit torque of a held body: static ratio times kinetic limit torque, summed over all surfaces [N·m].
-    fn breakaway(&self, by: &SurfaceLoad) -> f64 {
+    pub fn breakaway(&self, by: &SurfaceLoad) -> f64 {
         self.surfaces().map(|(acting, surface)| acting.breakaway(surface, by)).sum()
     }
 
@@ -254,19 +259,21 @@ impl<'a> DryFriction<'a> {
 
     /// Returns the state after the switch that is due, if any. An event of the host or a jump of an imposed speed may
     /// bring a sliding body to standstill. The body then sticks if `stops` is true, that is, if nothing accelerates it
-    /// further in the direction of sliding.
+    /// further in the direction of sliding, and if the damping torque at its small speed does not release it immediately.
     fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
+        let at_standstill = self.is_at_standstill(slip);
+        // a body that has just stopped may have exactly the limit torque
+        let breaks_away = |stuck: &FrictionState| {
+            self.overshoot(stuck, slip, by) > if at_standstill { STANDSTILL_TOLERANCE } else { 0.0 }
+        };
         let due = match state.mode {
-            // a body that has just stopped may have exactly the limit torque
-            Mode::Stuck => {
-                self.overshoot(state, slip, by) > if self.is_at_standstill(slip) { STANDSTILL_TOLERANCE } else { 0.0 }
-            }
+            Mode::Stuck => breaks_away(state),
             mode => mode.direction() * slip.speed < 0.0,
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
-        let stops = stops && self.is_at_standstill(slip) && slip.speed.abs() <= self.speed_tolerance(by);
+        let stops = stops && at_standstill && !breaks_away(&FrictionState { mode: Mode::Stuck, ..*state });
         match state.mode {
             Mode::Stuck if due => after.mode = if torque > 0.0 { Mode::Forward } else { Mode::Backward },
             Mode::Stuck => {

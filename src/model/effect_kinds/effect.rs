@@ -27,8 +27,19 @@ pub struct Heat {
     pub output: &'static str,
     /// Description in the interface.
     pub description: &'static str,
-    /// True if the heat arises at the wheels, beyond the point where `power.out` is counted.
-    pub at_wheels: bool,
+    /// Part that it warms.
+    pub warms: Warmed,
+}
+
+/// Part that a heat warms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Warmed {
+    /// Node of the thermal network.
+    Node(usize),
+    /// Shafts outside the housing, which are not in the thermal network.
+    Shafts,
+    /// Wheels, which are not in the thermal network either. They are beyond the point where `power.out` is counted.
+    Wheels,
 }
 
 /// Body that an effect attaches to another body: its names in messages and in the interface.
@@ -132,7 +143,7 @@ pub struct Needs {
 
 /// Scene data from which effects are set up.
 #[derive(Clone, Copy)]
-pub struct Setting<'a> {
+pub struct EffectSetting<'a> {
     /// Drives and representation.
     pub scene: &'a Scene,
     /// Given data of the gears.
@@ -222,30 +233,30 @@ pub trait Declare: Group + Rows + Debug + Default + PartialEq + Serialize + Dese
 /// Actions of an effect in a scene.
 pub trait Effect: Any {
     /// Adds the problems of its parameters to `found`.
-    fn check(&self, _setting: &Setting, _found: &mut Vec<Problem>) {}
+    fn check(&self, _setting: &EffectSetting, _found: &mut Vec<Problem>) {}
 
     /// Warnings about unusual parameters.
-    fn warnings(&self, _setting: &Setting) -> Vec<Problem> {
+    fn warnings(&self, _setting: &EffectSetting) -> Vec<Problem> {
         Vec::new()
     }
 
     /// Degrees of freedom that the effect requires.
-    fn requests(&self, _setting: &Setting) -> Requests {
+    fn requests(&self, _setting: &EffectSetting) -> Requests {
         Requests::default()
     }
 
     /// Adds the effect's influence on single teeth to `teeth`. Fails if its parameters contradict the gears.
-    fn on_teeth(&self, _setting: &Setting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_teeth(&self, _setting: &EffectSetting, _teeth: &mut ToothEffects) -> Result<(), Problem> {
         Ok(())
     }
 
     /// Friction along the flanks, if the effect adds any.
-    fn on_flanks(&self, _setting: &Setting) -> Option<FlankFriction> {
+    fn on_flanks(&self, _setting: &EffectSetting) -> Option<FlankFriction> {
         None
     }
 
     /// Forces and torques on bodies other than dry friction, if the effect adds any.
-    fn on_bodies(&self, _setting: &Setting, _plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, _setting: &EffectSetting, _plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         None
     }
 
@@ -260,5 +271,5 @@ pub trait Effect: Any {
     }
 
     /// Adds the surfaces on which the effect lets bodies rub to `surfaces`.
-    fn add_surfaces(&self, _setting: &Setting, _surfaces: &mut Vec<RubbingSurface>) {}
+    fn add_surfaces(&self, _setting: &EffectSetting, _surfaces: &mut Vec<RubbingSurface>) {}
 }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::model::scene::PAIRS;
 use crate::numeric::finite;
 
 /// Mode of a body: stuck, or sliding in one direction.
@@ -54,4 +55,18 @@ impl FrictionState {
     pub fn holds(&self) -> bool {
         self.stiffness > 0.0 && self.mode == Mode::Stuck
     }
+}
+
+/// Dry friction on all pairs at the start.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairFriction {
+    /// Torque that holds each pair back, for a single pair if there are several identical ones [N·m].
+    pub torque: [f64; PAIRS],
+    /// Direction ±1 in which a pair at rest begins to slide, or 0.
+    pub begins: [f64; PAIRS],
+}
+
+impl PairFriction {
+    /// No friction.
+    pub const NONE: Self = Self { torque: [0.0; PAIRS], begins: [0.0; PAIRS] };
 }

@@ -30,11 +30,12 @@ pub use actuator::{Actuates, Actuator, ActuatorState, Parabola};
 pub use body_effect::{Action, BodyEffect, BodyMotion, Slopes, StaticLoads};
 pub(super) use effect::readings;
 pub use effect::{
-    Attached, BUILT, Changes, Class, Declare, Effect, Heat, InputField, Instant, Needs, Reading, Refinement, Setting,
+    Attached, BUILT, Changes, Class, Declare, Effect, EffectSetting, Heat, InputField, Instant, Needs, Reading,
+    Refinement, Warmed,
 };
 pub use element::{Element, Law, Part, Spring};
 pub use friction::Friction;
-pub use friction_state::{FrictionState, Mode};
+pub use friction_state::{FrictionState, Mode, PairFriction};
 pub use lash_spring::LashSpring;
 pub use loss::Loss;
 pub use memory::{Memory, Remembered};
@@ -45,6 +46,6 @@ pub use rubbing_surface::{
 };
 pub use slip_law::SlipLaw;
 pub(super) use slip_spec::check_slip;
-pub use slip_spec::{Slides, SlipSpec, depends_on_temperature};
+pub use slip_spec::{Slides, SlipSpec, depends_on_speed, depends_on_temperature};
 pub use teeth::{FlankFriction, ToothEffects};
 pub use torque_curve::TorqueCurve;

@@ -17,12 +17,6 @@ pub struct Ramps {
     pub both_sides: bool,
 }
 
-impl Default for Ramps {
-    fn default() -> Self {
-        Self::OWN_SIDE
-    }
-}
-
 impl Ramps {
     /// Ramps that press each pack by the torque of its own side, with equal ramps for both directions.
     pub const OWN_SIDE: Self = Self { coast_ratio: 1.0, both_sides: false };

@@ -16,6 +16,14 @@ pub struct SurfaceLoad {
     pub load: f64,
 }
 
+impl SurfaceLoad {
+    /// Loads on the way to `other`, of which they contain the part `weight`.
+    pub fn toward(&self, other: &Self, weight: f64) -> Self {
+        let between = |from: f64, to: f64| from + weight * (to - from);
+        Self { thrust: between(self.thrust, other.thrust), load: between(self.load, other.load) }
+    }
+}
+
 /// Quantity of a surface that is linear in thrust and load: its limit torque [N·m], or its pressure times radius [N/m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ByLoad {
@@ -39,6 +47,13 @@ impl ByLoad {
     /// Value under the loads `by`.
     pub fn at(&self, by: &SurfaceLoad) -> f64 {
         self.constant + self.per_thrust * by.thrust + self.per_load * by.load
+    }
+
+    /// Pressure times radius [N/m] of a surface with this limit torque, from its coefficient of friction and its area
+    /// [m²].
+    pub fn pressed(self, coefficient: f64, area: f64) -> Self {
+        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
+        self.times(1.0 / (coefficient * area))
     }
 
     /// Returns `factor` times the quantity.

@@ -51,6 +51,11 @@ pub fn depends_on_temperature<Owner: Slides>() -> Condition {
     any([slips!(Owner.cold_factor != 1.0, "!="), slips!(Owner.hot_factor != 1.0, "!=")])
 }
 
+/// Condition that the friction of the group `Owner` depends on slip speed.
+pub fn depends_on_speed<Owner: Slides>() -> Condition {
+    any([slips!(Owner.stribeck_speed > 0.0, ">"), slips!(Owner.slip_slope != 0.0, "!=")])
+}
+
 impl SlipSpec {
     /// True if friction changes with temperature.
     pub fn varies_with_temperature(&self) -> bool {

@@ -22,8 +22,9 @@
 //! with the dip factor f_g = immersed depth / D: 0 if the disc runs dry, 1 if it is submerged.
 
 use crate::declaration::prelude::*;
-use crate::model::effect_kinds::{BodyEffect, Declare, Effect, Element, Heat, Law, Part, Setting};
+use crate::model::effect_kinds::{BodyEffect, Declare, Effect, EffectSetting, Element, Heat, Law, Part, Warmed};
 use crate::model::scene::{CARRIER, OilSpec, Plan, Viscosity};
+use crate::model::thermal::OIL;
 use crate::numeric::Scalar;
 use crate::problem::Problem;
 
@@ -62,10 +63,10 @@ parameters! {
         reference_temperature: f64 = 353.15, KELVIN | DEG_C, TEMPERATURES, when(is!(Self.viscosity_from_oil, true));
         /// Churning torque from dimensions and oil (ISO/TR 14179-1); false: given value
         churning_from_geometry: bool = false;
-        /// Outside diameter of crown wheel and case
+        /// Outside diameter of ring gear and case
         carrier_diameter: f64 = 0.2, METRE | MM, 1e-3..=10.0,
             when(churning());
-        /// Width of crown wheel and case
+        /// Width of ring gear and case
         carrier_width: f64 = 0.05, METRE | MM, 0.0..=10.0,
             when(churning());
         /// Immersed depth over bearing_drag.carrier_diameter
@@ -90,8 +91,11 @@ fn churning() -> Condition {
 
 impl Declare for BearingDragSpec {
     const DESCRIPTION: &'static str = "Bearing friction and oil churning";
-    const HEAT: Option<Heat> =
-        Some(Heat { output: "heat.drag", description: "Heat of bearings and oil since the start", at_wheels: false });
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.drag",
+        description: "Heat of bearings and oil since the start",
+        warms: Warmed::Node(OIL),
+    });
     const EXAMPLE: &'static [(&'static str, f64)] = &[
         ("bearing_drag.carrier_torque", 0.5),
         ("bearing_drag.carrier_viscous", 5e-3),
@@ -124,7 +128,7 @@ impl BearingDragSpec {
 }
 
 impl Effect for BearingDragSpec {
-    fn warnings(&self, _: &Setting) -> Vec<Problem> {
+    fn warnings(&self, _: &EffectSetting) -> Vec<Problem> {
         let given = [self.carrier_torque, self.carrier_viscous, self.side_torque, self.side_viscous];
         let churning = if self.churning_from_geometry { self.oil_level } else { self.carrier_churning };
         if given.into_iter().chain([churning, self.seal_diameter, self.bearing_load]).any(|of| of > 0.0) {
@@ -141,7 +145,7 @@ impl Effect for BearingDragSpec {
         self.viscosity_from_oil || self.churns_by_size()
     }
 
-    fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
         let [carrier, side] = self.resistances(setting.oil);
         let part = |law: Resistance, body: usize| Part { law, displacement: None, body, base: None };
         let parts = vec![part(side, 0), part(side, 1), part(carrier, CARRIER)];

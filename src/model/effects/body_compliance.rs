@@ -2,7 +2,7 @@
 //! bore `geometry.side_bore`, and planets by pins in the bore `geometry.planet_bore`.
 
 use crate::contact::bodies::Support;
-use crate::model::effect_kinds::{Declare, Effect, Needs, Setting, ToothEffects};
+use crate::model::effect_kinds::{Declare, Effect, EffectSetting, Needs, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::numeric::sin;
 use crate::problem::Problem;
@@ -31,7 +31,7 @@ const BORES: [[&str; 3]; 2] = [["geometry.planet_bore", "planet", "pin"], ["geom
 /// Warning about the assumed support of gear `i` if it has no bore, or if the bore of a side gear is so narrow that it
 /// dominates the compliance. `None` for other bores. A narrow planet bore causes no warning, because pins transmit no
 /// torque.
-fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
+fn assumed(setting: &EffectSetting, i: usize) -> Option<Problem> {
     let [name, gear, holder] = BORES[i];
     let bore = [setting.geometry.planet_bore, setting.geometry.side_bore][i];
     let toe = 2.0 * setting.pair.inner_cone * sin(setting.pair.gears[i].root);
@@ -58,11 +58,11 @@ fn assumed(setting: &Setting, i: usize) -> Option<Problem> {
 }
 
 impl Effect for BodyComplianceSpec {
-    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+    fn warnings(&self, setting: &EffectSetting) -> Vec<Problem> {
         (0..2).filter_map(|i| assumed(setting, i)).collect()
     }
 
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         let law = setting.contact.law;
         if !law.is_of_teeth() {
             found.push(problem!(
@@ -74,7 +74,7 @@ impl Effect for BodyComplianceSpec {
         }
     }
 
-    fn on_teeth(&self, _: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_teeth(&self, _: &EffectSetting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         teeth.elastic_bodies = true;
         Ok(())
     }

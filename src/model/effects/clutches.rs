@@ -19,11 +19,12 @@
 //! J. Dyn. Syst. Meas. Control 132 (2010) 061501.
 
 use crate::declaration::prelude::*;
-use crate::declaration::{Row, row};
+use crate::declaration::{Row, sides};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    Actuates, Actuator, BUILT, ByLoad, Class, Command, Declare, Effect, Heat, InputField, Instant, Reading,
-    RubbingSurface, Setting, Slides, SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
+    Actuates, Actuator, BUILT, ByLoad, Class, Command, Declare, Effect, EffectSetting, Heat, InputField, Instant,
+    Reading, RubbingSurface, Slides, SlipSpec, SurfaceTemperature, Warmed, check_slip, depends_on_speed,
+    depends_on_temperature, readings,
 };
 use crate::model::scene::{ACTUATED_CLUTCHES, CARRIER, Requests, RubbingKind};
 use crate::model::thermal::CLUTCH;
@@ -42,8 +43,7 @@ parameters! {
         /// Damping of a clutch without slip over its stiffness
         damping_time: f64 = DAMPING_TIME, SECOND, 0.0..=1.0;
         /// Mean radius of the plates, for sliding speed
-        mean_radius: f64 = 0.05, METRE | MM, 1e-3..=1.0,
-            when(any([above!(Self.sliding.stribeck_speed, 0.0), differs!(Self.sliding.slip_slope, 0.0)]));
+        mean_radius: f64 = 0.05, METRE | MM, 1e-3..=1.0, when(depends_on_speed::<Self>());
         /// Total friction area of a clutch
         friction_area: f64 = 0.05, SQUARE_METRE | CM2, 1e-8..=10.0;
         /// Coefficient of friction of the plates
@@ -69,7 +69,7 @@ impl Actuates for ClutchesSpec {
 pub const COMMANDED_HEAT: Heat = Heat {
     output: "heat.clutch_command",
     description: "Heat of the clutches on command since the start",
-    at_wheels: false,
+    warms: Warmed::Node(CLUTCH),
 };
 
 impl Declare for ClutchesSpec {
@@ -101,22 +101,13 @@ impl Declare for ClutchesSpec {
     }
 
     fn inputs() -> Vec<Row<InputField>> {
-        let command = |name, at: InputField, description| {
-            // a build without effects accepts no command
-            let most = if BUILT { 1.0 } else { 0.0 };
-            row(name, description).command(ONE, most, at)
-        };
+        let [left, right] =
+            sides("clutch_command", "Command of the {side} clutch, with effects.clutches: 0 open, 1 full torque");
+        // a build without effects accepts no command
+        let most = if BUILT { 1.0 } else { 0.0 };
         vec![
-            command(
-                "left.clutch_command",
-                |i| &mut i.clutch_command[0],
-                "Command of the left clutch, with effects.clutches: 0 open, 1 full torque",
-            ),
-            command(
-                "right.clutch_command",
-                |i| &mut i.clutch_command[1],
-                "Command of the right clutch, with effects.clutches: 0 open, 1 full torque",
-            ),
+            left.command(ONE, most, |i| &mut i.clutch_command[0]),
+            right.command(ONE, most, |i| &mut i.clutch_command[1]),
         ]
     }
 }
@@ -134,11 +125,11 @@ impl ClutchesSpec {
 }
 
 impl Effect for ClutchesSpec {
-    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, _: &EffectSetting, found: &mut Vec<Problem>) {
         check_slip!("clutches", self.sliding, found);
     }
 
-    fn requests(&self, _: &Setting) -> Requests {
+    fn requests(&self, _: &EffectSetting) -> Requests {
         Requests { clutch_ratio: self.ratio.map(Some), ..Requests::default() }
     }
 
@@ -146,15 +137,14 @@ impl Effect for ClutchesSpec {
         Some((self.actuator, &ACTUATED_CLUTCHES))
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         let limit = ByLoad { per_load: self.torque, ..ByLoad::NONE };
         surfaces.push(RubbingSurface {
             limit,
             stiffness: self.stiffness,
             damping_time: [self.damping_time; 2],
             radius: self.mean_radius,
-            // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
-            pressed: limit.times(1.0 / (self.plate_coefficient * self.friction_area)),
+            pressed: limit.pressed(self.plate_coefficient, self.friction_area),
             sliding: self.sliding,
             temperature: SurfaceTemperature::Node(CLUTCH),
             command: Command::Limits(|inputs| inputs.clutch_command),

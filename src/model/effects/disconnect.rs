@@ -13,9 +13,12 @@
 //! Source: H. Naunheimer et al., Automotive Transmissions, 2nd ed., Springer 2011, chapter 9, dog clutches.
 
 use crate::declaration::prelude::*;
-use crate::declaration::{Row, row};
-use crate::model::effect_kinds::{Class, Declare, Effect, Heat, InputField, Instant, Reading, Setting, readings};
+use crate::declaration::{Row, sides};
+use crate::model::effect_kinds::{
+    Class, Declare, Effect, EffectSetting, Heat, InputField, Instant, Reading, Warmed, readings,
+};
 use crate::model::scene::{Dog, DogMotion, DogPhase, Requests};
+use crate::model::thermal::OIL;
 use crate::numeric::TAU;
 use crate::problem::Problem;
 
@@ -52,21 +55,22 @@ impl Declare for DisconnectSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.disconnect",
         description: "Heat of dog clutches since the start: of ratcheting teeth, and of twists that are released",
-        at_wheels: false,
+        warms: Warmed::Node(OIL),
     });
     const READINGS: &'static [Reading] = readings! {
-        /// Phase of the left dog clutch: 0 open, 1 waits for equal speeds, 2 waits for a gap, 3 closed (also without a clutch), 4 waits for low torque
+        /// Left dog clutch: 0 open, 1 waits for equal speeds, 2 waits for a gap, 3 closed, 4 waits for low torque (3
+        /// also without a clutch)
         "left.dog_phase": ONE, Always(|_, at| phase(0, at));
-        /// Phase of the right dog clutch: 0 open, 1 waits for equal speeds, 2 waits for a gap, 3 closed (also without a clutch), 4 waits for low torque
+        /// Right dog clutch: 0 open, 1 waits for equal speeds, 2 waits for a gap, 3 closed, 4 waits for low torque (3
+        /// also without a clutch)
         "right.dog_phase": ONE, Always(|_, at| phase(1, at));
     };
     const EXAMPLE: &'static [(&'static str, f64)] =
         &[("effects.half_shaft", 1.0), ("inertia.left_end", 0.5), ("inertia.right_end", 0.5)];
 
     fn inputs() -> Vec<Row<InputField>> {
-        let left = row("left.dog_command", "Command of the left dog clutch, with effects.disconnect: closed above 0.5");
-        let right =
-            row("right.dog_command", "Command of the right dog clutch, with effects.disconnect: closed above 0.5");
+        let [left, right] =
+            sides("dog_command", "Command of the {side} dog clutch, with effects.disconnect: closed above 0.5");
         vec![
             left.when(is!(Self.sides, DogSides::Left, DogSides::Both)).command(ONE, 1.0, |i| &mut i.dog_command[0]),
             right.when(is!(Self.sides, DogSides::Right, DogSides::Both)).command(ONE, 1.0, |i| &mut i.dog_command[1]),
@@ -79,23 +83,23 @@ fn phase(s: usize, at: &Instant) -> f64 {
     let (motion, Some(dog)) = (at.motion, &at.plan.dogs[s]) else { return f64::from(DogPhase::Closed as u8) };
     let end = motion.layout.end(s);
     let local = DogMotion { twist: motion.q[end], rate: motion.v[s] - motion.v[end], torque: at.shaft_torque[s] };
-    f64::from(dog.phase(motion.dogs.closed[s], motion.dogs.commanded[s], &local) as u8)
+    f64::from(dog.phase(motion.dogs.of(s), &local) as u8)
 }
 
 impl Effect for DisconnectSpec {
-    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, _: &EffectSetting, found: &mut Vec<Problem>) {
         if self.lash >= self.pitch() {
             found.push(problem!(
                 "disconnect.lash",
-                "{} rad is not below the pitch of disconnect.teeth = {}, {:.6} rad",
-                self.lash,
+                "{} is not below the pitch of disconnect.teeth = {}, {}",
+                DEG.text(self.lash),
                 self.teeth,
-                self.pitch()
+                DEG.text(self.pitch())
             ));
         }
     }
 
-    fn requests(&self, setting: &Setting) -> Requests {
+    fn requests(&self, setting: &EffectSetting) -> Requests {
         let dog = Dog {
             pitch: self.pitch(),
             half_lash: 0.5 * self.lash,
@@ -104,11 +108,7 @@ impl Effect for DisconnectSpec {
             ratchet: self.ratchet_torque,
             heat_index: setting.heat_index,
         };
-        let sides = match self.sides {
-            DogSides::Left => [true, false],
-            DogSides::Right => [false, true],
-            DogSides::Both => [true; 2],
-        };
+        let sides = [self.sides != DogSides::Right, self.sides != DogSides::Left];
         Requests { dogs: sides.map(|has_dog| has_dog.then_some(dog)), ..Requests::default() }
     }
 }

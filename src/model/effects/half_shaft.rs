@@ -5,11 +5,11 @@
 use crate::declaration::SIDES;
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, Attached, BodyEffect, BodyMotion, Declare, Effect, Element, Heat, Instant, LashSpring, Law, Part, Reading,
-    Setting, Slopes, Spring, readings,
+    Action, Attached, BodyEffect, BodyMotion, Declare, Effect, EffectSetting, Element, Heat, Instant, LashSpring, Law,
+    Part, Reading, Slopes, Spring, Warmed, readings,
 };
 use crate::model::scene::{Dog, Dogs, InertiaSpec, Plan, Requests, Scene, SideDrive};
-use crate::numeric::{Dual, Scalar};
+use crate::numeric::{Dual, Scalar, quotient};
 use crate::problem::Problem;
 
 parameters! {
@@ -67,7 +67,7 @@ impl Declare for HalfShaftSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.half_shaft",
         description: "Heat of damping in the half-shafts since the start",
-        at_wheels: false,
+        warms: Warmed::Shafts,
     });
     const READINGS: &'static [Reading] = readings! {
         /// Twist of the half-shaft, positive if the side gear is ahead of the wheel; 0 for a rigid half-shaft
@@ -86,7 +86,7 @@ impl Declare for HalfShaftSpec {
 }
 
 impl Effect for HalfShaftSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         let moving_ends = self.requests(setting).shafts;
         let drives = [setting.scene.left_drive, setting.scene.right_drive];
         for s in 0..2 {
@@ -100,14 +100,14 @@ impl Effect for HalfShaftSpec {
         }
     }
 
-    fn requests(&self, setting: &Setting) -> Requests {
+    fn requests(&self, setting: &EffectSetting) -> Requests {
         // an end without inertia passes its load on without delay, so the shaft has a static twist and its end has no
         // degree of freedom
         let end = [setting.inertia.left_end, setting.inertia.right_end];
         Requests { shafts: end.map(|inertia| setting.on && inertia > 0.0), ..Requests::default() }
     }
 
-    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let (shafts, layout) = (HalfShafts::new(self, plan), plan.layout());
         if !layout.has_ends() {
             return None;
@@ -127,12 +127,8 @@ impl HalfShaftSpec {
     fn twist(&self, s: usize, at: &Instant) -> f64 {
         let motion = at.motion;
         if at.plan.shafts[s] {
-            let twist = motion.q[motion.layout.end(s)];
-            match (at.plan.dogs[s], motion.dogs.closed[s]) {
-                (Some(_), None) => 0.0,
-                (Some(_), Some(gap)) => twist - gap,
-                (None, _) => twist,
-            }
+            let (twist, dogs) = (motion.q[motion.layout.end(s)], motion.dogs);
+            if dogs.is_open(&at.plan.dogs, s) { 0.0 } else { twist - dogs.middle(s) }
         } else if at.on && self.stiffness[s] > 0.0 {
             // the end has no degree of freedom, so the twist is static
             at.shaft_torque[s] / self.stiffness[s]
@@ -195,13 +191,18 @@ impl HalfShafts {
         }
     }
 
+    /// Compliance of the shaft of side `s` [rad/(N·m)]; 0 if it does not twist.
+    pub fn compliance(&self, s: usize) -> f64 {
+        quotient(1.0, self.springs[s].stiffness).unwrap_or(0.0)
+    }
+
     /// Fails if a dog clutch has no shaft that twists.
     pub fn check(&self) -> Result<(), Problem> {
         match (0..2).find(|&s| self.dogs[s].is_some() && self.springs[s].stiffness == 0.0) {
             None => Ok(()),
             Some(s) => Err(problem!(
                 "effects.disconnect",
-                "the {0} wheel does not turn apart from its side gear; set effects.half_shaft = true and \
+                "the {0} wheel cannot turn separately from its side gear; set effects.half_shaft = true and \
                  inertia.{0}_end above 0, or scene.{0}_drive = speed",
                 SIDES[s]
             )),

@@ -6,7 +6,7 @@ use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    Actuates, Actuator, BUILT, ByLoad, Command, Declare, Effect, Heat, InputField, RubbingSurface, Setting,
+    Actuates, Actuator, BUILT, ByLoad, Command, Declare, Effect, EffectSetting, Heat, InputField, RubbingSurface,
 };
 use crate::model::scene::{ACTUATED_LOCK, RubbingKind};
 
@@ -47,7 +47,7 @@ impl Effect for LockSpec {
         Some((self.actuator, &[ACTUATED_LOCK]))
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         surfaces.push(RubbingSurface {
             limit: ByLoad { constant: self.torque, ..ByLoad::NONE },
             stiffness: self.stiffness,

@@ -105,7 +105,7 @@ fn switch<E: Declare>(name: &'static str, at: Field<Effects, bool>) -> Row<Param
 macro_rules! effects {
     (switched { $($name:ident: $effect:ty $([$memory:ty])?,)+ } commanded { $($command:ident: $commanded:ty,)+ }) => {
         /// Switches of plain teeth and of the effects.
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Effects {
             /// Switches of plain teeth.
             pub teeth: PlainTeeth,
@@ -113,10 +113,6 @@ macro_rules! effects {
         }
 
         impl Effects {
-            /// Teeth without effects: backlash and corner contact on.
-            pub const TEETH: Self =
-                Self { teeth: PlainTeeth { backlash: true, corner_contact: true }, $($name: false),+ };
-
             /// All switches, by their names.
             pub fn switches(&self) -> impl Iterator<Item = (&'static str, bool)> {
                 let teeth = [("effects.backlash", self.teeth.backlash), ("effects.corner_contact", self.teeth.corner_contact)];

@@ -6,9 +6,10 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    BodyEffect, Declare, Effect, Element, Heat, Needs, Part, Setting, Spring, ToothEffects,
+    BodyEffect, Declare, Effect, EffectSetting, Element, Heat, Needs, Part, Spring, ToothEffects, Warmed,
 };
 use crate::model::scene::{GearContact, Plan, Requests};
+use crate::model::thermal::CASE;
 use crate::numeric::cos;
 use crate::problem::Problem;
 
@@ -29,7 +30,7 @@ impl Declare for PinComplianceSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.support",
         description: "Heat of damping in pins and case since the start",
-        at_wheels: false,
+        warms: Warmed::Node(CASE),
     });
     const NEEDS: Option<Needs> = Some(Needs {
         contacts: &[GearContact::Lumped, GearContact::Tooth],
@@ -42,17 +43,17 @@ impl Declare for PinComplianceSpec {
 }
 
 impl Effect for PinComplianceSpec {
-    fn requests(&self, _: &Setting) -> Requests {
+    fn requests(&self, _: &EffectSetting) -> Requests {
         Requests { pins: true, ..Requests::default() }
     }
 
-    fn on_teeth(&self, _: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_teeth(&self, _: &EffectSetting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         // a seat that moves along its axis changes the gap over the face
         teeth.distributed = true;
         Ok(())
     }
 
-    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let (layout, arm) = (plan.layout(), setting.pair.mean_cone * cos(setting.pair.gears[0].pitch));
         let spring = |stiffness: f64, i: usize, base: Option<usize>| {
             let law = Spring { stiffness, damping: stiffness * self.damping_time };

@@ -15,7 +15,7 @@
 
 use crate::declaration::prelude::*;
 use crate::model::effect_kinds::{
-    Action, Attached, BodyEffect, BodyMotion, Class, Declare, Effect, Heat, Setting, Slopes, StaticLoads,
+    Action, Attached, BodyEffect, BodyMotion, Class, Declare, Effect, EffectSetting, Heat, Slopes, StaticLoads, Warmed,
 };
 use crate::model::scene::{AttachedBody, Base, CARRIER, PROPELLER, Plan, Requests};
 use crate::numeric::{Dual, Scalar, cos, sin};
@@ -43,7 +43,7 @@ impl Declare for PropellerShaftSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.propeller_shaft",
         description: "Heat of damping in the propeller shaft since the start",
-        at_wheels: false,
+        warms: Warmed::Shafts,
     });
     const BODIES: &'static [Attached] = &[Attached {
         name: "the driven end of the propeller shaft",
@@ -66,13 +66,13 @@ impl Declare for PropellerShaftSpec {
 }
 
 impl Effect for PropellerShaftSpec {
-    fn requests(&self, setting: &Setting) -> Requests {
+    fn requests(&self, setting: &EffectSetting) -> Requests {
         let mut requests = Requests::default();
         requests.attached[PROPELLER] = Some(AttachedBody { to: Base::Pinion, inertia: setting.inertia.propeller_end });
         requests
     }
 
-    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let (layout, ratio) = (plan.layout(), plan.drive_ratio.unwrap_or(1.0));
         let half = 0.5 * self.joint_angle;
         let tangent = sin(half) / cos(half);

@@ -15,8 +15,8 @@ use super::limited_slip::washers_bear;
 use crate::declaration::prelude::*;
 use crate::geometry::{GearSpec, Pair};
 use crate::model::effect_kinds::{
-    ByLoad, Declare, Effect, Heat, Needs, Reading, RubbingSurface, Setting, Slides, SlipSpec, SurfaceTemperature,
-    ThrustPart, check_slip, depends_on_temperature, readings,
+    ByLoad, Declare, Effect, EffectSetting, Heat, Needs, Reading, RubbingSurface, Slides, SlipSpec, SurfaceTemperature,
+    ThrustPart, Warmed, check_slip, depends_on_temperature, readings,
 };
 use crate::model::scene::{GearContact, RubbingKind};
 use crate::model::thermal::WASHERS;
@@ -69,7 +69,7 @@ impl Declare for ThrustFrictionSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.thrust",
         description: "Heat of thrust washers and pins since the start",
-        at_wheels: false,
+        warms: Warmed::Node(WASHERS),
     });
     const READINGS: &'static [Reading] = readings! {
         /// Pressure times sliding speed of washers and pins; largest of all
@@ -120,7 +120,7 @@ fn back_face(pair: &Pair, i: usize) -> f64 {
 }
 
 impl ThrustFrictionSpec {
-    fn radii(&self, setting: &Setting) -> Radii {
+    fn radii(&self, setting: &EffectSetting) -> Radii {
         if self.radii_from_geometry {
             return Radii::of_gears(setting.geometry, setting.pair);
         }
@@ -128,7 +128,7 @@ impl ThrustFrictionSpec {
     }
 
     /// Warning if the given pin radius does not fit the planet; `None` if it fits.
-    fn misfit_of_pin(&self, setting: &Setting) -> Option<Problem> {
+    fn misfit_of_pin(&self, setting: &EffectSetting) -> Option<Problem> {
         let (pin, bore) = (self.pin_radius, 0.5 * setting.geometry.planet_bore);
         // a radius of 0 switches the friction of a surface off
         if pin == 0.0 {
@@ -145,7 +145,7 @@ impl ThrustFrictionSpec {
     }
 
     /// Warning if the given washer radius does not fit gear `i`; `None` if it fits.
-    fn misfit_of_washer(&self, setting: &Setting, i: usize) -> Option<Problem> {
+    fn misfit_of_washer(&self, setting: &EffectSetting, i: usize) -> Option<Problem> {
         let names = ["thrust_friction.planet_washer_radius", "thrust_friction.side_washer_radius"];
         let gear = ["planet", "side gear"][i];
         let radius = [self.planet_washer_radius, self.side_washer_radius][i];
@@ -172,11 +172,11 @@ fn misfitting(name: &'static str, radius: f64, what: &str, other: f64) -> Proble
 const HINT: &str = "fit it to the gears, or set thrust_friction.radii_from_geometry = true";
 
 impl Effect for ThrustFrictionSpec {
-    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, _: &EffectSetting, found: &mut Vec<Problem>) {
         check_slip!("thrust_friction", self.sliding, found);
     }
 
-    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+    fn warnings(&self, setting: &EffectSetting) -> Vec<Problem> {
         if self.radii_from_geometry {
             return Vec::new();
         }
@@ -184,7 +184,7 @@ impl Effect for ThrustFrictionSpec {
         self.misfit_of_pin(setting).into_iter().chain(washers.into_iter().flatten()).collect()
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         let [planet, side] = setting.pair.gears.map(|gear| f64::from(gear.teeth));
         let ratio = planet / side;
         let Radii { pin, washer: washer_radius } = self.radii(setting);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::contact::FlankGaps;
 use crate::contact::errors::{ToothErrorSpec, ToothErrors, pitch};
-use crate::model::effect_kinds::{Declare, Effect, Needs, Setting, ToothEffects};
+use crate::model::effect_kinds::{Declare, Effect, EffectSetting, Needs, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
@@ -18,7 +18,7 @@ impl Declare for ToothErrorSpec {
 }
 
 impl Effect for ToothErrorSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         found.extend(self.check().err());
         if setting.scene.gear_contact != GearContact::Solid {
             return;
@@ -35,7 +35,7 @@ impl Effect for ToothErrorSpec {
         found.extend(unsupported.into_iter().filter(|&(_, given)| given).map(|(name, _)| Problem::new(name, what)));
     }
 
-    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+    fn warnings(&self, setting: &EffectSetting) -> Vec<Problem> {
         if self.accuracy_grade == 0 || (0..2).all(|i| pitch::Tolerances::covers(setting.pair, i)) {
             return Vec::new();
         }
@@ -46,7 +46,7 @@ impl Effect for ToothErrorSpec {
         )]
     }
 
-    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_teeth(&self, setting: &EffectSetting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         let (pair, count) = (setting.pair, setting.geometry.planet_count);
         let mut errors = ToothErrors::new(self, pair, usize::try_from(count).unwrap_or(1))?;
         if let Some(given) = setting.teeth {

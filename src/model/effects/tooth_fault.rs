@@ -6,7 +6,7 @@ use crate::contact::FlankGaps;
 use crate::contact::errors::{Chip, ToothFaultSpec, breaks};
 use crate::declaration::units::ONE;
 use crate::declaration::{Row, row};
-use crate::model::effect_kinds::{Class, Declare, Effect, InputField, Needs, Setting, ToothEffects};
+use crate::model::effect_kinds::{Class, Declare, Effect, EffectSetting, InputField, Needs, ToothEffects};
 use crate::model::scene::GearContact;
 use crate::problem::Problem;
 
@@ -27,7 +27,7 @@ impl Declare for ToothFaultSpec {
 }
 
 impl Effect for ToothFaultSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         let planets = usize::try_from(setting.geometry.planet_count).unwrap_or(0);
         found.extend(self.check(setting.pair.gears.map(|g| g.teeth), planets).err());
         let law = setting.contact.law;
@@ -42,7 +42,7 @@ impl Effect for ToothFaultSpec {
         }
     }
 
-    fn on_teeth(&self, setting: &Setting, teeth: &mut ToothEffects) -> Result<(), Problem> {
+    fn on_teeth(&self, setting: &EffectSetting, teeth: &mut ToothEffects) -> Result<(), Problem> {
         let (pair, count) = (setting.pair, setting.geometry.planet_count);
         let sound = teeth.gaps[0].clone();
         let mut broken = match &sound {

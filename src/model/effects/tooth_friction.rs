@@ -3,8 +3,9 @@
 use crate::contact::tooth_friction;
 use crate::declaration::{Condition, Need, all};
 use crate::friction::{FrictionLaw, ToothFrictionSpec};
-use crate::model::effect_kinds::{Declare, Effect, FlankFriction, Heat, Needs, Setting};
+use crate::model::effect_kinds::{Declare, Effect, EffectSetting, FlankFriction, Heat, Needs, Warmed};
 use crate::model::scene::GearContact;
+use crate::model::thermal::GEARS;
 use crate::problem::Problem;
 
 impl Declare for ToothFrictionSpec {
@@ -13,7 +14,7 @@ impl Declare for ToothFrictionSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.tooth_friction",
         description: "Heat of friction along the flanks since the start",
-        at_wheels: false,
+        warms: Warmed::Node(GEARS),
     });
     const NEEDS: Option<Needs> = Some(Needs { contacts: &[GearContact::Tooth], why: "it acts on single tooth pairs" });
 
@@ -24,7 +25,7 @@ impl Declare for ToothFrictionSpec {
 }
 
 impl Effect for ToothFrictionSpec {
-    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, _: &EffectSetting, found: &mut Vec<Problem>) {
         found.extend(self.problem());
     }
 
@@ -32,7 +33,7 @@ impl Effect for ToothFrictionSpec {
         self.viscosity_from_oil && self.law != FrictionLaw::CoulombStribeck
     }
 
-    fn on_flanks(&self, setting: &Setting) -> Option<FlankFriction> {
+    fn on_flanks(&self, setting: &EffectSetting) -> Option<FlankFriction> {
         let material = setting.material;
         let modulus = material.young_modulus / (2.0 * (1.0 - material.poisson_ratio * material.poisson_ratio));
         Some(FlankFriction {

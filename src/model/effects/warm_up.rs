@@ -1,17 +1,15 @@
 //! Warming up: oil, gears, clutch packs, washers and case as nodes of a thermal network (`model::thermal`), fed by the
-//! heat of the ledger. Heat of brakes and half-shafts arises elsewhere and stays outside.
+//! heat of the ledger. Each heat declares the node that it warms. Heat of brakes and of shafts stays outside.
 //!
 //! Friction that depends on temperature (`effect_kinds::slip_spec`) uses the temperature of its node. Without this
 //! effect, all nodes have the temperature `oil.temperature`.
 
-use super::clutches::COMMANDED_HEAT;
-use super::limited_slip::CLUTCH_HEAT;
 use crate::declaration::prelude::*;
 use crate::declaration::{Range, Row, row};
-use crate::model::effect_kinds::{BUILT, Declare, Effect, InputField, Reading, Setting, readings};
+use crate::model::effect_kinds::{BUILT, Declare, Effect, EffectSetting, InputField, Reading, Warmed, readings};
 use crate::model::scene::{Scene, Start};
 use crate::model::thermal::network::{Around, Conductance};
-use crate::model::thermal::{CASE, CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
+use crate::model::thermal::{CLUTCH, GEARS, NODES, Network, OIL, WASHERS};
 use crate::problem::Problem;
 
 parameters! {
@@ -119,7 +117,7 @@ pub const SUMP_CHANGE: &str = "warm_up.sump_change";
 const MOST_CHANGE: f64 = 500.0;
 
 impl Effect for WarmUpSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         let Range { min: coldest, max: hottest } = TEMPERATURES;
         for (name, above) in self.above_oil() {
             let temperature = setting.oil.temperature + above;
@@ -155,26 +153,19 @@ impl WarmUpSpec {
         temperatures
     }
 
-    /// Shares of the nodes in the heat `output` of the ledger.
-    fn shares(&self, output: &str) -> [f64; NODES] {
+    /// Shares of the nodes in a heat of the ledger.
+    fn shares(&self, of: Warmed) -> [f64; NODES] {
         let mut shares = [0.0; NODES];
-        let node = match output {
-            "heat.contact" | "heat.tooth_friction" => GEARS,
-            "heat.thrust" => WASHERS,
-            "heat.support" => CASE,
-            "heat.drag" => OIL,
-            name if [CLUTCH_HEAT.output, COMMANDED_HEAT.output].contains(&name) => CLUTCH,
-            _ => return shares,
-        };
+        let Warmed::Node(node) = of else { return shares };
         let direct = if matches!(node, GEARS | WASHERS | CLUTCH) { self.oil_share } else { 0.0 };
         shares[OIL] += direct;
         shares[node] += 1.0 - direct;
         shares
     }
 
-    /// Network with gears of `mass` [kg], for the heats `outputs` of the ledger. A given sump has the temperature `oil`
+    /// Network with gears of `mass` [kg], for the `heats` of the ledger. A given sump has the temperature `oil`
     /// [K].
-    pub fn network<const H: usize>(&self, mass: f64, oil: f64, outputs: [&str; H]) -> Network<H> {
+    pub fn network<const H: usize>(&self, mass: f64, oil: f64, heats: [Warmed; H]) -> Network<H> {
         let constant = |at_rest| Conductance { at_rest, per_speed: 0.0 };
         let gears = Conductance { at_rest: self.gears_to_oil, per_speed: self.gears_to_oil_per_speed };
         let (clutch, washers, case) = (self.clutch_to_oil, self.washers_to_oil, self.oil_to_case);
@@ -189,7 +180,7 @@ impl WarmUpSpec {
             to_oil: [Conductance::default(), gears, constant(clutch), constant(washers), constant(case)],
             to_ambient: Conductance { at_rest: self.case_to_ambient, per_speed: self.case_to_ambient_per_speed },
             around: Around { ambient: self.ambient_temperature, sump: self.sump_given.then_some(oil) },
-            shares: outputs.map(|output| self.shares(output)),
+            shares: heats.map(|heat| self.shares(heat)),
         }
     }
 }

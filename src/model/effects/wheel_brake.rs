@@ -10,11 +10,11 @@
 //! instead of a locked mode. Both wheels may therefore be braked while speeds are imposed.
 
 use crate::declaration::prelude::*;
-use crate::declaration::{Row, row};
+use crate::declaration::{Row, sides};
 use crate::model::effect_kinds::dry_friction::DAMPING_TIME;
 use crate::model::effect_kinds::{
-    BUILT, ByLoad, Class, Command, Declare, Effect, Heat, InputField, Reading, RubbingSurface, Setting, Slides,
-    SlipSpec, SurfaceTemperature, check_slip, depends_on_temperature, readings,
+    BUILT, ByLoad, Class, Command, Declare, Effect, EffectSetting, Heat, InputField, Reading, RubbingSurface, Slides,
+    SlipSpec, SurfaceTemperature, Warmed, check_slip, depends_on_speed, depends_on_temperature, readings,
 };
 use crate::model::scene::{MAX_TORQUE, RubbingKind};
 use crate::numeric::sqrt;
@@ -26,8 +26,7 @@ parameters! {
         /// Stiffness of a brake at standstill
         stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9;
         /// Mean radius of the linings, for sliding speed
-        mean_radius: f64 = 0.12, METRE | MM, 1e-3..=1.0,
-            when(any([above!(Self.sliding.stribeck_speed, 0.0), differs!(Self.sliding.slip_slope, 0.0)]));
+        mean_radius: f64 = 0.12, METRE | MM, 1e-3..=1.0, when(depends_on_speed::<Self>());
         /// Lining area of a wheel brake
         friction_area: f64 = 0.01, SQUARE_METRE | CM2, 1e-8..=10.0;
         /// Coefficient of friction of the linings
@@ -49,8 +48,11 @@ impl Declare for WheelBrakeSpec {
     const DESCRIPTION: &'static str = "Wheel brakes, controlled by left.brake_torque and right.brake_torque";
     const CLASS: Class = Class::Machine;
     const PV_LIMIT: Option<&'static str> = Some("wheel_brake.pv_limit");
-    const HEAT: Option<Heat> =
-        Some(Heat { output: "heat.brake", description: "Heat of the wheel brakes since the start", at_wheels: true });
+    const HEAT: Option<Heat> = Some(Heat {
+        output: "heat.brake",
+        description: "Heat of the wheel brakes since the start",
+        warms: Warmed::Wheels,
+    });
     const READINGS: &'static [Reading] = readings! {
         /// Pressure times sliding speed of the linings; larger of both
         "pv.brake": W_PER_M2 | W_PER_MM2, Always;
@@ -58,43 +60,34 @@ impl Declare for WheelBrakeSpec {
     const EXAMPLE: &'static [(&'static str, f64)] = &[("left.brake_torque", 200.0), ("right.brake_torque", 200.0)];
 
     fn inputs() -> Vec<Row<InputField>> {
-        let torque = |name, at: InputField, description| {
-            // a build without effects accepts no brake torque
-            let max = if BUILT { MAX_TORQUE } else { 0.0 };
-            row(name, description).command(NEWTON_METRE, max, at)
-        };
+        let [left, right] = sides(
+            "brake_torque",
+            "Brake torque on the {side} wheel, with effects.wheel_brake; it opposes rotation and holds a standing \
+             wheel",
+        );
+        // a build without effects accepts no brake torque
+        let max = if BUILT { MAX_TORQUE } else { 0.0 };
         vec![
-            torque(
-                "left.brake_torque",
-                |i| &mut i.brake_torque[0],
-                "Brake torque on the left wheel, with effects.wheel_brake; it opposes rotation and holds a standing \
-                 wheel",
-            ),
-            torque(
-                "right.brake_torque",
-                |i| &mut i.brake_torque[1],
-                "Brake torque on the right wheel, with effects.wheel_brake; it opposes rotation and holds a \
-                 standing wheel",
-            ),
+            left.command(NEWTON_METRE, max, |i| &mut i.brake_torque[0]),
+            right.command(NEWTON_METRE, max, |i| &mut i.brake_torque[1]),
         ]
     }
 }
 
 impl Effect for WheelBrakeSpec {
-    fn check(&self, _: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, _: &EffectSetting, found: &mut Vec<Problem>) {
         check_slip!("wheel_brake", self.sliding, found);
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         let end = [setting.inertia.left_end, setting.inertia.right_end];
-        // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
-        let per_load = 1.0 / (self.lining_coefficient * self.friction_area);
+        let limit = ByLoad { per_load: 1.0, ..ByLoad::NONE };
         surfaces.push(RubbingSurface {
-            limit: ByLoad { per_load: 1.0, ..ByLoad::NONE },
+            limit,
             stiffness: self.stiffness,
             damping_time: end.map(|inertia| DAMPING_TIME.max(2.0 * sqrt(inertia / self.stiffness))),
             radius: self.mean_radius,
-            pressed: ByLoad { per_load, ..ByLoad::NONE },
+            pressed: limit.pressed(self.lining_coefficient, self.friction_area),
             sliding: self.sliding,
             temperature: SurfaceTemperature::Given(self.temperature),
             command: Command::Limits(|inputs| inputs.brake_torque),

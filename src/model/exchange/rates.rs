@@ -23,7 +23,8 @@ impl Simulation {
     pub fn rates(&self, q: &[f64], v: &[f64], [dq, dv]: [&mut [f64]; 2]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
+            let n = equations.degrees_of_freedom();
+            let at = first::<N>(n, q, v);
             let (acceleration, _) = equations.evaluate(&at);
             dq[..n].copy_from_slice(&equations.rates(&at.v)[..n]);
             dv[..n].copy_from_slice(&acceleration[..n]);
@@ -35,7 +36,8 @@ impl Simulation {
     pub fn slopes(&self, q: &[f64], v: &[f64], rows: &mut [f64]) {
         let (inputs, state) = (&self.inputs, &self.state);
         with_equations!(self.model, state, inputs, |equations| {
-            let (n, at) = (equations.degrees_of_freedom(), first::<N>(equations.degrees_of_freedom(), q, v));
+            let n = equations.degrees_of_freedom();
+            let at = first::<N>(n, q, v);
             let linearisation = equations.linearise(&at);
             let mut rates: [[f64; N]; N] = std::array::from_fn(|i| std::array::from_fn(|j| f64::from(i == j)));
             equations.times_rates(&mut rates);

@@ -161,11 +161,8 @@ impl Simulation {
 
     /// Forces along `direction`. If nothing moves, the meshes do not change and are left out.
     pub fn forces_along(&self, direction: &Direction) -> StencilReadings<Forces> {
-        if direction.moves() {
-            self.along(direction, |displaced| displaced.forces_of_state(Extent::Components))
-        } else {
-            self.along(direction, |displaced| displaced.forces_of_state(Extent::Bodies))
-        }
+        let extent = if direction.moves() { Extent::Components } else { Extent::Bodies };
+        self.along(direction, |displaced| displaced.forces_of_state(extent))
     }
 
     /// Loaded tooth pairs along `direction`.
@@ -177,7 +174,7 @@ impl Simulation {
         }
     }
 
-    fn along<T>(&self, direction: &Direction, read: fn(&Self) -> T) -> StencilReadings<T> {
+    fn along<T>(&self, direction: &Direction, read: impl Fn(&Self) -> T) -> StencilReadings<T> {
         let size = self.natural_size(direction);
         let apart = if size > 0.0 { APART / size } else { 1.0 };
         let mut displaced = Self { forces: None, ..self.clone() };
@@ -226,11 +223,8 @@ impl Simulation {
             }
         }
         displaced.inputs = self.inputs.plus(factor, &direction.inputs);
-        for (to, (from, change)) in
-            state.sums.thermal.rises.iter_mut().zip(from.sums.thermal.rises.iter().zip(&direction.temperatures))
-        {
-            *to = from + factor * change;
-        }
+        let rises = &from.sums.thermal.rises;
+        state.sums.thermal.rises = std::array::from_fn(|i| rises[i] + factor * direction.temperatures[i]);
     }
 
     /// Largest change in `direction`, in natural magnitudes.

@@ -1,10 +1,9 @@
 //! Values for the host's solver: continuous states, their rates, and event indicators. The states are the same in every
 //! scene: position and velocity of each body. Positions are unwrapped.
 
-use crate::model::assembly::Gears;
+use crate::model::dynamics::FrictionEquations;
 use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::with_equations;
-use crate::model::dynamics::{FrictionEquations, Largest};
 use crate::model::run::Simulation;
 use crate::model::scene::{CARRIER, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PAIRS, Plan, RubbingKind};
 
@@ -76,16 +75,14 @@ impl Body {
 impl Simulation {
     /// All states; 0 for bodies that do not move independently.
     pub fn states(&self) -> [f64; STATES] {
-        let present = self.with_inputs_applied();
-        let state = &present.as_ref().unwrap_or(self).state;
+        let state = &self.with_inputs_applied().state;
         self.states_of(|i| state.position(i, &self.model.periods), &state.v)
     }
 
     /// Rates of all states.
     pub fn state_rates(&self) -> [f64; STATES] {
         let [mut dq, mut dv] = [[0.0; MAX_DOF]; 2];
-        let present = self.with_inputs_applied();
-        let simulation = present.as_ref().unwrap_or(self);
+        let simulation = self.with_inputs_applied();
         simulation.rates(&simulation.state.q, &simulation.state.v, [&mut dq, &mut dv]);
         self.states_of(|i| dq[i], &dv)
     }
@@ -118,13 +115,13 @@ impl Simulation {
         let mut indicators = [NEVER; INDICATORS];
         let (model, inputs, state) = (&*self.model, &self.inputs, &self.state);
         let plan = &model.ideal.plan;
-        if let Gears::Teeth(teeth) = &model.gears {
-            let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        if let Some(equations) = self.teeth_equations() {
+            let (mesh, point) = (&equations.teeth.contact.mesh, state.point());
             for i in 0..plan.planets {
                 for s in 0..2 {
                     let position = equations.mesh_state(&point, plan.group_of[i], s).position[0];
-                    let drive = teeth.contact.mesh.drive_approach(position);
-                    let coast = -2.0 * teeth.contact.mesh.half_backlash() - drive;
+                    let drive = mesh.drive_approach(position);
+                    let coast = -2.0 * mesh.half_backlash() - drive;
                     indicators[4 * i + 2 * s] = drive * model.pair.mean_cone;
                     indicators[4 * i + 2 * s + 1] = coast * model.pair.mean_cone;
                 }

@@ -9,7 +9,7 @@ use crate::model::assembly::{Model, SIGMA};
 use crate::model::dynamics::ledger_rates::LedgerRates;
 use crate::model::dynamics::{FrictionEquations, IdealEquations, IdealTorques, Largest, MAX_SIZE, State};
 use crate::model::effect_kinds::dry_friction::SPEED_TOLERANCE;
-use crate::model::effect_kinds::{BodyMotion, Changes, Instant};
+use crate::model::effect_kinds::{BodyMotion, Changes, Instant, Warmed};
 use crate::model::effects::strength::{CONTACT_TEMPERATURE, GearStrength, MeshLoad};
 use crate::model::scene::{CARRIER, Inputs, MAX_GROUPS, MAX_PLANETS, Plan, RubbingKind};
 use crate::model::setup::effect_outputs::{ALL_HEATS, INSTANT_READINGS, indices_of};
@@ -161,23 +161,17 @@ fn add_up(out: &mut Forces, planets: usize) {
     }
 }
 
-/// Computes the powers from torques, speeds and the given `heat` [W]. `ends` are the speeds at which torques are
-/// delivered to the wheels [rad/s].
-fn add_powers(out: &mut Forces, plan: &Plan, state: &State, ends: [f64; 2], heat: f64) {
+/// Computes the powers from torques, speeds and the given `heat` [W].
+fn add_powers(out: &mut Forces, plan: &Plan, state: &State, heat: f64) {
     let v = &state.v;
     let drives = [out.drive_torque * v[plan.layout().port], out.spin_torque * v[plan.layout().planet(0)]];
-    let wheels = [out.shaft_torque[0] * ends[0], out.shaft_torque[1] * ends[1]];
+    let wheels = [0, 1].map(|s| out.shaft_torque[s] * v[if plan.shafts[s] { plan.layout().end(s) } else { s }]);
     (out.power_in, out.power_out) = (drives[0] + drives[1], wheels[0] + wheels[1]);
     out.power_fed = drives.iter().map(|power| power.max(0.0)).sum::<f64>()
         + wheels.iter().map(|power| (-power).max(0.0)).sum::<f64>();
     out.power_loss = heat;
     let torque = state.sums.torque_means.mean().filter(|_| plan.layout().has_ends()).unwrap_or(out.shaft_torque);
     (out.torque_bias_ratio, out.locking_value) = bias(torque, [v[0], v[1]]);
-}
-
-/// Speeds of the wheel-side ends.
-fn end_speeds(plan: &Plan, state: &State) -> [f64; 2] {
-    [0, 1].map(|s| if plan.shafts[s] { state.v[plan.layout().end(s)] } else { state.v[s] })
 }
 
 /// Sets the torque on the carrier, and the readings of the effects that follow from the motion. `held` is the torque with
@@ -225,7 +219,7 @@ fn read_pv<const N: usize>(out: &mut Forces, equations: &impl FrictionEquations<
 
 /// Power turned into heat within the differential [W].
 fn lost(heat: &[f64; HEATS]) -> f64 {
-    heat.iter().zip(&ALL_HEATS).map(|(heat, of)| if of.at_wheels { 0.0 } else { *heat }).sum()
+    heat.iter().zip(&ALL_HEATS).map(|(heat, of)| if of.warms == Warmed::Wheels { 0.0 } else { *heat }).sum()
 }
 
 /// Forces of the differential with teeth, to the requested `extent`.
@@ -254,8 +248,8 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
     let clutches = equations.commanded_torques(RubbingKind::Clutch, point);
     read_effects(&mut out, model, (inputs, state), (equations.pinion_friction(point), clutches));
     read_pv(&mut out, equations, point);
+    add_powers(&mut out, plan, state, lost(&ledger_rates.heat));
     if extent == Extent::Bodies {
-        add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
         return out;
     }
     let mut groups = [[MeshForces::default(); 2]; MAX_GROUPS];
@@ -278,7 +272,6 @@ pub fn teeth_forces(model: &Model, equations: &Largest, inputs: &Inputs, (state,
         out.mesh[i] = groups[plan.group_of[i]];
     }
     add_up(&mut out, plan.planets);
-    add_powers(&mut out, plan, state, end_speeds(plan, state), lost(&ledger_rates.heat));
     out
 }
 
@@ -389,7 +382,7 @@ fn without_teeth(
     };
     read_effects(&mut out, model, (inputs, state), (held, clutches));
     pitch_point_meshes(&mut out, &model.pair, plan.planets, torques.gears);
-    add_powers(&mut out, plan, state, end_speeds(plan, state), heat);
+    add_powers(&mut out, plan, state, heat);
     out
 }
 

@@ -17,7 +17,7 @@ use crate::model::dynamics::{Largest, MAX_SIZE};
 use crate::strength::LineContact;
 
 /// Number of pairs that are reported. With a contact ratio below 3, no mesh has more pairs on its path.
-pub const PAIRS: usize = 3;
+pub const TOOTH_PAIRS: usize = 3;
 /// Maximum number of sections of a pair of solid teeth.
 const SECTIONS: usize = 8;
 /// Share of the face above which a load represents the whole face.
@@ -45,7 +45,7 @@ impl Default for PairLine {
 }
 
 /// Loaded pairs of a mesh, from the planet's root to its tip.
-pub type PairLines = [PairLine; PAIRS];
+pub type PairLines = [PairLine; TOOTH_PAIRS];
 
 /// Sums over the sections of a pair.
 #[derive(Clone, Copy)]

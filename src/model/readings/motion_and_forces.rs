@@ -14,7 +14,7 @@ use crate::strength::LineContact;
 impl Simulation {
     /// Angles and speeds.
     pub fn motion(&self) -> Motion {
-        if let Some(present) = self.with_inputs_applied() { present.motion_of_state() } else { self.motion_of_state() }
+        self.with_inputs_applied().motion_of_state()
     }
 
     pub(in crate::model) fn motion_of_state(&self) -> Motion {
@@ -61,7 +61,7 @@ impl Simulation {
 
     fn forces_with(&mut self, extent: Extent) -> &Forces {
         if self.forces.as_ref().is_none_or(|forces| extent == Extent::Components && !forces.has_components) {
-            let forces = self.shown().as_ref().unwrap_or(self).forces_of_state(extent);
+            let forces = self.shown().forces_of_state(extent);
             self.forces = Some(forces);
         }
         self.forces.get_or_insert_default()
@@ -82,26 +82,30 @@ impl Simulation {
         }
     }
 
+    /// Equations of the teeth under the present inputs; `None` without teeth.
+    pub(in crate::model) fn teeth_equations(&self) -> Option<Largest<'_>> {
+        let Gears::Teeth(teeth) = &self.model.gears else { return None };
+        Some(Largest::new(teeth, &self.inputs, &self.state))
+    }
+
     /// Loaded tooth pairs of planet 1 with the left side gear under the present inputs.
     pub fn pair_lines(&self) -> PairLines {
-        self.with_inputs_applied().as_ref().unwrap_or(self).pair_lines_of_state()
+        self.with_inputs_applied().pair_lines_of_state()
     }
 
     pub(in crate::model) fn pair_lines_of_state(&self) -> PairLines {
-        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        let Gears::Teeth(teeth) = &model.gears else { return PairLines::default() };
+        let Some(equations) = self.teeth_equations() else { return PairLines::default() };
+        let model = &self.model;
         let material = &model.parameters.material;
         let contact = LineContact::new(&model.pair, material.young_modulus, material.poisson_ratio);
         let first = model.ideal.plan.group_of[0];
-        let equations = Largest::new(teeth, inputs, state);
-        pair_lines((&model.pair, &contact), &equations, &state.point(), [first, 0])
+        pair_lines((&model.pair, &contact), &equations, &self.state.point(), [first, 0])
     }
 
     /// Visits the load of every tooth pair, for one planet of each group. Without teeth, nothing is visited.
     pub fn tooth_loads(&self, mut visit: impl FnMut(&ToothLoad)) {
-        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        let Gears::Teeth(teeth) = &model.gears else { return };
-        let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        let Some(equations) = self.teeth_equations() else { return };
+        let (model, point) = (&self.model, self.state.point());
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {
                 equations.tooth_loads(&model.pair, &point, g, s, &mut visit);
@@ -113,9 +117,8 @@ impl Simulation {
     /// face. The second argument of `visit` is then a function that returns the pair's load per width [N/m] at any cone
     /// distance [m]. The components of the normal are left at zero.
     pub fn loads_over_the_face(&self, visit: impl FnMut(&ToothLoad, Option<&dyn Fn(f64) -> f64>)) {
-        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
-        let Gears::Teeth(teeth) = &model.gears else { return };
-        let first = model.ideal.plan.group_of[0];
-        Largest::new(teeth, inputs, state).loads_over_the_face(&state.point(), first, 0, visit);
+        let Some(equations) = self.teeth_equations() else { return };
+        let first = self.model.ideal.plan.group_of[0];
+        equations.loads_over_the_face(&self.state.point(), first, 0, visit);
     }
 }

@@ -1,6 +1,8 @@
 //! Simulation as its outputs show it: under the present inputs, which the next step will apply, and with sums up to the
 //! present, which follow from the dense output of the pending step.
 
+use std::borrow::Cow;
+
 use crate::integrate::{Rodas5P, Solver, SolverContext};
 use crate::model::assembly::Model;
 use crate::model::dynamics::shape::Shape;
@@ -68,15 +70,14 @@ impl InShape for Reader<'_> {
 }
 
 impl Simulation {
-    /// Returns the simulation with its inputs applied, or `None` if this changes nothing. Speeds follow commands that
-    /// were set since the last step, and brakes follow their torques. The step itself begins with this change and
-    /// records its work.
-    pub fn with_inputs_applied(&self) -> Option<Self> {
+    /// Returns the simulation with its inputs applied. Speeds follow commands that were set since the last step, and
+    /// brakes follow their torques. The step itself begins with this change and records its work.
+    pub fn with_inputs_applied(&self) -> Cow<'_, Self> {
         let is_met = imposed::are_met(&self.model, &self.inputs, &self.state);
         // with a solver of the host, friction changes only at events
         let may_brake = !self.is_model_exchange() && has_commanded(&self.model);
         if is_met && !may_brake {
-            return None;
+            return Cow::Borrowed(self);
         }
         let mut state = self.state;
         if !is_met {
@@ -84,9 +85,9 @@ impl Simulation {
         }
         let braked = if may_brake { with_commanded(&self.model, &self.inputs, &state) } else { None };
         if is_met && braked.is_none() {
-            return None;
+            return Cow::Borrowed(self);
         }
-        Some(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
+        Cow::Owned(Self { state: braked.unwrap_or(state), forces: None, ..self.clone() })
     }
 
     /// Returns the simulation with the brakes and clutches applied whose inputs change from 0 in the direction `change`,
@@ -107,14 +108,14 @@ impl Simulation {
         Some(Self { state, inputs, forces: None, ..self.clone() })
     }
 
-    /// Returns the simulation as its outputs show it, or `None` if it does not differ: with its inputs applied, and
-    /// with temperatures and means over mesh cycles up to the present. Friction changes only with completed steps.
-    pub fn shown(&self) -> Option<Self> {
+    /// Returns the simulation as its outputs show it: with its inputs applied, and with temperatures and means over
+    /// mesh cycles up to the present. Friction changes only with completed steps.
+    pub fn shown(&self) -> Cow<'_, Self> {
         let mut shown = self.with_inputs_applied();
         if (self.model.layout.has_ends() || self.model.thermal.is_some()) && self.state.pending_step.is_some() {
             let sums = present_sums(&self.model, &self.state, None).map(|(sums, _)| sums);
             let present = sums.unwrap_or_else(|| self.completed().state.sums);
-            let Sums { torque_means, thermal, .. } = &mut shown.get_or_insert_with(|| self.clone()).state.sums;
+            let Sums { torque_means, thermal, .. } = &mut shown.to_mut().state.sums;
             *torque_means = present.torque_means;
             thermal.rises = present.thermal.rises;
         }

@@ -3,8 +3,7 @@
 
 use crate::declaration::units::{RPM, W_PER_MM2};
 use crate::friction::FrictionLaw;
-use crate::model::assembly::Gears;
-use crate::model::dynamics::{FrictionEquations, Largest, with_equations};
+use crate::model::dynamics::{FrictionEquations, with_equations};
 use crate::model::effect_kinds::FrictionState;
 use crate::model::effects::EFFECTS;
 use crate::model::effects::strength::{Stressed, Tally};
@@ -35,69 +34,50 @@ pub struct Reported {
     outside: [bool; OUTSIDE.len()],
     end: bool,
     rattle: bool,
+    chatter: bool,
     coupling: bool,
     speed: bool,
     blocked: bool,
+}
+
+/// Returns the warning that `find` returns, unless one has been `reported`, and marks it as reported.
+fn once(reported: &mut bool, find: impl FnOnce() -> Option<Problem>) -> Option<Problem> {
+    let found = if *reported { None } else { find() };
+    *reported |= found.is_some();
+    found
 }
 
 impl Simulation {
     /// Returns the warnings about the time up to now that are not in `reported` yet, and adds them to it.
     pub fn unreported(&self, reported: &mut Reported) -> Vec<Problem> {
         let mut found = Vec::new();
-        if !reported.friction_law
-            && let Some(problem) = self.outside_friction_law()
-        {
-            reported.friction_law = true;
-            found.push(problem);
-        }
+        found.extend(once(&mut reported.friction_law, || self.outside_friction_law()));
         if self.model.strength.is_some() {
-            for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress).filter(|(_, done)| !**done) {
-                if let Some(overload) = self.memories.strength.get().and_then(|of| of.tally.overloads.of(what)) {
-                    *reported = true;
-                    found.push(overload.warning(what, &self.model.ideal.plan));
-                }
+            for (what, reported) in Stressed::ALL.into_iter().zip(&mut reported.stress) {
+                found.extend(once(reported, || {
+                    let overload = self.memories.strength.get()?.tally.overloads.of(what)?;
+                    Some(overload.warning(what, &self.model.ideal.plan))
+                }));
             }
         }
-        if !reported.speed
-            && let Some(problem) = self.too_fast()
-        {
-            reported.speed = true;
-            found.push(problem);
+        found.extend(once(&mut reported.speed, || self.too_fast()));
+        found.extend(once(&mut reported.blocked, || self.blocked_by_clutches()));
+        found.extend(once(&mut reported.coupling, || self.costly_coupling()));
+        found.extend(once(&mut reported.rattle, || effort::rattle_warning(&self.model, &self.state)));
+        found.extend(once(&mut reported.chatter, || effort::chatter_warning(&self.model, &self.inputs, &self.state)));
+        for (effect, reported) in EFFECTS.iter().zip(&mut reported.pv) {
+            found.extend(once(reported, || self.above_pv_limit(effect.name, effect.pv_limit?)));
         }
-        if !reported.blocked
-            && let Some(problem) = self.blocked_by_clutches()
-        {
-            reported.blocked = true;
-            found.push(problem);
-        }
-        if !reported.coupling
-            && let Some(problem) = self.costly_coupling()
-        {
-            reported.coupling = true;
-            found.push(problem);
-        }
-        if !reported.rattle
-            && let Some(problem) = effort::rattle_warning(&self.model, &self.state)
-        {
-            reported.rattle = true;
-            found.push(problem);
-        }
-        for (effect, reported) in EFFECTS.iter().zip(&mut reported.pv).filter(|(_, done)| !**done) {
-            if let Some(problem) = effect.pv_limit.and_then(|limit| self.above_pv_limit(effect.name, limit)) {
-                *reported = true;
-                found.push(problem);
-            }
-        }
-        let outside = OUTSIDE.into_iter().zip(self.temperatures_outside()).zip(&mut reported.outside);
-        for (((variable, what), beyond), reported) in outside.filter(|(_, done)| !**done) {
-            if let Some([commanded, kept]) = beyond {
-                *reported = true;
-                found.push(problem!(
+        let outside = OUTSIDE.into_iter().zip(self.temperatures_outside());
+        for (((variable, what), beyond), reported) in outside.zip(&mut reported.outside) {
+            found.extend(once(reported, || {
+                let [commanded, kept] = beyond?;
+                Some(problem!(
                     variable,
                     "would set {what} to {commanded:.2} K; {what} is kept at {kept:.2} K, the end of the range; \
                      reported once"
-                ));
-            }
+                ))
+            }));
         }
         found
     }
@@ -292,14 +272,13 @@ impl Simulation {
     /// Warning about a quantity outside the range of the tooth friction law at this instant; `None` if all quantities
     /// are inside. Coulomb's law has no such range.
     fn outside_friction_law(&self) -> Option<Problem> {
-        let (model, inputs, state) = (&self.model, &self.inputs, &self.state);
+        let (model, state) = (&self.model, &self.state);
         let p = &model.parameters;
         if !p.effects.tooth_friction || p.specs.tooth_friction.law == FrictionLaw::CoulombStribeck {
             return None;
         }
-        let Gears::Teeth(teeth) = &model.gears else { return None };
         let mut found = None;
-        let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
+        let (equations, point) = (self.teeth_equations()?, state.point());
         let friction = equations.flank_friction()?;
         for g in 0..model.ideal.plan.groups().len() {
             for s in 0..2 {

@@ -12,8 +12,9 @@ const EFFECTS: usize = 3;
 const PLAIN: usize = 16;
 /// Maximum cost of a step of ideal gears with all effects, relative to a step of plain teeth.
 const IDEAL: usize = 2;
-/// Maximum cost of a step of `radau`, which iterates, relative to a step of the default method.
-const RADAU_IN_STEPS: usize = 8;
+/// Maximum cost of a step of `radau`, relative to a step of the default method. Plain teeth reach it, because their
+/// evaluations are cheap compared with the complex matrices of `radau`.
+const RADAU_IN_STEPS: usize = 3;
 
 /// Maximum number of attempted steps, as [`BUDGET`]. It is smaller if a step costs more.
 pub fn budget(model: &Model) -> u64 {

@@ -7,11 +7,11 @@ use super::LedgerEquations;
 use crate::model::assembly::ideal_with_effects::{IDEAL_SIZE, IdealWithEffects, SHAFTS_SIZE};
 use crate::model::assembly::{Gears, Model, Teeth};
 use crate::model::dynamics::shape::{
-    Any, ENDS_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithBodies, WithEffects,
-    WithEnds,
+    Any, FEW_SIZE, MEDIUM_SIZE, PLAIN_SIZE, Plain, PlainDriven, Shape, TWO_GROUPS_SIZE, WithBodies, WithEffects,
+    WithEnds, WithPinion,
 };
 use crate::model::dynamics::{Equations, IdealEquations, MAX_SIZE, State};
-use crate::model::scene::{Inputs, Method};
+use crate::model::scene::{FEW, Inputs, Method};
 
 /// Work with the equations in the shape of a scene.
 pub trait InShape: Sized {
@@ -38,7 +38,7 @@ pub fn in_shape<W: InShape>(model: &Model, work: W) -> W::Output {
 
 /// Does the `work` with the equations of `teeth`, which may group planets that the model treats separately.
 pub fn in_shape_of<W: InShape>(teeth: &Teeth, model: &Model, work: W) -> W::Output {
-    let (groups, plain) = (teeth.layout.groups, teeth.layout.plain());
+    let (groups, attached) = (teeth.layout.groups, teeth.layout.attached_without_pins());
     let method = model.parameters.solver.method;
     let is_default = method == Method::Adaptive;
     let state = work.inputs_and_state().1;
@@ -50,15 +50,18 @@ pub fn in_shape_of<W: InShape>(teeth: &Teeth, model: &Model, work: W) -> W::Outp
             _ => {}
         }
     }
-    match (groups, plain) {
-        (1, Some(false)) if is_default || method == Method::FixedStep => {
+    match (groups, attached) {
+        (1, Some(0)) if is_default || method == Method::FixedStep => {
             monomorphised::<PLAIN_SIZE, WithEffects<1>, W>(teeth, work)
         }
-        (2, Some(false)) if FULL && is_default => monomorphised::<TWO_GROUPS_SIZE, WithEffects<2>, W>(teeth, work),
-        (1, Some(true)) if is_default || !FULL => monomorphised::<ENDS_SIZE, WithEnds, W>(teeth, work),
-        (1, _) if FULL && is_default && !teeth.layout.has_pins => {
-            monomorphised::<MEDIUM_SIZE, WithBodies, W>(teeth, work)
+        (2, Some(0)) if FULL && is_default => monomorphised::<TWO_GROUPS_SIZE, WithEffects<2>, W>(teeth, work),
+        (1, Some(FEW)) if teeth.layout.has_ends() && (is_default || !FULL) => {
+            monomorphised::<FEW_SIZE, WithEnds, W>(teeth, work)
         }
+        (1, Some(1..=FEW)) if FULL && is_default && !teeth.layout.has_ends() => {
+            monomorphised::<FEW_SIZE, WithPinion, W>(teeth, work)
+        }
+        (1, Some(_)) if FULL && is_default => monomorphised::<MEDIUM_SIZE, WithBodies, W>(teeth, work),
         _ if FULL && teeth.layout.count() <= MEDIUM_SIZE => through_object::<MEDIUM_SIZE, W>(teeth, work),
         _ => through_object::<MAX_SIZE, W>(teeth, work),
     }

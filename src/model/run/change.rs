@@ -61,7 +61,6 @@ fn effective_inputs(model: &Model, inputs: &Inputs) -> Inputs {
 /// Starts a new interval of constant inputs at the present, after a change of torques. Returns the present on the
 /// `clock` [s].
 pub fn begin_interval(state: &mut State, clock: &mut Clock) -> f64 {
-    state.timeline.pause = None;
     state.timeline.begin_constant_inputs();
     clock.expected = clock.now + state.timeline.expected();
     clock.now

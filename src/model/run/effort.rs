@@ -1,6 +1,6 @@
-//! Causes of many steps: rattle, or a criterion that keeps rejecting steps.
+//! Causes of many steps: rattle, dry friction that switches all the time, or a criterion that keeps rejecting steps.
 
-use super::hints;
+use super::{hints, six_digits};
 use crate::declaration::SIDES;
 use crate::integrate::{Point, SecondOrder, Statistics};
 use crate::model::assembly::BodyEffects;
@@ -9,7 +9,7 @@ use crate::model::dynamics::rattle::Rattle;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, State};
 use crate::model::effect_kinds::Mode;
-use crate::model::scene::{CARRIER, GearContact, Inputs, Layout, RubbingKind};
+use crate::model::scene::{CARRIER, GearContact, Inputs, Layout, PAIRS, RubbingKind};
 use crate::model::setup::{ATTACHED, Parameters};
 use crate::problem::Problem;
 
@@ -17,6 +17,11 @@ use crate::problem::Problem;
 const FEW_STEPS: u64 = 10_000;
 /// Number of impacts below which rattle is not reported. A start, or a few reversals of the torque, stay below it.
 const FEW_IMPACTS: u64 = 100;
+
+/// Number of switches of dry friction below which they are not reported. Judder of a car stays below it.
+const FEW_SWITCHES: u32 = 1_000;
+/// Number of steps per switch above which switches do not determine the number of steps.
+const STEPS_PER_SWITCH: u64 = 20;
 
 /// Returns a warning if most steps were spent on rattle, with their number and a remedy.
 pub fn rattle_warning(model: &Model, state: &State) -> Option<Problem> {
@@ -50,6 +55,34 @@ fn what_ends_rattle(p: &Parameters) -> &'static str {
             "more drag ends the rattle sooner: raise bearing_drag.carrier_torque and bearing_drag.side_torque"
         }
     }
+}
+
+/// Returns a warning if dry friction switches so often that this determines the number of steps. It names the spring
+/// that winds up least, and a remedy.
+pub fn chatter_warning(model: &Model, inputs: &Inputs, state: &State) -> Option<Problem> {
+    let (switches, all) = (state.events.count(), state.statistics.accepted);
+    if all < FEW_STEPS || switches < FEW_SWITCHES || all > STEPS_PER_SWITCH * u64::from(switches) {
+        return None;
+    }
+    with_equations!(model, state, inputs, |equations| {
+        let at: Point<N> = state.point();
+        let torques = equations.friction_torques(&at);
+        let wound = |number: usize| (torques[number] / state.friction[number].stiffness).abs();
+        let acts = |number: &usize| state.friction[*number].stiffness > 0.0 && torques[*number] != 0.0;
+        let number = (0..PAIRS).filter(acts).min_by(|&i, &j| wound(i).total_cmp(&wound(j)))?;
+        let kind = RubbingKind::of(number).0;
+        let on_it = model.body_effects().surfaces.iter().filter(|surface| surface.kind == kind);
+        let effect = on_it.max_by(|a, b| a.stiffness.total_cmp(&b.stiffness))?.effect;
+        Some(problem!(
+            "solver.steps",
+            "{switches} times within the {all} steps so far, dry friction has broken away or stuck: the spring with which \
+             {effect} holds {} winds up by only {:.1e} rad at {} N.m, so that both alternate quickly; real parts yield more: \
+             lower the stiffness of {effect}; reported once",
+            model.ideal.plan.rubbing_body(number),
+            wound(number),
+            six_digits(torques[number].abs())
+        ))
+    })
 }
 
 /// Returns the reason for too many steps: the criterion that rejected most steps since the counts `before`, and the
@@ -143,6 +176,7 @@ mod tests {
     use super::*;
     use crate::model::Simulation;
     use crate::model::assembly::Given;
+    use crate::model::dynamics::event::Happening;
     use crate::model::scene::{CarrierDrive, Start};
 
     /// Wheels held by brakes, shortly after a torque on the carrier started to act on them.
@@ -175,6 +209,24 @@ mod tests {
         let text = too_many_steps(&model, &inputs, &state, &before);
         assert!(text.starts_with("77 of the last 77 were accepted, the last one with a size of"), "{text}");
         assert_eq!(fewer_steps(&model, &state), "look at the inputs");
+    }
+
+    #[test]
+    fn friction_that_switches_all_the_time_is_reported_with_its_spring() {
+        let (model, inputs, mut state) = held();
+        state.statistics.accepted = 20_000;
+        assert_eq!(chatter_warning(&model, &inputs, &state), None);
+        (0..2_000).for_each(|k| state.events.record(Happening::WheelStops, 1, f64::from(k)));
+        let switches = state.events.count();
+        let warning = chatter_warning(&model, &inputs, &state).unwrap().to_string();
+        let begin =
+            format!("solver.steps: {switches} times within the 20000 steps so far, dry friction has broken away");
+        assert!(warning.starts_with(&begin), "{warning}");
+        assert!(warning.contains("wheel_brake holds the "), "{warning}");
+        assert!(warning.contains("lower the stiffness of wheel_brake;"), "{warning}");
+        // judder of a car, whose vibrations take most of the steps
+        state.statistics.accepted = 100_000;
+        assert_eq!(chatter_warning(&model, &inputs, &state), None);
     }
 
     #[test]

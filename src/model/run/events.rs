@@ -11,7 +11,7 @@ use crate::model::dynamics::dogs::DogEquations;
 use crate::model::dynamics::event::Happening;
 use crate::model::dynamics::with_equations;
 use crate::model::dynamics::{FrictionEquations, InputsAndFriction, State};
-use crate::model::effect_kinds::FrictionState;
+use crate::model::effect_kinds::{FrictionState, PairFriction};
 use crate::model::scene::{ACTUATED_LOCK, Dogs, Inputs, PAIRS, RubbingKind};
 use crate::model::setup::CONTACT_HEAT;
 
@@ -141,6 +141,16 @@ fn switch_friction(model: &Model, inputs: &Inputs, state: &mut State) {
         equations.settle_friction(&state.point(), 0.0, true, &mut state.sums.heat);
         state.friction = equations.applied().friction_state;
     });
+}
+
+/// Winds up the springs of pairs at rest to their torques in `friction`, and lets those slide that begin to.
+pub fn wind_friction(model: &Model, inputs: &Inputs, state: &mut State, friction: &PairFriction) {
+    if model.body_effects().may_have_dry_friction(state) {
+        with_equations!(model, state, inputs, |equations| {
+            equations.wind_friction(&state.point(), friction);
+            state.friction = equations.applied().friction_state;
+        });
+    }
 }
 
 /// True if brakes or clutches were applied or released since friction last switched.

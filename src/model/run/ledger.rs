@@ -48,7 +48,7 @@ impl<const N: usize, S: Shape<N>> LedgerEquations<N> for Equations<'_, S, N> {
         if self.teeth.records_more {
             self.record_more(model, step, (begin, sums, memories));
         }
-        if self.has_ends() {
+        if S::MAY_HAVE_ENDS && self.teeth.layout.has_ends() {
             let torque = [0, 1].map(|s| simpson(step, |p| p.shaft[s]));
             let turned = [0, 1].map(|s| step.end.q[s] - step.start.q[s]);
             let cycle = CycleCounter { pitch: model.periods[LEFT] };

@@ -88,7 +88,7 @@ impl Simulation {
         }
         let derivatives = input_derivatives.map(|given| self.model.ideal.plan.with_drive(*given));
         if derivatives != self.state.inputs.derivatives {
-            InputDerivatives::copy(derivatives.as_ref(), &mut self.state.inputs.derivatives);
+            self.state.inputs.derivatives = derivatives;
             self.state.timeline.pause = None;
             self.forces = None;
         }

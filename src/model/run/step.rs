@@ -148,7 +148,6 @@ impl Simulation {
             // the next steps are as long as those after the last discontinuity
             state.control.discontinuity(None);
         }
-        state.timeline.pause = None;
         imposed::follow_commands(model, inputs, state);
         apply_changes(model, inputs, state);
         state.timeline.begin_constant_inputs();

@@ -46,6 +46,16 @@ impl Dogs {
         Self { closed: [0, 1].map(|s| (of[s].is_some() && commanded[s]).then_some(0.0)), commanded }
     }
 
+    /// State of the clutch of side `s`.
+    pub fn of(&self, s: usize) -> DogState {
+        (self.closed[s], self.commanded[s])
+    }
+
+    /// True if the clutch of side `s`, if it is among `of`, is open.
+    pub fn is_open(&self, of: &[Option<Dog>; 2], s: usize) -> bool {
+        of[s].is_some() && self.closed[s].is_none()
+    }
+
     /// Twist of the half-shaft of side `s` from which its torque counts [rad].
     #[inline]
     pub fn middle(&self, s: usize) -> f64 {
@@ -57,6 +67,10 @@ impl Dogs {
         inputs.dog_command.map(|command| command > 0.5)
     }
 }
+
+/// Twist at which the teeth of a closed clutch are in the middle of their gaps [rad], or `None` if it is open, and true
+/// if the command is to close.
+pub type DogState = (Option<f64>, bool);
 
 /// Twist across a dog clutch and its half-shaft [rad], the rate of the twist [rad/s], and the torque [N·m].
 #[derive(Clone, Copy, Debug)]
@@ -101,8 +115,8 @@ impl Dog {
     }
 
     /// Phase in this motion.
-    pub fn phase(&self, closed: Option<f64>, is_commanded: bool, at: &DogMotion) -> DogPhase {
-        match (closed, is_commanded) {
+    pub fn phase(&self, state: DogState, at: &DogMotion) -> DogPhase {
+        match state {
             (Some(_), true) => DogPhase::Closed,
             (Some(_), false) => DogPhase::WaitsForTorque,
             (None, false) => DogPhase::Open,
@@ -112,8 +126,8 @@ impl Dog {
     }
 
     /// Distance from the next switch: negative if it is due, infinite if none can occur.
-    pub fn margin(&self, closed: Option<f64>, is_commanded: bool, at: &DogMotion) -> f64 {
-        match (closed, is_commanded) {
+    pub fn margin(&self, state: DogState, at: &DogMotion) -> f64 {
+        match state {
             (None, true) => {
                 let speed = at.rate.abs() / self.most_speed - 1.0;
                 speed.max(self.off_gap(at.twist).abs() / self.half_lash - 1.0)
@@ -124,14 +138,14 @@ impl Dog {
     }
 
     /// State after a switch that is due, or `None` if none is due.
-    pub fn switched(&self, closed: Option<f64>, is_commanded: bool, at: &DogMotion) -> Option<Option<f64>> {
-        let is_due = self.margin(closed, is_commanded, at) <= 0.0;
-        is_due.then(|| if closed.is_some() { None } else { Some(self.gap(at.twist)) })
+    pub fn switched(&self, state: DogState, at: &DogMotion) -> Option<Option<f64>> {
+        let is_due = self.margin(state, at) <= 0.0;
+        is_due.then(|| if state.0.is_some() { None } else { Some(self.gap(at.twist)) })
     }
 
     /// Fraction of a step at which a switch should end it, or `None` if the step may end where it does.
-    pub fn crossing(&self, closed: Option<f64>, is_commanded: bool, [start, end]: [&DogMotion; 2]) -> Option<f64> {
-        let fraction = match (closed, is_commanded) {
+    pub fn crossing(&self, state: DogState, [start, end]: [&DogMotion; 2]) -> Option<f64> {
+        let fraction = match state {
             (None, true) => self.engagement([start, end]),
             (Some(_), false) => self.disengagement([start.torque, end.torque]),
             _ => None,
@@ -156,7 +170,7 @@ impl Dog {
         if off.abs() <= self.half_lash {
             // a step that ends within the range of speed and gap ends well
             let ends_well =
-                self.margin(None, true, end) <= 0.0 && end.rate.abs() >= (1.0 - 2.0 * WITHIN) * self.most_speed;
+                self.margin((None, true), end) <= 0.0 && end.rate.abs() >= (1.0 - 2.0 * WITHIN) * self.most_speed;
             return Some(slow).filter(|&slow| slow > 0.0 && !ends_well);
         }
         let ahead = off * turned.signum();

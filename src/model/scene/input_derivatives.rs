@@ -24,17 +24,6 @@ impl InputDerivatives {
     /// Derivatives of constant inputs.
     pub const ZERO: Self = Self { rates: [Inputs::ZERO; ORDERS] };
 
-    /// Copies `from` to `to`. This costs nothing if there are no derivatives.
-    #[inline]
-    pub fn copy(from: Option<&Self>, to: &mut Option<Self>) {
-        match (from, to) {
-            (Some(from), Some(to)) => to.rates.copy_from_slice(&from.rates),
-            (Some(from), to) => *to = Some(*from),
-            (None, to @ Some(_)) => *to = None,
-            (None, None) => {}
-        }
-    }
-
     /// Returns the derivatives of each input, taken from `other` if its `mask` is not 0.
     pub fn pick(&self, other: &Self, mask: &Inputs) -> Self {
         Self { rates: std::array::from_fn(|order| self.rates[order].pick(&other.rates[order], mask)) }

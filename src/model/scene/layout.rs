@@ -23,6 +23,9 @@ pub const PLANET: usize = 3;
 pub const ATTACHED_COUNT: usize = 4;
 /// Number of half-shaft ends, which are the first attached bodies.
 pub const ENDS: usize = 2;
+/// Number of attached bodies for which steps are compiled separately: the half-shaft ends, or the bodies in front of
+/// the carrier.
+pub const FEW: usize = 2;
 /// Number of the pinion of the final drive among the attached bodies. It turns relative to the carrier.
 pub const PINION: usize = 2;
 /// Number of the driven end of the propeller shaft among the attached bodies.
@@ -40,6 +43,9 @@ pub struct Layout {
     pub has_pins: bool,
     /// Degree of freedom relative to which each attached body turns; `None` if the scene does not have this body.
     pub attached: [Option<usize>; ATTACHED_COUNT],
+    /// Degree of freedom relative to which each of the first attached bodies of the scene turns; for a body that it does
+    /// not have, the index that this body would have. It is stored because each stage of a step reads it.
+    pub first_bases: [usize; FEW],
     /// Degree of freedom on which the drive acts: the carrier, or an attached body in front of it.
     pub port: usize,
 }
@@ -95,10 +101,9 @@ impl Layout {
     pub fn has_ends(&self) -> bool {
         self.attached[0].is_some()
     }
-    /// Returns [`Self::has_ends`], or `None` if pins and seats move or other bodies are attached.
-    pub fn plain(&self) -> Option<bool> {
-        let others = self.has_pins || self.attached[ENDS..].iter().any(Option::is_some);
-        (!others).then(|| self.has_ends())
+    /// Number of attached bodies, or `None` if pins and seats move.
+    pub fn attached_without_pins(&self) -> Option<usize> {
+        (!self.has_pins).then(|| self.attached().count())
     }
     /// Angle of the carrier or of a body `i` in front of it, as a sum: degrees of freedom and their factors.
     pub fn angle(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {

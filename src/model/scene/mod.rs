@@ -14,7 +14,9 @@ pub use crate::drives::{CarrierDrive, GearContact, PlanetSpin, Scene, SideDrive,
 pub use dog::{Dog, DogMotion, DogPhase, Dogs};
 pub use input_derivatives::{InputDerivatives, ORDERS};
 pub use inputs::{ACTUATED, ACTUATED_CLUTCHES, ACTUATED_LOCK, Inputs, MAX_SPEED, MAX_TORQUE};
-pub use layout::{ATTACHED_COUNT, CARRIER, ENDS, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PINION, PLANET, PROPELLER};
+pub use layout::{
+    ATTACHED_COUNT, CARRIER, ENDS, FEW, Layout, MAX_DOF, MAX_GROUPS, MAX_PLANETS, PINION, PLANET, PROPELLER,
+};
 pub use material::{InertiaSpec, Material};
 pub use oil::{OilSpec, Viscosity};
 pub use plan::{AttachedBody, Base, Group, Plan, Requests};

@@ -4,7 +4,7 @@
 //! is simulated, and its forces are multiplied by the number of members.
 
 use super::{
-    ATTACHED_COUNT, CARRIER, CarrierDrive, Dog, ENDS, GearContact, InputDerivatives, Inputs, Layout, MAX_DOF,
+    ATTACHED_COUNT, CARRIER, CarrierDrive, Dog, ENDS, FEW, GearContact, InputDerivatives, Inputs, Layout, MAX_DOF,
     MAX_GROUPS, MAX_PLANETS, PINION, PROPELLER, PlanetSpin, Scene, SideDrive,
 };
 use crate::geometry::{GearSpec, Pair, assembly};
@@ -201,6 +201,7 @@ impl Plan {
             members: self.groups.map(|g| g.members),
             has_pins: self.has_pins,
             attached: self.attached.map(|body| body.map(|_| CARRIER)),
+            first_bases: [0; FEW],
             port: CARRIER,
         };
         for (k, body) in self.attached.iter().enumerate() {
@@ -210,6 +211,8 @@ impl Plan {
                 Base::Pinion => layout.pinion(),
             });
         }
+        let first = layout.count() - layout.attached().count();
+        layout.first_bases = std::array::from_fn(|k| layout.attached().nth(k).map_or(first + k, |(_, to)| to));
         layout.port = (PINION..=PROPELLER).rfind(|&k| layout.attached[k].is_some()).map_or(CARRIER, |k| layout.body(k));
         layout
     }

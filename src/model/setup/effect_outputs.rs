@@ -1,8 +1,9 @@
 //! Heats, readings and bodies of the effects, and their positions among those of all effects.
 
-use crate::model::effect_kinds::{Attached, Changes, Heat, Reading};
+use crate::model::effect_kinds::{Attached, Changes, Heat, Reading, Warmed};
 use crate::model::effects::{EFFECTS, EffectEntry};
 use crate::model::scene::ATTACHED_COUNT;
+use crate::model::thermal::GEARS;
 
 /// Index of the heat of contact damping, which belongs to no effect.
 pub const CONTACT_HEAT: usize = 0;
@@ -87,8 +88,11 @@ const fn is_same(a: &str, b: &str) -> bool {
 
 /// Heats of the ledger, in its order.
 pub const ALL_HEATS: [Heat; HEATS] = {
-    let contact =
-        Heat { output: "heat.contact", description: "Heat of contact damping since the start", at_wheels: false };
+    let contact = Heat {
+        output: "heat.contact",
+        description: "Heat of contact damping since the start",
+        warms: Warmed::Node(GEARS),
+    };
     let (mut heats, mut index, mut i) = ([contact; HEATS], CONTACT_HEAT, 0);
     while i < EFFECTS.len() {
         if is_first(i)

@@ -8,22 +8,16 @@ use super::SceneEffects;
 use crate::contact::ContactSpec;
 use crate::declaration::{Groups, Rows, RowsOf};
 use crate::geometry::{GearSpec, Pair};
-use crate::model::effect_kinds::Setting;
+use crate::model::effect_kinds::EffectSetting;
 use crate::model::effects::{EffectParameters, Effects};
 use crate::model::scene::{InertiaSpec, Material, OilSpec, Scene, SolidTeeth, SolverSpec};
 
 macro_rules! groups {
-    ($($(#[$doc:meta])+ $name:ident: $type:ty = $start:expr;)+) => {
+    ($($(#[$doc:meta])+ $name:ident: $type:ty;)+) => {
         /// All parameters; the default is the study's straight case.
-        #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
         pub struct Parameters {
             $($(#[$doc])+ pub $name: $type,)+
-        }
-
-        impl Default for Parameters {
-            fn default() -> Self {
-                Self { $($name: $start,)+ }
-            }
         }
 
         impl Rows for Parameters {
@@ -42,25 +36,25 @@ macro_rules! groups {
 
 groups! {
     /// Gear pair and number of planets.
-    geometry: GearSpec = GearSpec::default();
+    geometry: GearSpec;
     /// Material of the gears.
-    material: Material = Material::default();
+    material: Material;
     /// Oil.
-    oil: OilSpec = OilSpec::default();
+    oil: OilSpec;
     /// Moments of inertia.
-    inertia: InertiaSpec = InertiaSpec::default();
+    inertia: InertiaSpec;
     /// Contact law.
-    contact: ContactSpec = ContactSpec::default();
+    contact: ContactSpec;
     /// Drives and representation.
-    scene: Scene = Scene::default();
+    scene: Scene;
     /// Switches of the effects.
-    effects: Effects = Effects::TEETH;
+    effects: Effects;
     /// Integration.
-    solver: SolverSpec = SolverSpec::default();
+    solver: SolverSpec;
     /// Facets of solid teeth.
-    solid: SolidTeeth = SolidTeeth::default();
+    solid: SolidTeeth;
     /// Parameters of the effects.
-    specs: EffectParameters = EffectParameters::default();
+    specs: EffectParameters;
 }
 
 impl Groups for Parameters {
@@ -81,7 +75,7 @@ impl Parameters {
 
     /// Effects of the scene with the gears `pair`.
     pub fn scene_effects<'a>(&'a self, pair: &'a Pair) -> SceneEffects<'a> {
-        let setting = Setting {
+        let setting = EffectSetting {
             scene: &self.scene,
             geometry: &self.geometry,
             pair,

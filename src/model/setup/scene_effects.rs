@@ -2,7 +2,7 @@
 
 use super::effect_outputs::{body_index, heat_index};
 use crate::model::effect_kinds::{
-    Actuator, BUILT, BodyEffect, Changes, Effect, FlankFriction, Instant, RubbingSurface, Setting, ToothEffects,
+    Actuator, BUILT, BodyEffect, Changes, Effect, EffectSetting, FlankFriction, Instant, RubbingSurface, ToothEffects,
 };
 use crate::model::effects::{EffectEntry, EffectParameters, Effects, configured};
 use crate::model::scene::{ACTUATED, Plan, Requests};
@@ -16,12 +16,12 @@ pub struct SceneEffects<'a> {
     /// Parameters.
     pub parameters: &'a EffectParameters,
     /// The scene.
-    pub setting: Setting<'a>,
+    pub setting: EffectSetting<'a>,
 }
 
 impl<'a> SceneEffects<'a> {
     /// Effects that may act, each with its setting.
-    fn acting(&self) -> impl Iterator<Item = (&'static EffectEntry, Setting<'a>, &'a dyn Effect)> + use<'a> {
+    fn acting(&self) -> impl Iterator<Item = (&'static EffectEntry, EffectSetting<'a>, &'a dyn Effect)> + use<'a> {
         let setting = self.setting;
         configured(self.effects, self.parameters)
             .into_iter()
@@ -29,7 +29,7 @@ impl<'a> SceneEffects<'a> {
             .map(move |(entry, on, effect)| {
                 (
                     entry,
-                    Setting { on, heat_index: heat_index(entry.heat), body_index: body_index(entry), ..setting },
+                    EffectSetting { on, heat_index: heat_index(entry.heat), body_index: body_index(entry), ..setting },
                     effect,
                 )
             })

@@ -4,11 +4,13 @@ use nalgebra::{DMatrix, DVector};
 
 use super::carried::Carried;
 use crate::contact::FlankGaps;
+use crate::declaration::SIDES;
 use crate::integrate::Point;
 use crate::model::assembly::{Model, SIGMA};
-use crate::model::dynamics::{Largest, MAX_SIZE};
+use crate::model::dynamics::{FrictionEquations, Largest, MAX_SIZE};
 use crate::model::run::failure::limit_name;
 use crate::model::run::{LedgerEquations, hints};
+use crate::model::scene::RubbingKind;
 use crate::numeric::{Landscape, Search, TAU, rising_root, sqrt};
 use crate::problem::Problem;
 
@@ -36,14 +38,27 @@ pub fn press_sides(
             limit_name(model),
             hints::stiffer_teeth(&model.parameters)
         );
-        not_carried(torque, s, &bent)
+        not_carried(equations, torque, s, &bent)
     })
 }
 
-/// Error of a start whose load on side `s` bends teeth too far.
-fn not_carried(torque: [f64; 2], s: usize, bent: &str) -> Problem {
-    let name = if s == 0 { "left.load_torque" } else { "right.load_torque" };
-    problem!(name, "{:.6} N.m cannot be carried at the start: {bent}", torque[s])
+/// Error of a start whose `torque` on side `s` bends teeth too far. It names the input that causes this torque: the
+/// largest of both loads and half of the drive's torque, as far as they act.
+fn not_carried(equations: &Largest, torque: [f64; 2], s: usize, bent: &str) -> Problem {
+    let (plan, inputs) = (&equations.teeth.plan, &equations.applied().inputs);
+    let load = |s: usize| {
+        let acting = if plan.side_imposed[s] { 0.0 } else { inputs.load_torque[s] };
+        (["left.load_torque", "right.load_torque"][s], inputs.load_torque[s], acting)
+    };
+    let (name, given) = match plan.drive_ratio {
+        None => ("carrier.torque_command", inputs.carrier_torque),
+        Some(_) => ("pinion.torque_command", inputs.pinion_torque),
+    };
+    let drive = (name, given, if plan.drive_imposed { 0.0 } else { 0.5 * inputs.drive_torque });
+    let larger = |a: (_, _, f64), b: (_, _, f64)| if b.2.abs() > a.2.abs() { b } else { a };
+    let (name, given, _) = larger(larger(load(s), load(1 - s)), drive);
+    let on_side = format!("puts {:.6} N.m on the {} side gear", torque[s], SIDES[s]);
+    problem!(name, "{given:.6} N.m {on_side}, which cannot be carried at the start: {bent}")
 }
 
 /// Fails if teeth at the equilibrium `point` under `torque` bend beyond the limit of their law. This is possible
@@ -54,7 +69,10 @@ pub fn check_settled(
     torque: [f64; 2],
     point: &Point<MAX_SIZE>,
 ) -> Result<(), Problem> {
-    equations.check_deflection(point).map(drop).map_err(|bent| not_carried(torque, bent.side, &bent.message(model)))
+    equations
+        .check_deflection(point)
+        .map(drop)
+        .map_err(|bent| not_carried(equations, torque, bent.side, &bent.message(model)))
 }
 
 /// Presses both sides as [`press_sides`] does. `carry` returns the torque of the teeth on a side at a point, and its
@@ -137,9 +155,10 @@ fn minimum(
     let mut against = [0.0; MAX_SIZE];
     against[..2].copy_from_slice(&torque);
     for g in 0..equations.groups() {
-        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.spin_acceleration;
+        against[teeth.layout.planet(g)] = teeth.inertia[teeth.layout.planet(g)] * loads.acceleration.spin
+            + loads.friction.torque[RubbingKind::Planet.number(g)];
         if equations.has_pins() {
-            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.carrier_acceleration;
+            against[teeth.layout.pin(g)] = teeth.inertia[teeth.layout.pin(g)] * loads.acceleration.carrier;
         }
     }
     // identical teeth are in balance in each pitch or in none

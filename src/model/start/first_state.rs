@@ -2,14 +2,16 @@
 
 use std::sync::Arc;
 
+use super::report::Outcome;
 use super::{preload, report};
 use crate::model::assembly::{Gears, Given, Model, SIGMA};
 use crate::model::dynamics::{Actuated, Largest, State};
-use crate::model::run::events::{apply_changes, break_tooth};
+use crate::model::run::events::{apply_changes, break_tooth, wind_friction};
+use crate::model::run::moving_inputs::acting_inputs;
 use crate::model::run::{Simulation, imposed, watching};
 use crate::model::scene::{CARRIER, Dogs, GearContact, Inputs, Start};
 use crate::model::setup::{HEATS, Parameters};
-use crate::model::thermal::of_scene;
+use crate::model::thermal::{Thermal, of_scene};
 use crate::problem::Problem;
 
 /// Size of the first attempted step after a start [s]. It resolves the fastest motion of stiff teeth, and the
@@ -30,44 +32,59 @@ impl Simulation {
         time: f64,
         given: &Given,
     ) -> Result<Self, Vec<Problem>> {
-        let mut simulation = Self::resume_with(parameters, inputs, (State::at_rest(time, FIRST_STEP), None), given)?;
-        let (model, state, inputs) = (&simulation.model, &mut simulation.state, &{ simulation.inputs });
+        let at_rest = State::at_rest(time, FIRST_STEP);
+        let mut simulation = Self::resume_with(parameters, inputs, (at_rest, None), given)?;
+        let mut thermal = of_scene::at_start(parameters, simulation.model.thermal.as_deref(), &simulation.inputs);
+        if parameters.scene.start == Start::SteadyHeat {
+            simulation.assemble(at_rest, thermal)?;
+            thermal = simulation.steady_heat().map_err(|problem| vec![problem])?;
+        }
+        let Outcome { in_equilibrium, warnings } = simulation.assemble(at_rest, thermal)?;
+        Arc::make_mut(&mut simulation.model).warnings.extend(warnings);
+        simulation.memories = watching::at_start(&simulation.model, time, in_equilibrium);
+        Ok(simulation)
+    }
+
+    /// Sets the first state with the temperatures `thermal`, beginning from a state `at_rest`. Fails if the teeth
+    /// cannot carry the loads.
+    fn assemble(&mut self, at_rest: State, thermal: Thermal) -> Result<Outcome, Vec<Problem>> {
+        self.state = at_rest;
+        let (model, state, inputs) = (&self.model, &mut self.state, &{ self.inputs });
         state.dogs = Dogs::at_start(&model.body_effects().half_shafts.dogs, inputs);
         state.inputs.actuated = Actuated::settled(&model.body_effects().actuators, inputs);
-        state.sums.thermal = of_scene::at_start(parameters, model.thermal.as_deref(), inputs);
+        state.sums.thermal = thermal;
         set_speeds(model, inputs, state);
         // a tooth that is broken from the start
         break_tooth(model, inputs, state);
-        let mut preload = None;
-        if parameters.scene.start.is_in_equilibrium() {
-            match &model.gears {
-                Gears::Ideal(ideal) => preload::wind(model, &ideal.body_effects.half_shafts, inputs, state),
+        let acting = &acting_inputs(model, inputs, state);
+        state.lock = acting.lock;
+        let (mut preload, mut friction) = (None, None);
+        let in_equilibrium = model.parameters.scene.start.is_in_equilibrium();
+        if in_equilibrium {
+            friction = Some(match &model.gears {
+                Gears::Ideal(ideal) => preload::wind(model, &ideal.body_effects.half_shafts, acting, state).friction,
                 Gears::Teeth(teeth) => {
                     let equations = Largest::new(teeth, inputs, state);
-                    let pressed = preload::preload(&equations, model, inputs, state);
-                    preload = Some(pressed.map_err(|problem| vec![problem])?);
+                    let pressed = preload::preload(&equations, model, acting, state);
+                    preload.insert((teeth, pressed.map_err(|problem| vec![problem])?)).1.carried.friction
                 }
-            }
+            });
         }
-        imposed::follow_commands(&simulation.model, inputs, &mut simulation.state);
-        let events = simulation.state.events;
-        apply_changes(&simulation.model, inputs, &mut simulation.state);
+        imposed::follow_commands(model, inputs, state);
+        let events = state.events;
+        apply_changes(model, inputs, state);
+        if let Some(friction) = &friction {
+            wind_friction(model, inputs, state, friction);
+        }
         // friction that holds from the start causes no event
-        simulation.state.events = events;
-        let mut in_equilibrium = parameters.scene.start.is_in_equilibrium();
-        if let Some(preload) = &preload {
-            let outcome = report::judge(&simulation.model, inputs, &simulation.state, preload);
-            in_equilibrium = outcome.in_equilibrium;
-            Arc::make_mut(&mut simulation.model).warnings.extend(outcome.warnings);
-        }
-        if parameters.scene.start == Start::SteadyHeat {
-            simulation.begin_with_steady_heat().map_err(|problem| vec![problem])?;
-        }
-        simulation.state.sums.work = 0.0;
-        simulation.state.sums.heat = [0.0; HEATS];
-        simulation.state.energy_at_start = simulation.energy(&simulation.state);
-        simulation.memories = watching::at_start(&simulation.model, time, in_equilibrium);
-        Ok(simulation)
+        state.events = events;
+        state.sums.work = 0.0;
+        state.sums.heat = [0.0; HEATS];
+        self.state.energy_at_start = self.energy(&self.state);
+        Ok(match &preload {
+            Some((teeth, preload)) => report::judge(teeth, inputs, &self.state, preload),
+            None => Outcome { in_equilibrium, warnings: Vec::new() },
+        })
     }
 }
 

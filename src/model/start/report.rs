@@ -1,8 +1,9 @@
 //! Warnings about a start: it is not in equilibrium, or planets carry unequal loads.
 
 use super::preload::Preload;
+use crate::declaration::SIDES;
 use crate::integrate::SecondOrder;
-use crate::model::assembly::{Gears, Model, Teeth};
+use crate::model::assembly::Teeth;
 use crate::model::dynamics::{Largest, State};
 use crate::model::scene::{CARRIER, Inputs, MAX_DOF, MAX_GROUPS, Plan};
 use crate::problem::Problem;
@@ -31,26 +32,36 @@ pub struct Outcome {
 }
 
 /// Checks the start `state` that `preload` has produced.
-pub fn judge(model: &Model, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
-    let Gears::Teeth(teeth) = &model.gears else { return Outcome { in_equilibrium: true, warnings: Vec::new() } };
+pub fn judge(teeth: &Teeth, inputs: &Inputs, state: &State, preload: &Preload) -> Outcome {
     let mut found = Found { acceleration: [0.0; MAX_DOF], torque: [[0.0; 2]; MAX_GROUPS] };
     let (equations, point) = (Largest::new(teeth, inputs, state), state.point());
     found.acceleration.copy_from_slice(&equations.evaluate(&point).0[..MAX_DOF]);
     for g in 0..teeth.plan.groups().len() {
         found.torque[g] = equations.planet_torques(&point, g);
     }
-    let rolls = !preload.settled && preload.carried.spin_acceleration != 0.0;
-    let balance = if rolls { Some(rolling(&teeth.plan, &found)) } else { unbalanced(teeth, state, preload, &found) };
+    let rolls = !preload.settled && rolls(teeth, preload);
+    let balance =
+        if rolls { Some(rolling(&teeth.plan, state, &found)) } else { unbalanced(teeth, state, preload, &found) };
     let in_equilibrium = balance.is_none();
     let messages = balance.into_iter().chain(unequal(&teeth.plan, &found));
     Outcome { in_equilibrium, warnings: messages.map(|message| Problem::new("scene.start", message)).collect() }
 }
 
+/// True if the torques accelerate the side gears against each other, beyond rounding.
+fn rolls(teeth: &Teeth, Preload { carried, .. }: &Preload) -> bool {
+    let [left, right] = carried.acceleration.side;
+    teeth.inertia[0] * (left - right).abs() > BALANCED * (carried.teeth[0].abs() + carried.teeth[1].abs())
+}
+
 /// Warning that planets start to roll.
-fn rolling(plan: &Plan, found: &Found) -> String {
+fn rolling(plan: &Plan, state: &State, found: &Found) -> String {
+    let cause = match (0..2).find(|&s| state.dogs.is_open(&plan.dogs, s)) {
+        Some(s) => format!("the {} dog clutch is open, so that its side gear turns freely", SIDES[s]),
+        None => "neither teeth nor friction hold the planets against the difference of both sides".into(),
+    };
     format!(
-        "not an equilibrium: the teeth do not hold the planets against the difference of both sides, so the planets start \
-         to roll; the gears accelerate like ideal gears, while their teeth transmit {}",
+        "not an equilibrium: {cause}; the planets start to roll, and the gears accelerate like ideal gears, while their \
+         teeth transmit {}",
         found.carried(plan)
     )
 }
@@ -62,10 +73,10 @@ fn unbalanced(teeth: &Teeth, state: &State, preload: &Preload, found: &Found) ->
     let planets = (0..layout.groups).map(|g| layout.planet(g));
     // torques on spinning planets change all the time
     let at_rest = planets.clone().all(|i| state.v[i] == 0.0);
-    let sides = (0..2).map(|s| (s, carried.side_acceleration[s]));
+    let sides = (0..2).map(|s| (s, carried.acceleration.side[s]));
     let left_over = sides
-        .chain(planets.map(|i| (i, carried.spin_acceleration)))
-        .chain([(CARRIER, carried.carrier_acceleration)])
+        .chain(planets.map(|i| (i, carried.acceleration.spin)))
+        .chain([(CARRIER, carried.acceleration.carrier)])
         // the inverse inertia of imposed motions is zero
         .filter(|&(i, _)| at_rest && teeth.inverse_inertia[i] > 0.0)
         .map(|(i, expected)| (teeth.inertia[i] * (found.acceleration[i] - expected)).abs())

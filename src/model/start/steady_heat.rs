@@ -24,12 +24,12 @@ const MOST_ATTEMPTS: f64 = 3e5;
 const START: &str = "scene.start";
 
 impl Simulation {
-    /// Sets all nodes to the steady temperatures of a cycle. If there are several steady states, it selects the one
-    /// that is reached from cold. Fails if no steady temperatures are found, or if a cycle cannot be run. Not inlined,
-    /// because its simulations need stack that other starts may not have.
+    /// Returns the steady temperatures of a cycle. If there are several steady states, it selects the one that is reached
+    /// from cold. Fails if no steady temperatures are found, or if a cycle cannot be run. Not inlined, because its
+    /// simulations need stack that other starts may not have.
     #[inline(never)]
-    pub(super) fn begin_with_steady_heat(&mut self) -> Result<(), Problem> {
-        let Some(mut network) = self.model.thermal.clone() else { return Ok(()) };
+    pub(super) fn steady_heat(&mut self) -> Result<Thermal, Problem> {
+        let Some(mut network) = self.model.thermal.clone() else { return Ok(self.state.sums.thermal) };
         network.around = network.around.changed(self.inputs.changes_outside());
         let mut still = Box::new(self.clone());
         let model = Arc::make_mut(&mut still.model);
@@ -66,8 +66,7 @@ impl Simulation {
             let from_hot = network.steady(TEMPERATURES.max, &influential, heats)?;
             Arc::make_mut(&mut self.model).warnings.extend(several(&temperatures, from_hot));
         }
-        self.state.sums.thermal = Thermal::at(temperatures);
-        Ok(())
+        Ok(Thermal::at(temperatures))
     }
 
     /// Mean heat flows of a cycle with all nodes at the temperatures `at` [K]. Adds its attempted steps to `attempts`.

@@ -21,15 +21,19 @@ pub fn network(p: &Parameters, masses: &[GearMass; 2]) -> Option<Box<Network<HEA
 pub fn with_parameters(p: &Parameters, masses: &[GearMass; 2]) -> Network<HEATS> {
     let [planet, side] = masses.map(|gear| gear.mass);
     let gears = f64::from(p.geometry.planet_count) * planet + 2.0 * side;
-    p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.output))
+    p.specs.warm_up.network(gears, p.oil.temperature, ALL_HEATS.map(|heat| heat.warms))
 }
 
 /// Temperatures at the start, with the `network` of the scene.
 pub fn at_start(p: &Parameters, network: Option<&Network<HEATS>>, inputs: &Inputs) -> Thermal {
     let oil = p.oil.temperature;
     let Some(network) = network else { return Thermal::uniform(oil) };
-    let sump = network.around.changed(inputs.changes_outside()).sump;
-    Thermal::at(p.specs.warm_up.temperatures_at_start(sump.unwrap_or(oil)))
+    let oil = network.around.changed(inputs.changes_outside()).sump.unwrap_or(oil);
+    // steady heat begins its search without knowing how warm the other nodes become
+    if p.scene.start == Start::SteadyHeat {
+        return Thermal::uniform(oil);
+    }
+    Thermal::at(p.specs.warm_up.temperatures_at_start(oil))
 }
 
 /// Name of the parameter of [`cycle`].

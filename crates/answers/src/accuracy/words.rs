@@ -7,6 +7,8 @@ use super::switches::effects;
 
 /// Fraction from which [`percent`] shows a multiple instead of a percentage.
 const MANY: f64 = 10.0;
+/// Errors above this fraction are not stated as a number: the value of the reference is nearly zero.
+const ENORMOUS: f64 = 1e4;
 
 /// Formats a fraction as a percentage with two significant digits.
 pub fn percent(fraction: f64) -> String {
@@ -16,6 +18,9 @@ pub fn percent(fraction: f64) -> String {
     }
     if !percent.is_finite() {
         return "no number".into();
+    }
+    if fraction >= ENORMOUS {
+        return format!("more than {ENORMOUS:.0} x");
     }
     if fraction >= MANY {
         return format!("{fraction:.0} x");
@@ -94,6 +99,7 @@ mod tests {
     #[test]
     fn percents_have_two_digits_and_ratios_three() {
         assert_eq!([0.0, 0.012_34, 1.5, 3e-9].map(percent), ["0 %", "1.2 %", "150 %", "3e-7 %"]);
+        assert_eq!([250.0, 2e17].map(percent), ["250 x", "more than 10000 x"]);
         assert_eq!([1.2345, 12.345, 0.012, 0.0, 1e-5].map(three_digits), ["1.23", "12.3", "0.01", "0.00", "1.00e-5"]);
     }
 

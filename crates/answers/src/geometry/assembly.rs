@@ -75,9 +75,6 @@ pub fn turned(rotation: &Rotation, v: [f64; 3]) -> [f64; 3] {
     rotation.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
-/// Identity rotation.
-pub const IDENTITY: Rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
 fn about_x(angle: f64) -> Rotation {
     let (s, c) = (sin(angle), cos(angle));
     [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
@@ -206,12 +203,13 @@ mod tests {
         let spec = GearSpec { planet_count: 4, ..GearSpec::default() };
         let bodies = bodies(&spec, &Position::rolling(&spec, 0.0, 0.4)).expect("they assemble");
         let axes: Vec<[f64; 3]> = bodies.iter().map(|b| turned(&b.rotation, [0.0, 0.0, 1.0])).collect();
+        let identity = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let wanted = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, 0, 1], [0, -1, 0], [0, 0, -1]];
         for ((axis, wanted), body) in axes.iter().zip(wanted).zip(&bodies) {
             assert!((0..3).all(|i| (axis[i] - f64::from(wanted[i])).abs() < 1e-15), "{}: {axis:?}", body.name);
             let unit = product(&body.rotation, &transposed(&body.rotation));
-            assert!((0..9).all(|k| (unit[k / 3][k % 3] - IDENTITY[k / 3][k % 3]).abs() < 1e-15), "{unit:?}");
-            let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|e| turned(&body.rotation, e));
+            assert!((0..9).all(|k| (unit[k / 3][k % 3] - identity[k / 3][k % 3]).abs() < 1e-15), "{unit:?}");
+            let [x, y, z] = identity.map(|e| turned(&body.rotation, e));
             let right_handed = (x[1] * y[2] - x[2] * y[1]) * z[0]
                 + (x[2] * y[0] - x[0] * y[2]) * z[1]
                 + (x[0] * y[1] - x[1] * y[0]) * z[2];

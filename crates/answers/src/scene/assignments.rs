@@ -12,28 +12,31 @@ use crate::text::near;
 /// Names that can be set in addition to the variables of the FMU.
 const TIMES: [&str; 2] = ["stop_time", "step"];
 
-/// Changes `scene` by `assignments`. Fails with all problems of the assignments.
+/// Changes `scene` by `assignments`. Fails with all problems of the assignments. Times have options of their own besides
+/// `--set`, so their messages name no option.
 pub fn apply<T: AsRef<str>>(scene: &mut Scene, assignments: &[T]) -> Result<(), Problems> {
     let mut problems = Problems::default();
     let mut named: Vec<&str> = Vec::new();
     for assignment in assignments.iter().map(|text| -> &str { text.as_ref() }) {
         let Some((name, text)) = assignment.split_once('=') else {
-            problems
-                .push(format!("\"{assignment}\" is not of the form name=value, such as left.load_torque=\"400 N.m\""));
+            let form = "is not of the form name=value, such as left.load_torque=\"400 N.m\"";
+            problems.push(format!("--set: \"{assignment}\" {form}"));
             continue;
         };
         let (name, text) = (name.trim(), text.trim());
         if let Some(problem) = curve::set_twice(name, &named) {
-            problems.push(problem);
+            problems.push(format!("--set: {problem}"));
             continue;
         }
         named.push(name);
-        problems.extend(assign(scene, name, text).err().into_iter().flat_map(|of_value| of_value.0));
+        let option = if TIMES.contains(&name) { "" } else { "--set: " };
+        let found = assign(scene, name, text).err().into_iter().flat_map(|of_value| of_value.0);
+        problems.extend(found.map(|problem| problem.prefixed(option)));
     }
     if problems.0.is_empty() && named.iter().any(|name| TIMES.contains(name)) {
         problems.extend(check_step(scene.step, scene.stop_time).err());
     }
-    Problems(problems.0.into_iter().map(|problem| problem.prefixed("--set: ")).collect()).or(())?;
+    problems.or(())?;
     // a run that ends earlier does not reach later changes
     let stop_time = scene.stop_time;
     scene.events.retain(|event| event.time <= stop_time);

@@ -135,14 +135,16 @@ fn in_front(plan: &Plan) -> String {
     format!(", pinion {}{end}", own(plan.pinion_inertia()))
 }
 
+/// Text `name = value` with the value of a variable at the start in its unit, and the value in SI.
+fn value(scene: &Scene, name: &str) -> Option<(String, f64)> {
+    let row = named(name)?;
+    let value = value_of(row, &scene.parameters, &scene.inputs)?;
+    Some((format!("{name} = {}", units::text(&scene.display_units.row(row), value)), value))
+}
+
 /// Drive of each shaft, with the values at the start.
 fn drives(scene: &Scene, plan: &Plan) -> Vec<String> {
-    let value = |name: &str| {
-        let value = named(name).and_then(|row| Some((row, value_of(row, &scene.parameters, &scene.inputs)?)));
-        value.map_or(String::new(), |(row, value)| {
-            format!("{name} = {}", units::text(&scene.display_units.row(row), value))
-        })
-    };
+    let value = |name: &str| value(scene, name).map_or(String::new(), |(text, _)| text);
     let driven = |name: &str| choice(scene, name).split(':').next().unwrap_or_default().to_owned();
     let by = driven("scene.carrier_drive");
     let command = if by == "torque" { "torque_command" } else { "speed_command" };
@@ -170,12 +172,10 @@ fn drives(scene: &Scene, plan: &Plan) -> Vec<String> {
 
 /// Inputs of the effect with the switch `name` that act and are not 0 at the start, for the end of a line.
 fn commands(scene: &Scene, name: &str) -> String {
-    let mut inputs = scene.inputs;
-    let rows = effects::inputs_of(name.trim_start_matches("effects."));
     let acts = |name: &str| index_of(name).is_some_and(|index| acts(index, &scene.parameters, Situation::START));
-    let acting = rows.iter().map(|row| (row.name, *(row.access)(&mut inputs)));
-    let acting = acting.filter(|&(name, value)| value != 0.0 && acts(name));
-    acting.fold(String::new(), |text, (name, value)| format!("{text}; {name} = {}", units::six_digits(value)))
+    let rows = effects::inputs_of(name.trim_start_matches("effects."));
+    let acting = rows.iter().filter(|row| acts(row.name)).filter_map(|row| value(scene, row.name));
+    acting.filter(|&(_, value)| value != 0.0).fold(String::new(), |all, (text, _)| format!("{all}; {text}"))
 }
 
 /// Description of the effect of a switch.

@@ -10,6 +10,9 @@ const MOST: usize = 3;
 const SAME_WORD: f64 = 0.79;
 /// Similarity of all letters above which two names are similar without equal words.
 const SAME_LETTERS: f64 = 0.7;
+/// Similarity of the letters after the last point that is needed in addition. Otherwise, a long group that is equal would
+/// hide a quantity that is not.
+const SAME_QUANTITY: f64 = 0.4;
 /// Share of the wrong name, weighted by words, that a suggested name must contain.
 const SHARE: f64 = 0.65;
 /// Names whose scores differ from the best one by less than this are equally similar.
@@ -29,15 +32,20 @@ pub fn near<'a>(wrong: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<&'
         return Vec::new();
     }
     let weights = Weights::of(&names);
-    let quantity = words(wrong.rsplit('.').next().unwrap_or_default()).len();
-    let meant = words(wrong);
+    let quantity_of = |name: &str| words(name.rsplit('.').next().unwrap_or_default());
+    let (meant, quantity) = (words(wrong), quantity_of(wrong));
     let letters = meant.concat();
-    let group = meant.len() - quantity;
+    let group = meant.len() - quantity.len();
+    let has_similar_quantity = |name: &str| {
+        let [given, other] = [quantity.concat(), quantity_of(name).concat()];
+        group == 0 || normalized_damerau_levenshtein(&given, &other) >= SAME_QUANTITY
+    };
     let mut scored: Vec<(f64, &str)> = names
         .iter()
         .filter_map(|(name, words)| {
             let by_letters = normalized_damerau_levenshtein(&letters, &words.concat());
-            let by_letters = if by_letters >= SAME_LETTERS { by_letters } else { 0.0 };
+            let is_similar = by_letters >= SAME_LETTERS && has_similar_quantity(name);
+            let by_letters = if is_similar { by_letters } else { 0.0 };
             let score = by_words((&meant[..group], &meant[group..]), words, &weights).max(by_letters);
             (score > 0.0).then_some((score, *name))
         })
@@ -132,6 +140,15 @@ mod tests {
         for (wrong, expected) in [("lin", vec!["line"]), ("webber", vec!["line_weber"]), ("xyz", vec![]), ("", vec![])]
         {
             assert_eq!(near(wrong, literals), expected, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_same_group_alone_suggests_nothing() {
+        let names = ["final_drive.hand", "final_drive.damping", "final_drive.ring_teeth"];
+        assert_eq!(near("final_drive.ratio", names), Vec::<&str>::new());
+        for (wrong, meant) in [("final_drive.hamd", 0), ("final_drive.dampning", 1), ("finaldrive.ringteeth", 2)] {
+            assert_eq!(near(wrong, names), [names[meant]], "{wrong}");
         }
     }
 

@@ -280,7 +280,7 @@ fn swing(scene: &Scene) -> f64 {
 
 #[test]
 fn a_scene_with_fixed_steps_gets_the_longest_that_are_accurate_enough() {
-    let (text, within) = (in_fixed_steps(TEETH), 0.1);
+    let (text, within) = (in_fixed_steps(TEETH), 0.05);
     let found = asked(&text, &["left.speed:peak_to_peak"], within);
     let richest = found.reference.scene.parameters;
     assert_eq!(richest.solver.method, Method::Adaptive);
@@ -300,7 +300,7 @@ fn a_scene_with_fixed_steps_gets_the_longest_that_are_accurate_enough() {
         scene.parameters.solver.fixed_step *= factor;
         error(&scene)
     };
-    assert!(longer(2.5) > within, "{}", longer(2.5));
+    assert!(longer(2.0) > within, "{}", longer(2.0));
     assert!(solver.fixed_step < 2e-4, "{}", solver.fixed_step);
     let said = report::text(&found);
     assert!(said.contains(&format!("fixed steps of {:e} s", solver.fixed_step)), "{said}");
@@ -442,9 +442,13 @@ fn a_final_drive_is_kept_and_its_mesh_is_elastic_only_for_what_it_moves() {
         assert_eq!(why, "pinion.speed_command commands the scene");
         let Role::Acts { by, chosen } = role(&found, "final_drive errors") else { panic!("{}", report::text(&found)) };
         assert_eq!((*chosen, *by > within), (elastic, elastic), "{want}: {by}");
-        // the flanks lift off, which the mean speed does not show
+    }
+    // the error moves the force by 210 N; the loads are 4440 N, or 111 N, from which the flanks lift off
+    for (load, lifts_off) in [("200.0", false), ("5.0", true)] {
+        let scene = AXLE.replace("load_torque = 200.0", &format!("load_torque = {load}"));
+        let found = asked(&scene, &["ring_gear.tangential_force:peak_to_peak"], 0.05);
         let Role::Acts { by, .. } = role(&found, "final_drive.backlash") else { panic!("lash") };
-        assert_eq!(*by > within, elastic, "{want}: {by}");
+        assert_eq!(*by > 0.05, lifts_off, "{load}: {by}");
     }
     // a rigid mesh has nothing to leave out
     let found = asked(&AXLE.replace("elastic_mesh = true", "elastic_mesh = false"), &["carrier.speed:mean"], 0.01);

@@ -67,8 +67,8 @@ class Work:
         for argument in arguments:
             value = argument() if callable(argument) else argument
             given += value if isinstance(value, list) else [value]
-        for file in (self.results / name for _, _, name in sections if name):
-            # so that every file in the folder after the run is from this run
+        # so that every file in the folder after the run is from this run
+        for file in [*(self.results / name for _, _, name in sections if name), *(self.results.glob("*.png") if pictures else ())]:
             file.unlink(missing_ok=True)
         self.progress.stage(doing)
         words = [WORKSPACE / script] if script.endswith(".py") else ["-m", script]

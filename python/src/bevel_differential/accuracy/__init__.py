@@ -163,7 +163,7 @@ def _drawn(found, file):
     tiny = (f" Errors below {plain(100.0 * FLOOR * within)} % are drawn at this value."
             if any(run.error < FLOOR * within for run in runs) else "")
     panel = Panel("cost, % of the reference", "largest error of the wanted quantities, %", marks,
-                  f"{found.scene}: {wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + ' …'}", columns=2, xscale="log", yscale="log",
+                  f"{found.scene}: {wanted if len(wanted) <= LONGEST else wanted[:LONGEST] + ' …'}", legend="right", xscale="log", yscale="log",
                   ylim=(60.0 * FLOOR * within, None))
     return picture([[panel]], "Each mark is a run of the scene with another level, law, set of effects, tolerance or step, compared with "
                    "the richest model at a fine tolerance. Lower is more accurate, left is cheaper; the grey line joins the "

@@ -22,6 +22,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Runs the tests, prints their conclusions and writes files. Raises `DifferentialError`."""
     from ..extras import matplotlib
+    from ..scene_file import find
     from ..values import DifferentialError, suggestion
     from ..writing import in_folder, write_whole
     from . import TESTS, bench, scene_file
@@ -33,9 +34,9 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.scene and len(arguments.test) != 1:
         raise DifferentialError("--scene: name the one test that it is for", kind="use")
     for name in arguments.test or TESTS:
-        scene = Path(arguments.scene or scene_file(name))
+        scene = find(arguments.scene) if arguments.scene else scene_file(name)
         with in_folder(arguments.out) as folder:
-            conclusion = bench(name, folder, arguments.scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
+            conclusion = bench(name, folder, scene, once("--set", arguments.set), arguments.fmu, arguments.unit, **farm(arguments))
             write_whole(folder / scene.name, scene.read_bytes())
         print(f"{name}: {conclusion} ({Path(arguments.out) / name}.png, .csv)")
     return DONE

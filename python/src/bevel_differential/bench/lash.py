@@ -34,7 +34,8 @@ def lash(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     play = np.degrees(play_of(scene))
     sources = words.listed(f"{np.degrees(one.angle):.5f} deg of the {one.source}" for one in _sources(scene))
     conclusion = (f"the play at no torque is {play:.5f} deg at the port of the drive, by the closed form {sources}; at {largest:g} N.m in "
-                  f"both directions it is {rows[-1][3]:.4g} deg, so that teeth and shafts wind up by {rows[-1][3] - play:.4g} deg")
+                  f"both directions it is {rows[-1][3]:.4g} deg, so that teeth and shafts up to the held side gears wind up "
+                  f"by {rows[-1][3] - play:.4g} deg; half-shafts come on top")
     curves = [curve([row[0] for row in rows], [row[k] for row in rows], name, form="o-") for k, name in ((1, "drive"), (2, "coast"))]
     panel = Panel(Axis("torque of the drive, N·m"), "angle of the port, deg", curves)
     return written(scene, out, conclusion, [[panel]], 4.0, "lash", HEAD, rows)

@@ -10,6 +10,7 @@ from ..losses.axes import axes
 from ..losses.tables import bias as ratio_of
 from ..panel import Axis, Panel, curve
 from ..scene import Scene
+from ..values import DifferentialError
 from .steady import drawn
 
 # friction that rises with speed, as with a fresh oil that has a friction modifier
@@ -23,9 +24,13 @@ LAP, HAIRPIN = 60.0, 20.0
 def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Measures the vibration of a side gear about its wheel's speed, with the scene's friction and with one that rises with speed."""
     names, (_, _, slips, _) = ["left.speed", "right.speed"], axes(scene)
+    run_up = {table[0]: table for table in scene.tables}
+    try:
+        wheels = [run_up[f"{side}.speed_command"] for side in ("left", "right")]
+    except KeyError as missing:
+        raise DifferentialError(f"the bench of judder needs a run-up of the slip: tables of both wheel speeds, also of {missing}") from None
     falling, rising = (scene.run(names, values) for values in ({}, RISING))
     time = falling["time"]
-    wheels = [next(table for table in scene.tables if table[0] == f"{side}.speed_command") for side in ("left", "right")]
     left, right = (np.interp(time, table[1], table[2]) for table in wheels)
     count = round(WINDOW / scene.step)
     swings = [np.ptp(np.lib.stride_tricks.sliding_window_view(record["left.speed"] - left, count), axis=1)
@@ -44,8 +49,10 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Measures temperatures and locking effect over laps."""
-    record, (*_, warmth) = scene.run(), axes(scene)
-    time, left, right = record["time"], record["left.shaft_torque"], record["right.shaft_torque"]
+    if scene.stop < LAP:
+        raise DifferentialError(f"stop_time = {scene.stop:g} s: the bench of hot laps needs laps of {LAP:g} s, with a hairpin at {HAIRPIN:g} s")
+    record = _recorded(scene, "hot laps", "left.shaft_torque", "right.shaft_torque", "held.sides", *_names("clutch", "oil", "case"))
+    time, left, right, (*_, warmth) = record["time"], record["left.shaft_torque"], record["right.shaft_torque"], axes(scene)
     # only while the differential differentiates
     effect = np.array([np.nan if held or ratio_of(*torques)[1] is None else ratio_of(*torques)[1]
                        for held, *torques in zip(record["held.sides"] > 0, left.tolist(), right.tolist())])
@@ -59,7 +66,7 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 def winter_start(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     """Measures temperatures and loss after a cold start."""
-    record, (*_, warmth) = scene.run(), axes(scene)
+    record, (*_, warmth) = _recorded(scene, "a winter start", "power.loss", *_names("oil", "gears", "case")), axes(scene)
     time, loss = record["time"], record["power.loss"]
     half = time[np.argmax(loss < 0.5 * (loss[0] + loss[-1]))]
     conclusion = (f"the loss is {loss[0]:.0f} W at the start and {loss[-1]:.0f} W after {time[-1] / 60.0:.0f} min; half of the fall takes "
@@ -74,8 +81,19 @@ def _ratio(effect):
     return (100.0 + effect) / (100.0 - effect)
 
 
+def _recorded(scene, what, *names):
+    """Record of the scene's outputs and of those with these `names`."""
+    if not scene.value("effects.warm_up"):
+        raise DifferentialError(f"effects.warm_up = false: the bench of {what} needs temperatures that change")
+    return scene.run([*dict.fromkeys([*scene.outputs, *names])])
+
+
+def _names(*nodes):
+    return [f"temperature.{node}" for node in nodes]
+
+
 def _temperatures(record, *nodes):
-    return {node: record[f"temperature.{node}"] for node in nodes}
+    return {node: record[name] for node, name in zip(nodes, _names(*nodes))}
 
 
 def _written(scene: Scene, record: np.ndarray, out: Path, conclusion: str, panels: Sequence[tuple[Axis, Mapping[str, np.ndarray]]]) -> None:

@@ -22,6 +22,8 @@ from ..values import DifferentialError, Number
 SHARES = np.array([0.15, 0.25, 0.4, 0.6, 0.8, 1.0])
 TEMPERATURES = (253.15, 313.15, 393.15)
 SPEED, DIFFERENCE = 50.0, 5.0
+# torque bias ratio above 1 that is no bias
+NO_BIAS = 1e-3
 HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]",
         "torque_bias_ratio [1]", "locking_effect [%]"]
 
@@ -31,9 +33,16 @@ def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
     torques, (of_torque, *_) = SHARES * largest_torque(scene), axes(scene)
     found = _measured(scene, torques, (DIFFERENCE, -DIFFERENCE), farm)
     rows = [(*point[:1], *point[2:], *figures[:2], *ratio_of(*figures[:2])) for point, figures in found.items()]
-    conclusion = (f"TBR falls from {_range(rows, torques[0])} at {of_torque.text(torques[0], 3)} to {_range(rows, torques[-1])} at "
-            f"{of_torque.text(torques[-1])}: preload determines it at small torque, friction that grows with the torque at large torque. "
-            "Left and right agree where solid and dashed lines meet")
+    small, large = (max(row[5] or np.inf for row in rows if row[0] == torque) for torque in (torques[0], torques[-1]))
+    least, most = (f"{_range(rows, torque)} at {of_torque.text(torque, 3)}" for torque in (torques[0], torques[-1]))
+    if max(small, large) <= 1.0 + NO_BIAS:
+        conclusion = f"TBR is {most}, because nothing in the scene biases the torque"
+    elif small > large + NO_BIAS:
+        conclusion = (f"TBR falls from {least} to {most}: preload determines it at small torque, friction that grows with the torque at large "
+                      "torque")
+    else:
+        conclusion = f"TBR is {least} and {most}: friction that grows with the torque determines it"
+    conclusion += ". Left and right agree where solid and dashed lines meet"
     return written(scene, out, conclusion, [[_panel(scene, rows, "torque bias ratio T_high/T_low", 5)]], 5.6, "differentiating", HEAD, rows)
 
 
@@ -60,11 +69,11 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
 
 
 def largest_torque(scene: Scene) -> float:
-    """Largest carrier torque of the bench [N·m], from the scene."""
+    """Largest carrier torque of the bench [N·m]: the largest magnitude in the scene."""
     name = port_command(scene.value, TORQUE)
-    command = float(scene.value(name))
-    if command <= 0.0:
-        raise DifferentialError(f"{name} = {command:g} N.m: the bench needs its largest torque here, above 0")
+    command = abs(float(scene.all_values().get(name, scene.value(name))))
+    if command == 0.0:
+        raise DifferentialError(f"{name} = 0 N.m: the bench needs its largest torque here")
     return command * drive_ratio(scene.value)
 
 
@@ -87,7 +96,7 @@ def _measured(scene, torques, differences, farm):
 def _range(rows, torque):
     ratios = [row[5] for row in rows if row[0] == torque]
     known = [ratio for ratio in ratios if ratio is not None]
-    text = f"{min(known):.2f} to {max(known):.2f}" if known else "none"
+    text = " to ".join(dict.fromkeys(f"{limit(known):.2f}" for limit in (min, max))) if known else "none"
     return f"{text} or none" if known and len(known) < len(ratios) else text
 
 
@@ -105,10 +114,11 @@ def written(scene: Scene, out: Path, conclusion: str, panels: Iterable[Iterable[
             rows: Iterable[Sequence[Any]]) -> str:
     """Writes the numbers and the figure of a test; returns its conclusion, which is also the caption. `doing`: what the differential does."""
     write(out.with_suffix(".csv"), head, [["" if cell is None else cell for cell in row] for row in rows], conclusion)
-    drawn(scene, out, conclusion, panels, height, f", {doing}")
+    drawn(scene, out, conclusion, panels, height, doing)
     return conclusion
 
 
 def drawn(scene: Scene, out: Path, conclusion: str, panels: Iterable[Iterable[Panel]], height: float, doing: str = "") -> None:
     """Draws the figure of a test."""
-    picture(panels, f"{conclusion[0].upper()}{conclusion[1:]}.", out.with_suffix(".png"), height, title=f"{scene.name}{doing}")
+    picture(panels, f"{conclusion[0].upper()}{conclusion[1:]}.", out.with_suffix(".png"), height, 
+            title=", ".join(dict.fromkeys(filter(None, (scene.name, doing)))))

@@ -1,8 +1,9 @@
 """Task for each design: a run of the scene, reduced to the wanted figures."""
 
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Self
 
 from ..instance import Closing
 from ..off_outputs import OffInDesigns
@@ -30,6 +31,16 @@ class Row:
     seconds: float = 0.0
     warnings: tuple[str, ...] | None = None
     kind: str = "failed"
+
+    def filled(self, fill: Callable[[Self], None]) -> Self:
+        """The row after `fill(row)`, with its duration. A failure is noted in the row."""
+        begun = time.perf_counter()
+        try:
+            fill(self)
+        except DifferentialError as error:
+            self.message, self.kind = str(error), error.kind
+        self.seconds = time.perf_counter() - begun
+        return self
 
 
 class Task(Closing):
@@ -71,23 +82,19 @@ class Task(Closing):
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """Evaluates a design. A failed run also returns a row."""
-        begun = time.perf_counter()
-        row = Row(run, dict(values))
-        try:
-            if off := self.unsure and self.scene.off_outputs(self.unsure, values).texts:
-                raise DifferentialError(f"condition: {off[0]}")
-            row.figures, row.warnings = self._figures(values), tuple(self.scene.warnings)
-            row.message = "; ".join(self.undefined)
-            row.feasible = bool(row.figures) and all(str(one.want) in row.figures and one.holds(row.figures[str(one.want)])
-                                                     for one in self.conditions)
-        except DifferentialError as error:
-            row.message, row.kind = str(error), error.kind
-        row.seconds = time.perf_counter() - begun
-        return row
+        return Row(run, dict(values)).filled(self._fill)
 
     def close(self) -> None:
         """Frees the scene's instances."""
         self.scene.close()
+
+    def _fill(self, row):
+        if off := self.unsure and self.scene.off_outputs(self.unsure, row.values).texts:
+            raise DifferentialError(f"condition: {off[0]}")
+        row.figures, row.warnings = self._figures(row.values), tuple(self.scene.warnings)
+        row.message = "; ".join(self.undefined)
+        row.feasible = bool(row.figures) and all(str(one.want) in row.figures and one.holds(row.figures[str(one.want)])
+                                                 for one in self.conditions)
 
     def _only_final(self):
         return all(want.statistic.word == "final" for want in self.figures)

@@ -10,7 +10,6 @@ With a final drive, torque and speed act on its port. Both are still referred to
 is the same, and the loss includes the heat of final drive and propeller shaft. Dog clutches are closed: their lash changes no mean, so the
 bench leaves them out."""
 
-import time
 from collections.abc import Callable, Container, Mapping
 from math import ceil, lcm, pi
 from typing import Any
@@ -20,7 +19,7 @@ import numpy as np
 from ..drive_port import PORT, port_command, port_value
 from ..instance import Instance
 from ..scene import Scene
-from ..values import UNFELT, DifferentialError, Number
+from ..values import UNFELT, Number
 from ..want import Want
 from ..warned import warn
 from ..designs.task import Row
@@ -90,23 +89,22 @@ class PointTask:
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> Row:
         """Evaluates a point. A failed run also returns a row."""
-        begun, row = time.perf_counter(), Row(run, dict(values))
-        try:
-            figures, row.feasible = self._stuck(values) if _difference(values) == 0.0 else self._slipping(values)
-            row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings()
-        except DifferentialError as error:
-            row.message, row.kind = str(error), error.kind
-        row.seconds = time.perf_counter() - begun
-        return row
+        return Row(run, dict(values)).filled(self._fill)
 
     def warnings(self, values: Mapping[str, Number]) -> list[str]:
         """Warnings of the FMU in the run of a point, except those about values that the bench sets."""
         return list(self.evaluate(0, values).warnings or ())
 
+    def _fill(self, row):
+        figures, row.feasible = self._stuck(row.values) if _difference(row.values) == 0.0 else self._slipping(row.values)
+        row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings()
+
     def _warnings(self):
         own = {*AXES[:-1], *PORT.values(), *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
         said = self._instance.messages if self._instance is not None else []
-        return tuple(text for text in said if not (UNFELT in text and text.partition(": ")[0] in own))
+        # values of the scene that act only under its own drives and effects are no mistakes
+        benched = [f" {name} = " for name in BENCH]
+        return tuple(text for text in said if not (UNFELT in text and (text.partition(": ")[0] in own or any(name in text for name in benched))))
 
     def _begun(self, values):
         if self._instance is None:
@@ -145,8 +143,10 @@ class PointTask:
         (*means, _, _), still = self._settled(instance, SHORTEST, 1)
         ends = []
         for sign in (1.0, -1.0):
-            instance = self._begun({**values, "left.speed_command": values["left.speed_command"] + sign * CREEP / 2.0,
-                                    "right.speed_command": values["right.speed_command"] - sign * CREEP / 2.0})
+            # friction holds at the start, before the wheels begin to turn apart
+            instance = self._begun(values)
+            instance.set({"left.speed_command": values["left.speed_command"] + sign * CREEP / 2.0,
+                          "right.speed_command": values["right.speed_command"] - sign * CREEP / 2.0})
             cycle, _ = _cycles(instance, CREEP)
             # the faster wheel has the smaller torque
             ends.append(-sign * peak(instance, lambda of: -sign * of.get(TORQUES[0]), cycle / SAMPLES, SAMPLES))

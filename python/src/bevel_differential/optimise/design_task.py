@@ -2,7 +2,6 @@
 models of the same scene."""
 
 import math
-import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -63,15 +62,10 @@ class DesignTask(Task):
 
     def evaluate(self, run: int, values: Mapping[str, Number]) -> DesignRow:
         """Evaluates a design."""
-        begun = time.perf_counter()
-        row = DesignRow(run, dict(values))
-        try:
-            self._judge(row)
-        except DifferentialError as error:
-            row.message = str(error)
+        row = DesignRow(run, dict(values)).filled(self._judge)
+        if row.message:
             self.failed(row)
         row.feasible = not row.refused
-        row.seconds = time.perf_counter() - begun
         return row
 
     def failed(self, row: Row) -> DesignRow:

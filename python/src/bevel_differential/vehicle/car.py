@@ -155,9 +155,7 @@ class Car:
         begin, ratio = speed / self._radius(), drive_ratio(self._value)
         if speed:
             motion.x[0] = motor_torque(self.motor, request, self.motor.ratio * begin)
-        # a start from rest reads the speed only if the gears are ideal
-        is_ideal = self._value("scene.gear_contact") == self.fmu.variable("scene.gear_contact").literals["ideal"]
-        start = {port_command(self._value, SPEED): port_value(self._value, SPEED, begin)} if speed or is_ideal else {}
+        start = {port_command(self._value, SPEED): port_value(self._value, SPEED, begin)} if speed else {}
         body = port_inertia(self._value)
         return {**self._given, **start, body: self._value(body) + self.motor.inertia * (self.motor.ratio / ratio) ** 2,
                 "scene.carrier_drive": "torque", "scene.left_drive": "torque", "scene.right_drive": "torque",

@@ -32,7 +32,7 @@ class Part:
             unit, least = parameter.metadata["unit"], parameter.metadata["least"]
             number = float(Quantity(name, unit).number(value))
             if least is not None and not number > least:
-                raise DifferentialError(f"{name} = {value!r}: it is a finite number above {least:g}, {unit}")
+                raise DifferentialError(f"{name} = {value!r}: it is a finite number above {least:g} {unit}".removesuffix(" 1"))
             setattr(self, parameter.name, number)
 
     @classmethod

@@ -1,6 +1,6 @@
 //! Tests of inputs that change with time: the parabola that they add equals the equations at the inputs of each time.
 
-use super::shape::{Any, ENDS_SIZE, MAX_SIZE, PLAIN_SIZE, PlainDriven, Shape, WithEffects, WithEnds};
+use super::shape::{Any, FEW_SIZE, MAX_SIZE, PLAIN_SIZE, PlainDriven, Shape, WithEffects, WithEnds, WithPinion};
 use super::{Equations, FrictionEquations};
 use crate::integrate::{Point, SecondOrder};
 use crate::model::assembly::{Gears, Given, Model};
@@ -12,6 +12,8 @@ fn derivatives() -> InputDerivatives {
     let rates = |scale: f64| Inputs {
         carrier_speed: 3.0 * scale,
         carrier_torque: -2e3 * scale,
+        pinion_speed: 20.0 * scale,
+        pinion_torque: -500.0 * scale,
         load_torque: [1e3 * scale, -4e3 * scale],
         planet_spin: 5.0 * scale,
         ..Inputs::ZERO
@@ -77,7 +79,14 @@ fn a_parabola_of_time_equals_the_equations_at_the_inputs_of_each_time() {
         assert!(effects < 1e-12, "with friction, {drive:?}, {spin:?}: {effects:e}");
         parameters.effects.half_shaft = true;
         (parameters.inertia.left_end, parameters.inertia.right_end) = (0.3, 0.7);
-        let ends = difference::<ENDS_SIZE, WithEnds>(&parameters);
+        let ends = difference::<FEW_SIZE, WithEnds>(&parameters);
         assert!(ends < 1e-12, "with half-shafts, {drive:?}, {spin:?}: {ends:e}");
+        (parameters.effects.half_shaft, parameters.effects.final_drive) = (false, true);
+        (parameters.specs.final_drive.elastic_mesh, parameters.inertia.pinion) = (true, 0.003);
+        for shaft in [false, true] {
+            parameters.effects.propeller_shaft = shaft;
+            let pinion = difference::<FEW_SIZE, WithPinion>(&parameters);
+            assert!(pinion < 1e-12, "with a pinion, {drive:?}, {spin:?}, shaft {shaft}: {pinion:e}");
+        }
     }
 }

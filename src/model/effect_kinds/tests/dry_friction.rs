@@ -129,6 +129,23 @@ fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_further() {
 }
 
 #[test]
+fn a_body_that_nearly_stands_still_does_not_stick_if_damping_releases_it_at_once() {
+    // the damping torque of 0.1 N·m·s/rad at 4e-7 rad/s is four tenths of the limit, and the spring has the limit torque
+    let (brake, sources, by) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [surface(STIFFNESS)], pressed(1e-7));
+    let brake = DryFriction::new(&brake, &sources);
+    for mode in [Mode::Forward, Mode::Backward] {
+        for wound in [1.0, 0.8, 0.5, 0.0] {
+            let anchor = -mode.direction() * wound * 1e-7 / STIFFNESS;
+            let mut state = FrictionState { mode, anchor, stiffness: STIFFNESS };
+            let slip = Slip { position: 0.0, speed: 4e-7 * mode.direction() };
+            brake.settle(&mut state, under(&slip, &by), true, 1.0, &mut [0.0]);
+            assert_eq!(state.mode, if wound > 0.6 { mode } else { Mode::Stuck }, "{mode:?} wound to {wound}");
+            assert!(!brake.is_due(&state, &slip, &by, true), "{mode:?} wound to {wound} switches back");
+        }
+    }
+}
+
+#[test]
 fn a_spring_that_rounding_winds_beyond_the_limit_does_not_slide() {
     // the rounding of an angle of one turn, 2.8e-15 rad, is 2.8e-6 N·m in this spring: far more than the tolerance of
     // 1e-5 of 1 mN·m

@@ -31,17 +31,15 @@ impl Declare for CouplingAdviceSpec {
         "Advice about the communication step, from the energy error of the cut; co-simulation only";
     const CLASS: Class = Class::Outputs;
     const READINGS: &'static [Reading] = readings! {
-        /// Energy that the cut between host and unit has created (+) or destroyed (-) at a carrier driven by torque
-        /// since the start; 0 in model exchange
+        /// Energy that the cut has created (+) or destroyed (-) at a carrier driven by torque since the start; 0 in
+        /// model exchange
         "coupling.carrier.energy_error": JOULE, ByStep;
-        /// Energy that the cut between host and unit has created (+) or destroyed (-) at the left wheel since the
-        /// start; 0 in model exchange
+        /// Energy that the cut has created (+) or destroyed (-) at the left wheel since the start; 0 in model exchange
         "coupling.left.energy_error": JOULE, ByStep;
-        /// Energy that the cut between host and unit has created (+) or destroyed (-) at the right wheel since the
-        /// start; 0 in model exchange
+        /// Energy that the cut has created (+) or destroyed (-) at the right wheel since the start; 0 in model exchange
         "coupling.right.energy_error": JOULE, ByStep;
-        /// Largest ratio of a port: magnitude of the energy errors of its cut divided by the energy through it, as
-        /// sums that decay over about two periods of the motion
+        /// Largest energy error of a cut over the energy through it; sums that decay over about two periods of the
+        /// motion
         "coupling.energy_ratio": ONE, ByStep;
         /// Communication step at which coupling.energy_ratio would be coupling.wanted_ratio, at most the present one;
         /// coupling.advice_state says what 0 means

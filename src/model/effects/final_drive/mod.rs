@@ -17,13 +17,15 @@ use self::mesh::Mesh;
 use crate::declaration::prelude::*;
 use crate::declaration::{Row, row};
 use crate::model::effect_kinds::{
-    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Class, Declare, Effect, Heat, InputField, Instant, Loss,
-    Reading, Refinement, RubbingSurface, Setting, Slopes, StaticLoads, readings,
+    Action, Attached, BUILT, BodyEffect, BodyMotion, ByLoad, Class, Declare, Effect, EffectSetting, Heat, InputField,
+    Instant, Loss, Reading, Refinement, RubbingSurface, Slopes, StaticLoads, Warmed, readings,
 };
 use crate::model::scene::{
     AttachedBody, Base, CARRIER, CarrierDrive, InertiaSpec, MAX_SPEED, MAX_TORQUE, PINION, Plan, Requests, RubbingKind,
     Scene,
 };
+use crate::model::thermal::OIL;
+use crate::numeric::TAU;
 use crate::problem::Problem;
 
 choices! {
@@ -47,7 +49,7 @@ parameters! {
     pub struct FinalDriveSpec in "final_drive" {
         /// Teeth of the pinion
         pinion_teeth: i32 = 10, 1..=1000;
-        /// Teeth of the ring gear
+        /// Teeth of the ring gear; the ratio is their number over that of the pinion
         ring_teeth: i32 = 41, 1..=1000;
         /// Elastic mesh with lash; false: rigid
         elastic_mesh: bool = false;
@@ -136,7 +138,7 @@ impl Declare for FinalDriveSpec {
     const HEAT: Option<Heat> = Some(Heat {
         output: "heat.final_drive",
         description: "Heat of friction and damping in the final drive since the start",
-        at_wheels: false,
+        warms: Warmed::Node(OIL),
     });
     const READINGS: &'static [Reading] = readings! {
         /// Force of the pinion on the ring gear along its circumference, positive if it drives forward; 0 without
@@ -184,6 +186,7 @@ impl Declare for FinalDriveSpec {
                 "pinion.speed_command",
                 "Imposed speed of the pinion, or of its propeller shaft; initial speed when it is torque-driven",
             )
+            .when(Scene::drive_has_speed())
             .input(RAD_PER_S | DEG_PER_S, speed, |i| &mut i.pinion_speed),
             row("pinion.torque_command", "Torque on the pinion, or on its propeller shaft, when it is torque-driven")
                 .when(is!(Scene.carrier_drive, CarrierDrive::Torque))
@@ -210,16 +213,26 @@ impl FinalDriveSpec {
 }
 
 impl Effect for FinalDriveSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         if self.elastic_mesh && setting.inertia.pinion <= 0.0 {
             found.push(Problem::new(
                 "inertia.pinion",
                 "0 kg.m2: a pinion with an elastic mesh needs an inertia above 0",
             ));
         }
+        let pitch = TAU * self.mean_radius / f64::from(self.ring_teeth);
+        if self.elastic_mesh && self.backlash >= pitch {
+            found.push(problem!(
+                "final_drive.backlash",
+                "{} is not below the pitch of final_drive.ring_teeth = {} at final_drive.mean_radius, {}",
+                MM.text(self.backlash),
+                self.ring_teeth,
+                MM.text(pitch)
+            ));
+        }
     }
 
-    fn requests(&self, setting: &Setting) -> Requests {
+    fn requests(&self, setting: &EffectSetting) -> Requests {
         let inertia = self.reduced_inertia(setting.inertia);
         let mut requests = Requests {
             drive_ratio: Some(self.ratio()),
@@ -234,7 +247,7 @@ impl Effect for FinalDriveSpec {
         requests
     }
 
-    fn on_bodies(&self, setting: &Setting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, plan: &Plan) -> Option<Box<dyn BodyEffect>> {
         let layout = plan.layout();
         let mesh = self.elastic_mesh.then(|| Mesh::new(self, &layout));
         let viscous = self.ratio() * self.ratio() * self.viscous;
@@ -245,7 +258,7 @@ impl Effect for FinalDriveSpec {
         acts.then(|| Box::new(FinalDrive { mesh, viscous, loss, pinion, heat_index: setting.heat_index }) as _)
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         if self.friction_torque.max(self.drive_loss).max(self.coast_loss) > 0.0 {
             let ratio = self.ratio();
             surfaces.push(RubbingSurface {

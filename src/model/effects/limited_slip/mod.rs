@@ -25,8 +25,9 @@ use crate::declaration::prelude::*;
 use crate::model::assembly::face::centroid;
 use crate::model::effect_kinds::torque_curve::POINTS;
 use crate::model::effect_kinds::{
-    BodyEffect, ByLoad, Class, Declare, Effect, Element, Heat, Part, Ramps, Reading, RubbingSurface, Setting, Slides,
-    SlipSpec, SurfaceTemperature, ThrustPart, TorqueCurve, check_slip, depends_on_temperature, readings,
+    BodyEffect, ByLoad, Class, Declare, Effect, EffectSetting, Element, Heat, Part, Ramps, Reading, RubbingSurface,
+    Slides, SlipSpec, SurfaceTemperature, ThrustPart, TorqueCurve, Warmed, check_slip, depends_on_speed,
+    depends_on_temperature, readings,
 };
 use crate::model::run::six_digits;
 use crate::model::scene::{CARRIER, GearContact, Plan, RubbingKind};
@@ -67,8 +68,7 @@ parameters! {
         /// Stiffness of a sticking clutch
         stiffness: f64 = 1e5, NM_PER_RAD, 1.0..=1e9, when(holds());
         /// Mean radius of the plates, for sliding speed
-        mean_radius: f64 = 0.05, METRE | MM, 1e-3..=1.0,
-            when(any([above!(Self.sliding.stribeck_speed, 0.0), differs!(Self.sliding.slip_slope, 0.0)]));
+        mean_radius: f64 = 0.05, METRE | MM, 1e-3..=1.0, when(depends_on_speed::<Self>());
         /// Total friction area of a clutch pack
         friction_area: f64 = 0.05, SQUARE_METRE | CM2, 1e-8..=10.0, when(pressed());
         /// Coefficient of friction of the plates
@@ -83,7 +83,7 @@ parameters! {
 pub const CLUTCH_HEAT: Heat = Heat {
     output: "heat.clutch",
     description: "Heat of limited-slip clutches and lock since the start",
-    at_wheels: false,
+    warms: Warmed::Node(CLUTCH),
 };
 
 impl Declare for LimitedSlipSpec {
@@ -150,7 +150,7 @@ impl LimitedSlipSpec {
     }
 
     /// Share of the mesh torque that the thrust of the side gear moves, a tan α/R.
-    fn by_thrust(&self, setting: &Setting) -> f64 {
+    fn by_thrust(&self, setting: &EffectSetting) -> f64 {
         let (pair, angle) = (setting.pair, setting.geometry.pressure_angle);
         let at_mean = setting.scene.gear_contact == GearContact::Tooth && setting.contact.law == ContactLaw::Impact;
         let cone = if at_mean { pair.mean_cone } else { centroid(pair) };
@@ -158,7 +158,7 @@ impl LimitedSlipSpec {
     }
 
     /// Warning about clutches that lock themselves.
-    fn self_locking(&self, setting: &Setting) -> Option<Problem> {
+    fn self_locking(&self, setting: &EffectSetting) -> Option<Problem> {
         let (drive, thrust) = (self.torque_coefficient, self.by_thrust(setting));
         let coast = drive * self.coast_ratio;
         let value = drive.max(coast) + thrust;
@@ -178,7 +178,7 @@ impl LimitedSlipSpec {
 }
 
 impl Effect for LimitedSlipSpec {
-    fn check(&self, setting: &Setting, found: &mut Vec<Problem>) {
+    fn check(&self, setting: &EffectSetting, found: &mut Vec<Problem>) {
         check_slip!("limited_slip", self.sliding, found);
         found.extend(curve::problem(&self.curve));
         let pressing = [
@@ -191,21 +191,21 @@ impl Effect for LimitedSlipSpec {
             ),
             ("limited_slip.thrust_arm", self.thrust_arm, " m", "a clutch that the side gears press", "arm"),
         ];
-        let contact = match setting.scene.gear_contact {
-            GearContact::Ideal => "ideal",
-            GearContact::Solid => "solid",
-            GearContact::Lumped | GearContact::Tooth => return,
-        };
+        let contact = setting.scene.gear_contact;
+        if matches!(contact, GearContact::Lumped | GearContact::Tooth) {
+            return;
+        }
         for (name, value, unit, clutch, what) in pressing.into_iter().filter(|(_, value, ..)| *value > 0.0) {
             found.push(problem!(
                 name,
-                "{value}{unit}: {clutch} needs the forces of the meshes, which scene.gear_contact = {contact} does not \
-                 provide to it; set the {what} to 0 (preload only), or choose lumped or tooth"
+                "{value}{unit}: {clutch} needs the forces of the meshes, which scene.gear_contact = {} does not \
+                 provide to it; set the {what} to 0 (preload only), or choose lumped or tooth",
+                contact.literal()
             ));
         }
     }
 
-    fn warnings(&self, setting: &Setting) -> Vec<Problem> {
+    fn warnings(&self, setting: &EffectSetting) -> Vec<Problem> {
         let acts = self.is_pressed() || self.slip_torque().is_some() || self.curve_that_holds().is_some();
         if !acts {
             let said = "the clutches have no torque: set limited_slip.preload, torque_coefficient, thrust_arm, \
@@ -215,13 +215,13 @@ impl Effect for LimitedSlipSpec {
         self.self_locking(setting).into_iter().collect()
     }
 
-    fn on_bodies(&self, setting: &Setting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
+    fn on_bodies(&self, setting: &EffectSetting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
         let law = self.slip_torque()?;
         let part = |s: usize| Part { law, displacement: None, body: s, base: Some(CARRIER) };
         Some(Box::new(Element::new([0, 1].map(part).into(), setting.heat_index)))
     }
 
-    fn add_surfaces(&self, setting: &Setting, surfaces: &mut Vec<RubbingSurface>) {
+    fn add_surfaces(&self, setting: &EffectSetting, surfaces: &mut Vec<RubbingSurface>) {
         let curve = self.curve_that_holds();
         if !self.is_pressed() && curve.is_none() && self.slip_torque().is_some() {
             return;
@@ -234,8 +234,7 @@ impl Effect for LimitedSlipSpec {
             ramps: Ramps { coast_ratio: self.coast_ratio, both_sides: self.pressed_by == PressedBy::BothSides },
             stiffness: self.stiffness,
             radius: self.mean_radius,
-            // a friction torque T = μ N r needs the pressure p = N/A, so that p r = T/(μ A)
-            pressed: limit.times(1.0 / (self.plate_coefficient * self.friction_area)),
+            pressed: limit.pressed(self.plate_coefficient, self.friction_area),
             sliding: self.sliding,
             temperature: SurfaceTemperature::Node(CLUTCH),
             ..none

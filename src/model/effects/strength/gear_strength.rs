@@ -7,7 +7,7 @@ use crate::contact::detailed::{Detailed, SliceLoad};
 use crate::contact::pair_load::PairLoad;
 use crate::contact::tooth_friction::{Sliding, ToothFriction};
 use crate::contact::{Flank, ToothLoad};
-use crate::model::effect_kinds::Setting;
+use crate::model::effect_kinds::EffectSetting;
 use crate::model::scene::GearContact;
 use crate::model::thermal::{GEARS, NODES, OIL};
 use crate::problem::Problem;
@@ -45,7 +45,7 @@ pub struct GearStrength {
 
 impl GearStrength {
     /// Strength of the gears of `setting`. Fails if the tool leaves a tooth without a valid root section.
-    pub fn new(spec: &StrengthSpec, setting: &Setting) -> Result<Self, Problem> {
+    pub fn new(spec: &StrengthSpec, setting: &EffectSetting) -> Result<Self, Problem> {
         let strength = spec.tooth_strength();
         let elastic = (setting.material.young_modulus, setting.material.poisson_ratio);
         let rating = Rating::new(setting.pair, elastic, &strength, spec.tool_radius);
