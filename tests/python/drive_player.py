@@ -12,9 +12,9 @@ from fmpy.fmi1 import FMICallException
 
 SIDES = ("left", "right")
 BODIES = ("carrier.speed", *(f"{side}.{what}" for side in SIDES for what in ("speed", "wheel_speed")),
-          *(f"planet[{i}].spin_speed" for i in range(1, 5)))
+          *(f"planet[{i}].spin_speed" for i in range(1, 5)), "pinion.speed", "propeller.speed")
 # outputs that are read at every communication point
-READ = (*BODIES, "pinion.speed", "propeller.speed", *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque")), "held.wheels",
+READ = (*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque")), "held.wheels",
         "mesh.frequency", "power.in", "power.out", "solver.steps", "solver.rejected", "solver.energy_residual")
 # maximum number of communication points at which all outputs are read
 LOOKS = 100

@@ -25,7 +25,7 @@ ROCKS = 12.0
 # fractions of the grip with which brakes stop and hold; fraction of a motor's peak torque as resistance in cruising and for creep
 STOPPING, HOLDING, SMALL = 0.5, 1.2, 0.05
 BRAKES = [f"{side}.brake_torque" for side in SIDES]
-READ = [*BODIES, "pinion.speed", "propeller.speed", *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque", "brake_torque")),
+READ = [*BODIES, *(f"{side}.{what}" for side in SIDES for what in ("wheel_angle", "twist", "shaft_torque", "brake_torque")),
         *(f"{side}_tyre.force" for side in SIDES), "held.wheels", "power.in", "power.out", "body.speed", "carrier.torque_command",
         "solver.steps", "solver.rejected", "solver.energy_residual"]
 

@@ -56,7 +56,7 @@ def test_torques_powers_and_heat_balance_in_steady_slip(run, contact, within, ra
     assert mean["power.in"] - mean["power.out"] == pytest.approx(loss, abs=within * size * 60.0)
     first = last[0] if contact == "tooth" else found[-101]
     heat = (found["heat.clutch_command"][-1] - first["heat.clutch_command"]) / (found["time"][-1] - first["time"])
-    assert heat == pytest.approx(loss, rel=max(within, 1e-6))
+    assert heat == pytest.approx(loss, rel=within)
 
 
 # left gear behind a half-shaft whose wheel has an imposed speed, carrier with an imposed speed, and ideal gears: one degree of freedom
@@ -113,7 +113,8 @@ def expected_times(inertia, start, twist):
     return slides.t[-1], held.t[-1]
 
 
-@pytest.mark.parametrize("start", [-5.0, 5.0])
+# the clutch sticks after 49.96 ms, between two communication points
+@pytest.mark.parametrize("start", [-4.996, 4.996])
 def test_a_clutch_sticks_when_the_wheel_reaches_its_shaft_and_its_torque_crosses_zero(fmu, run, start):
     """The speed of the wheel rises or falls through that of the clutch's shaft. The clutch sticks there, and its spring unwinds."""
     sticks, crosses = expected_times(turning_inertia(fmu), start, at_start(fmu, start))

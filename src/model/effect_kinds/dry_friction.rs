@@ -195,19 +195,21 @@ impl<'a> DryFriction<'a> {
         NOTHING.max(self.of.stiffness * ROUNDING * slip.position.abs().max(TAU))
     }
 
-    /// Returns true if a body is at standstill: its torque, not its speed, then decides whether it begins to slide.
-    /// Commanded friction allows a tolerance of the speed. The torque of other friction changes with the motion itself,
-    /// so its bodies are at standstill only if their speed is exactly zero.
-    fn is_at_standstill(&self, slip: &Slip) -> bool {
-        slip.speed == 0.0 || self.of.commanded && slip.speed.abs() < SPEED_TOLERANCE
+    /// Returns true if a body is at standstill. The sign of its speed is then an error of the solver, so torques decide
+    /// whether it slides.
+    fn is_at_standstill(slip: &Slip) -> bool {
+        slip.speed.abs() < SPEED_TOLERANCE
     }
 
-    /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m].
+    /// Torque of a held body beyond its limit, in the direction in which it would slide [N·m]. Damping torque counts only
+    /// for the speed that the solver resolves: otherwise, its rounding would release a body that is held at its limit.
     fn excess(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad) -> f64 {
-        let torque = self.torque(state, slip, by);
+        let unresolved = self.speed_tolerance(by);
+        let speed = slip.speed - slip.speed.max(-unresolved).min(unresolved);
+        let torque = self.torque(state, &Slip { speed, ..*slip }, by);
         // an overwound spring that is being unwound is shortened instead of released; a body at standstill slides in
         // the direction of its torque when its limit is lowered
-        let sense = if self.is_at_standstill(slip) { torque } else { slip.speed };
+        let sense = if Self::is_at_standstill(slip) { torque } else { slip.speed };
         torque * sense.signum() - self.breakaway(by)
     }
 
@@ -237,13 +239,15 @@ impl<'a> DryFriction<'a> {
         if !self.awaits_load(state, end.slip.speed) || self.of.limit(end.load) <= self.torque_resolution(end.slip) {
             return None;
         }
-        let after = self.overshoot(state, end.slip, end.load);
-        if after <= 1.0 {
+        // the tolerance of a sliding body depends on the loads at the end
+        let by = if state.mode == Mode::Stuck { start.load } else { end.load };
+        let [before, after] =
+            [(start.slip, by), (end.slip, end.load)].map(|(slip, by)| self.overshoot(state, slip, by));
+        if after <= before.max(1.0) {
             return None;
         }
-        // aim at the middle of the tolerance; the tolerance of a sliding body depends on the loads at the end
-        let by = if state.mode == Mode::Stuck { start.load } else { end.load };
-        let before = self.overshoot(state, start.slip, by).min(0.0);
+        // aim at the middle of the tolerance
+        let before = before.min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
 
@@ -263,14 +267,14 @@ impl<'a> DryFriction<'a> {
     fn switched(&self, state: &FrictionState, slip: &Slip, by: &SurfaceLoad, stops: bool) -> FrictionState {
         let mut after = *state;
         let torque = self.torque(state, slip, by);
-        let at_standstill = self.is_at_standstill(slip);
+        let at_standstill = Self::is_at_standstill(slip);
         // a body that has just stopped may have exactly the limit torque
         let breaks_away = |stuck: &FrictionState| {
             self.overshoot(stuck, slip, by) > if at_standstill { STANDSTILL_TOLERANCE } else { 0.0 }
         };
         let due = match state.mode {
             Mode::Stuck => breaks_away(state),
-            mode => mode.direction() * slip.speed < 0.0,
+            mode => mode.direction() * slip.speed < 0.0 && (stops || !at_standstill),
         };
         let holds = !self.of.commanded || self.breakaway(by) > self.torque_resolution(slip);
         let stops = stops && at_standstill && !breaks_away(&FrictionState { mode: Mode::Stuck, ..*state });

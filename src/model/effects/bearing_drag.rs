@@ -147,9 +147,11 @@ impl Effect for BearingDragSpec {
 
     fn on_bodies(&self, setting: &EffectSetting, _: &Plan) -> Option<Box<dyn BodyEffect>> {
         let [carrier, side] = self.resistances(setting.oil);
-        let part = |law: Resistance, body: usize| Part { law, displacement: None, body, base: None };
-        let parts = vec![part(side, 0), part(side, 1), part(carrier, CARRIER)];
-        Some(Box::new(Element::new(parts, setting.heat_index)))
+        let parts = [(side, 0), (side, 1), (carrier, CARRIER)]
+            .into_iter()
+            .filter(|(law, _)| law.acts())
+            .map(|(law, body)| Part { law, displacement: None, body, base: None });
+        Some(Box::new(Element::new(parts.collect(), setting.heat_index)))
     }
 }
 
@@ -197,6 +199,11 @@ struct Resistance {
 }
 
 impl Resistance {
+    /// True if there is any resistance.
+    fn acts(&self) -> bool {
+        [self.coulomb, self.viscous, self.churning, self.churning_per_viscosity].into_iter().any(|of| of != 0.0)
+    }
+
     /// Resistance at the viscosity of `oil`. It is `#[cold]`, because in most scenes nothing depends on the oil. It is
     /// not inlined, because compilers would divide a viscosity before they test if there is one.
     #[cold]
@@ -219,9 +226,12 @@ impl Law for Resistance {
             }
             None => self,
         };
-        (speed / T::constant(on.breakaway_speed)).tanh() * on.coulomb
-            + speed * on.viscous
-            + speed * on.churning * speed.abs()
+        let mut drag = T::constant(0.0);
+        // most of the work is in the hyperbolic tangent
+        if on.coulomb != 0.0 {
+            drag = (speed / T::constant(on.breakaway_speed)).tanh() * on.coulomb;
+        }
+        drag + speed * on.viscous + speed * on.churning * speed.abs()
     }
 }
 

@@ -1,5 +1,5 @@
 """A virtual bench: tests of a differential in the terms of SAE J2817. The torque bias ratio of a differential that differentiates
-under load is TBR = T_high/T_low. Its locking effect is LE = 100 (TBR − 1)/(TBR + 1) %."""
+under load is TBR = T_high/T_low. Its locking value is LE = 100 (TBR − 1)/(TBR + 1) %."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -48,7 +48,7 @@ def judder(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
 
 
 def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
-    """Measures temperatures and locking effect over laps."""
+    """Measures temperatures and locking value over laps."""
     if scene.stop < LAP:
         raise DifferentialError(f"stop_time = {scene.stop:g} s: the bench of hot laps needs laps of {LAP:g} s, with a hairpin at {HAIRPIN:g} s")
     record = _recorded(scene, "hot laps", "left.shaft_torque", "right.shaft_torque", "held.sides", *_names("clutch", "oil", "case"))
@@ -60,7 +60,7 @@ def hot_lap(scene: Scene, out: Path, _farm: Mapping[str, Any]) -> str:
     conclusion = (f"in the same hairpin LE falls from {first:.1f} % in the first lap to {last:.1f} % in the last one, as the clutch packs warm "
             f"up to {warmth.text(record['temperature.clutch'].max(), 3)}: TBR {_ratio(first):.2f} becomes {_ratio(last):.2f}")
     _written(scene, record, out, conclusion, [(warmth.named("temperature"), _temperatures(record, "clutch", "oil", "case")),
-                                               (Axis("locking effect, %"), {"LE": effect})])
+                                               (Axis("locking value, %"), {"LE": effect})])
     return conclusion
 
 

@@ -65,7 +65,7 @@ def breakaway(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:
             f"{of_torque.text(torques[-1])}; breakaway needs {min(over):.2f} to "
             f"{max(over):.2f} times the difference of torques that it has at {of_slip.text(DIFFERENCE)}. This is not a TBR, because "
             "nothing differentiates")
-    return written(scene, out, conclusion, [[_panel(scene, rows, "locking effect, %", 6)]], 5.6, "breaking loose", HEAD, rows)
+    return written(scene, out, conclusion, [[_panel(scene, rows, "locking value, %", 6)]], 5.6, "breaking loose", HEAD, rows)
 
 
 def largest_torque(scene: Scene) -> float:

@@ -48,7 +48,7 @@ NONE = 0.1
 
 
 def bias(left: float, right: float) -> tuple[float | None, float | None]:
-    """Torque bias ratio T_high/T_low and locking effect 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817). Both are None if the
+    """Torque bias ratio T_high/T_low and locking value 100 (TBR − 1)/(TBR + 1) in % of two torques (SAE J2817). Both are None if the
     torques oppose each other or if one is below NONE, because their difference over a vanishing sum means nothing."""
     low, high = sorted(map(abs, (left, right)))
     if low < NONE or left * right < 0.0:

@@ -49,7 +49,7 @@ fn a_body_stops_with_the_torque_its_spring_was_wound_to() {
     let mut hold = FrictionState { mode: Mode::Forward, anchor, stiffness: STIFFNESS };
     let mut heat = [0.0];
     let stopped = Slip { position: 0.501, speed: -1e-7 };
-    clutch.settle(&mut hold, under(&stopped, &pressed(1000.0)), false, 1.0, &mut heat);
+    clutch.settle(&mut hold, under(&stopped, &pressed(1000.0)), true, 1.0, &mut heat);
     assert_eq!(hold.mode, Mode::Stuck);
     assert!((clutch.torque(&hold, &Slip { speed: 0.0, ..stopped }, &pressed(1000.0)) - 11.0).abs() < 1e-9);
 }
@@ -130,17 +130,39 @@ fn a_body_at_exactly_zero_speed_sticks_unless_it_accelerates_further() {
 
 #[test]
 fn a_body_that_nearly_stands_still_does_not_stick_if_damping_releases_it_at_once() {
-    // the damping torque of 0.1 N·m·s/rad at 4e-7 rad/s is four tenths of the limit, and the spring has the limit torque
+    // the speed is resolved to 5e-7 rad/s, where the damping torque of 0.1 N·m·s/rad is half of the limit; the torque
+    // of the other 3e-7 rad/s counts, and the spring has up to the limit torque
     let (brake, sources, by) = (by_load(BodyFriction::commanded(DAMPING_TIME, 0)), [surface(STIFFNESS)], pressed(1e-7));
     let brake = DryFriction::new(&brake, &sources);
     for mode in [Mode::Forward, Mode::Backward] {
         for wound in [1.0, 0.8, 0.5, 0.0] {
             let anchor = -mode.direction() * wound * 1e-7 / STIFFNESS;
             let mut state = FrictionState { mode, anchor, stiffness: STIFFNESS };
-            let slip = Slip { position: 0.0, speed: 4e-7 * mode.direction() };
+            let slip = Slip { position: 0.0, speed: 8e-7 * mode.direction() };
             brake.settle(&mut state, under(&slip, &by), true, 1.0, &mut [0.0]);
             assert_eq!(state.mode, if wound > 0.6 { mode } else { Mode::Stuck }, "{mode:?} wound to {wound}");
             assert!(!brake.is_due(&state, &slip, &by, true), "{mode:?} wound to {wound} switches back");
+        }
+    }
+}
+
+#[test]
+fn the_sign_of_an_unresolved_speed_neither_holds_nor_releases_a_body() {
+    let (clutch, sources, by) = (clutch(), [surface(STIFFNESS)], pressed(10.0));
+    let clutch = DryFriction::new(&clutch, &sources);
+    for sign in [1.0, -1.0] {
+        let hold = FrictionState { mode: Mode::Stuck, anchor: 0.0, stiffness: STIFFNESS };
+        let at = |torque: f64, speed: f64| Slip { position: sign * torque / STIFFNESS, speed: sign * speed };
+        for speed in [2e-7, 0.0, -2e-7] {
+            // the load winds the spring beyond its limit, and the body slides as long as nothing stops it
+            assert!(clutch.crossing(&hold, under(&at(10.0, 0.0), &by), under(&at(10.001, speed), &by)).is_some());
+            let mut state = hold;
+            clutch.settle(&mut state, under(&at(10.001, speed), &by), false, 1.0, &mut [0.0]);
+            assert_eq!(state.mode, if sign > 0.0 { Mode::Forward } else { Mode::Backward }, "{speed}");
+            assert!(!clutch.is_due(&state, &at(10.001, speed), &by, false), "{speed}: sticks immediately");
+            // a spring at its limit is held, also if damping adds a torque
+            assert_eq!(clutch.crossing(&hold, under(&at(10.0, 0.0), &by), under(&at(10.0, speed), &by)), None);
+            assert!(!clutch.is_due(&hold, &at(10.0, speed), &by, false), "{speed}: slides at its limit");
         }
     }
 }

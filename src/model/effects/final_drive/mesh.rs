@@ -56,6 +56,8 @@ pub struct Mesh {
     of_pinion: [Harmonic; 4],
     /// Harmonic of the angle of the carrier.
     of_carrier: Harmonic,
+    /// True if all harmonics are zero.
+    is_perfect: bool,
     /// Degree of freedom of the pinion.
     pinion: usize,
 }
@@ -78,6 +80,13 @@ impl Mesh {
         let r = of.mean_radius;
         let z = f64::from(of.pinion_teeth);
         let harmonic = |error: f64, order: f64, phase: f64| Harmonic { amplitude: error / r, order, phase };
+        let of_pinion = [
+            harmonic(of.error_1, z, of.error_phase_1),
+            harmonic(of.error_2, 2.0 * z, of.error_phase_2),
+            harmonic(of.error_3, 3.0 * z, of.error_phase_3),
+            harmonic(of.pinion_runout, 1.0, of.pinion_runout_phase),
+        ];
+        let of_carrier = harmonic(of.ring_runout, 1.0, of.ring_runout_phase);
         Self {
             ratio: of.ratio(),
             spring: LashSpring {
@@ -85,13 +94,9 @@ impl Mesh {
                 damping: of.damping * r * r,
                 half_lash: 0.5 * of.backlash / r,
             },
-            of_pinion: [
-                harmonic(of.error_1, z, of.error_phase_1),
-                harmonic(of.error_2, 2.0 * z, of.error_phase_2),
-                harmonic(of.error_3, 3.0 * z, of.error_phase_3),
-                harmonic(of.pinion_runout, 1.0, of.pinion_runout_phase),
-            ],
-            of_carrier: harmonic(of.ring_runout, 1.0, of.ring_runout_phase),
+            is_perfect: !of_carrier.acts() && !of_pinion.iter().any(Harmonic::acts),
+            of_pinion,
+            of_carrier,
             pinion: layout.pinion(),
         }
     }
@@ -101,8 +106,11 @@ impl Mesh {
     }
 
     fn deviation<T: Scalar>(&self, [carrier, lag, carrier_speed, pinion_speed]: Local<T>) -> Deviation<T> {
-        let pinion = (carrier - lag) * self.ratio;
         let [mut error, mut by_carrier, mut by_pinion] = [T::constant(0.0); 3];
+        if self.is_perfect {
+            return Deviation { x: -lag, rate: pinion_speed - carrier_speed, by_carrier, by_pinion };
+        }
+        let pinion = (carrier - lag) * self.ratio;
         if self.of_carrier.acts() {
             [error, by_carrier] = self.of_carrier.at(carrier);
         }
