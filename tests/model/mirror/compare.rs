@@ -109,13 +109,13 @@ pub fn compare(scene: &Scene, base: &Course, twins: &[Course], image: &Course, m
     let apart = (0..reached).find(|&k| differs(image, k)).unwrap_or(reached);
     found.with_other_steps =
         usize::from(apart < reached && !twins.iter().any(|twin| (0..=apart).any(|k| differs(twin, k))));
+    let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
     // a kink is located to some 1e-5 of a step, so rounding may also change the size of a step
     let size = output("solver.step_size");
     let is_resized = |k: usize| {
         image.values[k][size] != 0.0 && (base.values[k][size] / image.values[k][size] - 1.0).abs() > CLOSE_AT_SWITCHES
     };
-    let resized = (0..apart).find(|&k| is_resized(k)).unwrap_or(apart);
-    let switched = twins.iter().chain([base, image]).fold(usize::MAX, |first, course| first.min(course.switched));
+    let resized = (switched..apart).find(|&k| is_resized(k)).unwrap_or(apart);
     let close = |k: usize| if k < switched { CLOSE } else { CLOSE_AT_SWITCHES };
     // number of values for which the twins stay close in an output
     let near = |i: usize| {
