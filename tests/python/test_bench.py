@@ -96,6 +96,8 @@ def test_ramps_of_both_sides_shift_the_same_torque_while_both_meshes_have_the_sa
     assert both["torque_difference_[N.m]"] == pytest.approx(own["torque_difference_[N.m]"], rel=1e-6, abs=0.05)
 
 
+# viscous torque is switched off for the measured curves, so its other values change nothing there
+@pytest.mark.filterwarnings("error::bevel_differential.values.DifferentialWarning")
 @pytest.mark.parametrize("exponent", [0.5, 1.0, 1.6])
 def test_torque_over_slip_is_a_power_law_or_the_measured_curve(fmu_file, tmp_path, exponent):
     says = bench("clutch_curve", tmp_path, values={"limited_slip.viscous_exponent": exponent}, fmu=fmu_file, workers=0)

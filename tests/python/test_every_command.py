@@ -184,7 +184,7 @@ def test_a_table_has_a_plain_header_and_may_have_decimal_commas(name, folder):
     assert not rows[0][0].startswith("#") and len(rows) > 1 and all(len(row) == len(rows[0]) for row in rows)
     found, commas = pd.read_csv("point.csv"), pd.read_csv("comma.csv", sep=";", decimal=",")
     assert list(found.columns) == list(commas.columns) == rows[0]
-    assert not any(" [" in head for head in rows[0] if head != "locking_effect [%]")
+    assert not any(" [" in head for head in rows[0] if head != "locking_value [%]")
     # all but the computing time
     numbers = [head for head in found.select_dtypes("number").columns if head != "seconds"]
     assert len(numbers) and np.allclose(commas[numbers].to_numpy(float), found[numbers].to_numpy(float), rtol=1e-12, equal_nan=True)

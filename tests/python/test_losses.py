@@ -181,7 +181,7 @@ def test_tables_have_the_same_numbers(mapped, tmp_path):
     assert counts == {"map": mapped.slipping[..., 0].size, "stuck": 27, "unseen": 60}
     row = rows[0]
     ratio, effect = bias(row["left.shaft_torque"], row["right.shaft_torque"])
-    assert row["torque_bias_ratio"] == ratio > 1.0 and row["locking_effect"] == effect
+    assert row["torque_bias_ratio"] == ratio > 1.0 and row["locking_value"] == effect
     parquet = pq.read_table(save(mapped, tmp_path / "map.parquet"))
     assert parquet.column_names == HEAD and parquet["power.loss"].to_pylist() == [row["power.loss"] for row in rows]
     script = save_for_simulink(mapped, tmp_path / "map.m").read_text(encoding="utf-8")
@@ -199,24 +199,24 @@ def test_tables_have_the_same_numbers(mapped, tmp_path):
         assert locking[1, 1, place, 1] == pytest.approx(-2.0 * np.sign(at) * PRELOAD * over_kinetic(at), rel=1e-5, abs=1e-6)
 
 
-def test_torques_that_oppose_each_other_or_vanish_have_no_ratio_and_no_locking_effect():
+def test_torques_that_oppose_each_other_or_vanish_have_no_ratio_and_no_locking_value():
     assert bias(-10.0, 50.0) == bias(0.0, 50.0) == bias(0.0, 0.0) == bias(-60.46, 61.38) == bias(1e-9, -3e-9) == (None, None)
     assert bias(20.0, 60.0) == bias(60.0, 20.0) == bias(-20.0, -60.0) == (3.0, 50.0)
 
 
 def test_no_percentage_grows_without_bound_where_torque_and_loss_vanish(tmp_path):
-    """A preload of 60 N·m at ±0.9 N·m moves 130 times the transmitted torque, so a locking effect is not defined."""
+    """A preload of 60 N·m at ±0.9 N·m moves 130 times the transmitted torque, so a locking value is not defined."""
     from bevel_differential.losses.tables import save
     levels = dict(zip(VARIABLES, ([-0.92, 0.92, 300.0], [5.0, 40.0], [0.5, 20.0], [TEMPERATURE])))
     with Scene("plain", set=CLUTCH) as made:
         table = pq.read_table(save(losses(made, levels, unseen=5, workers=0), tmp_path / "map.parquet")).to_pylist()
-    effects = [row["locking_effect [%]"] for row in table]
+    effects = [row["locking_value [%]"] for row in table]
     assert any(effect is not None for effect in effects) and all(effect is None or 0.0 <= effect <= 100.0 for effect in effects)
     for row in table:
         if row["kind"] == "map":
             moved, total = 2.0 * PRELOAD, abs(row["carrier.torque"])
             expected = pytest.approx(100.0 * moved / total, rel=1e-3) if total > moved else None
-            assert row["locking_effect [%]"] == expected, row
+            assert row["locking_value [%]"] == expected, row
 
 
 def test_the_efficiency_is_power_out_over_power_in_in_drive_and_overrun(tmp_path):

@@ -25,7 +25,7 @@ COAST, COEFFICIENT, VISCOUS = "limited_slip.coast_ratio", "limited_slip.torque_c
 DRIVE = np.linspace(0.1, 1.0, 19)
 TORQUES = np.concatenate([-DRIVE[::-1], [0.0], DRIVE])
 RAMP_HEAD = ["coast_ratio [1]", "carrier.torque [N.m]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]", "torque_difference [N.m]",
-             "torque_bias_ratio [1]", "locking_effect [%]"]
+             "torque_bias_ratio [1]", "locking_value [%]"]
 CURVE_HEAD = ["clutch", "slip [rad/s]", "clutch_torque [N.m]"]
 # maximum number of points of a measured curve; number of slips that are run, up to this multiple of the last point
 POINTS, STEPS, BEYOND = 8, 50, 1.25

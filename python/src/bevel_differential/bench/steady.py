@@ -25,7 +25,7 @@ SPEED, DIFFERENCE = 50.0, 5.0
 # torque bias ratio above 1 that is no bias
 NO_BIAS = 1e-3
 HEAD = ["carrier.torque [N.m]", "speed_difference [rad/s]", "oil.temperature [K]", "left.shaft_torque [N.m]", "right.shaft_torque [N.m]",
-        "torque_bias_ratio [1]", "locking_effect [%]"]
+        "torque_bias_ratio [1]", "locking_value [%]"]
 
 
 def bias(scene: Scene, out: Path, farm: Mapping[str, Any]) -> str:

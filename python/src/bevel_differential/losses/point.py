@@ -97,13 +97,13 @@ class PointTask:
 
     def _fill(self, row):
         figures, row.feasible = self._stuck(row.values) if _difference(row.values) == 0.0 else self._slipping(row.values)
-        row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings()
+        row.figures, row.warnings = dict(zip(FIGURES, figures)), self._warnings(row.values)
 
-    def _warnings(self):
+    def _warnings(self, values):
         own = {*AXES[:-1], *PORT.values(), *BENCH, *(f"{shaft}_damping" for shaft in SHAFTS)}
         said = self._instance.messages if self._instance is not None else []
-        # values of the scene that act only under its own drives and effects are no mistakes
-        benched = [f" {name} = " for name in BENCH]
+        # values of the scene that act only under its own drives, effects and parameters are no mistakes
+        benched = [f" {name} " for name in (*BENCH, *values)]
         return tuple(text for text in said if not (UNFELT in text and (text.partition(": ")[0] in own or any(name in text for name in benched))))
 
     def _begun(self, values):

@@ -26,7 +26,7 @@ MEANINGS = {
     "left.shaft_torque_max": "map: the greatest left torque of a mesh cycle; stuck: that at which the right wheel breaks loose ahead, N·m",
     "torque_bias_ratio": "T_high/T_low (SAE J2817), stuck: where the right wheel breaks loose ahead; empty where the torques "
                              "oppose each other or one is below 0.1 N·m",
-    "locking_effect [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum, at most 100; empty where there is no "
+    "locking_value [%]": "100 (TBR − 1)/(TBR + 1): the difference of the torques over their sum, at most 100; empty where there is no "
                           "ratio",
 }
 HEAD = list(MEANINGS)
