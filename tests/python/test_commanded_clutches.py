@@ -198,6 +198,13 @@ def test_two_clutches_that_hold_stop_the_car_and_this_is_said_once(fmu):
         assert (abs(found["carrier.speed"][-1]) < 1e-3) == stops
 
 
+@pytest.mark.parametrize("torque, is_told", [(0.0, True), (10.0, False)])
+def test_clutches_without_torque_are_reported(fmu, torque, is_told):
+    with fmu.open() as opened:
+        opened.initialise({"effects.clutches": True, "clutches.torque": torque})
+        assert any("the clutches have no torque at any command" in text for text in opened.messages) == is_told
+
+
 def test_without_commands_the_effect_changes_no_bit(run):
     values = {"scene.planet_spin": "imposed", "spin.command": 3.0}
     names = ["left.speed", "carrier.torque", "left.normal_force", "solver.rhs_calls"]

@@ -96,6 +96,8 @@ def test_parts_of_a_car_and_times_have_units():
     assert Motor(peak="200 lb.ft").peak == pytest.approx(271.16358966628008)
     with refused("Tyre.radius = '37,2 cm': \"37,2 cm\" has a decimal comma: write 37.2 cm"):
         Tyre(radius="37,2 cm")
+    with refused("Motor.peak = '1,000 N.m': \"1,000 N.m\": is the comma a decimal comma, or does it separate thousands? Write 1.000 N.m or 1000 N.m"):
+        Motor(peak="1,000 N.m")
     assert [seconds("t", text) for text in ("2 min", "0.5 h", "3 us", "4", 5.0)] == pytest.approx([120.0, 1800.0, 3e-6, 4.0, 5.0])
 
 

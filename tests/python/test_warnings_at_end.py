@@ -1,10 +1,10 @@
-"""Warnings at the end of a run: fixed steps that are too long, and planets that rolled too little for their rating."""
+"""Warnings at the end of a run: fixed steps that are too long, planets that rolled too little for their rating, and speeds that run away."""
 
 import warnings
 
 import pytest
 
-from bevel_differential import Differential
+from bevel_differential import Differential, differential
 
 AXLE = {"scene.carrier_drive": "torque", "scene.left_drive": "speed", "scene.right_drive": "speed", "carrier.torque_command": 1670.0}
 # teeth that strike first
@@ -50,3 +50,26 @@ def test_planets_that_roll_less_than_half_a_revolution_are_reported(spin, stop, 
 def test_straight_ahead_nothing_is_said_about_rolling():
     texts, _ = warned({"scene.gear_contact": "lumped", "effects.strength": True}, 0.2)
     assert not any("rolled" in text for text in texts)
+
+
+@pytest.mark.parametrize("stops", [False, True])
+def test_speeds_that_run_away_are_reported_with_their_cause_also_if_ctrl_c_stops_the_run(monkeypatch, stops):
+    advance = differential._advance
+
+    def until_ctrl_c(*arguments):
+        advance(*arguments)
+        if stops:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(differential, "_advance", until_ctrl_c)
+    # wheels without inertia under unequal loads
+    unit = Differential({"scene.gear_contact": "lumped", "left.load_torque": 0.0})
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        try:
+            unit.run(outputs=["left.speed"], stop=0.02)
+            assert not stops
+        except KeyboardInterrupt:
+            assert stops
+    told = [str(each.message) for each in found if "faster than any differential turns" in str(each.message)]
+    assert len(told) == 1 and "inertia.left_end" in told[0]

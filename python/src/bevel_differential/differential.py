@@ -1,7 +1,8 @@
 """Class `Differential`: runs the FMU with given parameters."""
 
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Literal, Self, overload
 
 import numpy as np
@@ -52,6 +53,15 @@ class Runner(Closing):
         """Warnings of the FMU in the last run of this thread, and of a run that points of tables make much longer. One line states the number
         of start values that nobody set or accepted; `nobody_set` lists them."""
         return [*getattr(self._instances, "notes", ()), *in_short(self._instance().messages, self.accept_start_values)]
+
+    @contextmanager
+    def _warns_when_stopped(self) -> Iterator[None]:
+        """Passes on the warnings of a run that Ctrl-C stops: they may say why it takes long."""
+        try:
+            yield
+        except KeyboardInterrupt:
+            warn(self.warnings)
+            raise
 
     @property
     def unfelt(self) -> dict[str, str]:
@@ -157,7 +167,8 @@ class Differential(Runner):
         become Python warnings, `DifferentialWarning`; `warnings` contains their texts."""
         if frame:
             needed("pandas", "sweep")
-        record = self._record(inputs, outputs, stop, step, values, input_slopes)
+        with self._warns_when_stopped():
+            record = self._record(inputs, outputs, stop, step, values, input_slopes)
         warn([*self.warnings, *self._off(outputs, Signals.of(self.fmu, inputs, input_slopes), values).texts])
         return as_frame(record) if frame else record
 

@@ -99,7 +99,8 @@ class Scene(Runner):
         rows at its time, before and after it. With `frame`, the result is a pandas DataFrame, by time."""
         if frame:
             needed("pandas", "sweep")
-        record = self._record(outputs, values, stop)
+        with self._warns_when_stopped():
+            record = self._record(outputs, values, stop)
         warn([*self.warnings, *self.off_outputs(outputs, values).texts])
         return as_frame(record) if frame else record
 

@@ -129,6 +129,16 @@ impl Effect for ClutchesSpec {
         check_slip!("clutches", self.sliding, found);
     }
 
+    fn warnings(&self, _: &EffectSetting) -> Vec<Problem> {
+        if self.torque > 0.0 {
+            return Vec::new();
+        }
+        vec![Problem::new(
+            "clutches.torque",
+            "0 N.m: the clutches have no torque at any command; set their torque at full command",
+        )]
+    }
+
     fn requests(&self, _: &EffectSetting) -> Requests {
         Requests { clutch_ratio: self.ratio.map(Some), ..Requests::default() }
     }

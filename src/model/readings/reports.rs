@@ -151,7 +151,8 @@ impl Simulation {
         Some(problem!(
             variable,
             "{} rad/s = {} rpm at t = {:.6} s is beyond {HIGHEST_SPEED} rad/s = {:.0} rpm, faster than any \
-             differential turns: look at drives and loads; reported once",
+             differential turns: look at drives, loads, and inertias of the wheels (inertia.left_end, \
+             inertia.right_end); reported once",
             six_digits(speed),
             six_digits(RPM.show(speed)),
             self.state.time(),

@@ -102,8 +102,16 @@ pub fn split(text: &str) -> Result<(f64, String), String> {
         return Err(format!("\"{text}\" is not a finite number"));
     }
     let rest = &text[end..];
-    if rest.strip_prefix(',').is_some_and(|part| part.starts_with(|letter: char| letter.is_ascii_digit())) {
-        return Err(format!("\"{text}\" has a decimal comma: write {}", text.replacen(',', ".", 1)));
+    if let Some(part) = rest.strip_prefix(',').filter(|part| part.starts_with(|letter: char| letter.is_ascii_digit())) {
+        let [without, with_point] = ["", "."].map(|mark| text.replacen(',', mark, 1));
+        let digits = part.bytes().take_while(u8::is_ascii_digit).count();
+        return Err(if digits == 3 {
+            format!(
+                "\"{text}\": is the comma a decimal comma, or does it separate thousands? Write {with_point} or {without}"
+            )
+        } else {
+            format!("\"{text}\" has a decimal comma: write {with_point}")
+        });
     }
     Ok((number, spelled(rest.trim())))
 }
