@@ -239,14 +239,16 @@ impl<'a> DryFriction<'a> {
         if !self.awaits_load(state, end.slip.speed) || self.of.limit(end.load) <= self.torque_resolution(end.slip) {
             return None;
         }
-        // the tolerance of a sliding body depends on the loads at the end
-        let by = if state.mode == Mode::Stuck { start.load } else { end.load };
-        let [before, after] =
-            [(start.slip, by), (end.slip, end.load)].map(|(slip, by)| self.overshoot(state, slip, by));
-        if after <= before.max(1.0) {
+        let after = self.overshoot(state, end.slip, end.load);
+        if after <= 1.0 {
             return None;
         }
-        // aim at the middle of the tolerance
+        // aim at the middle of the tolerance; the tolerance of a sliding body depends on the loads at the end
+        let by = if state.mode == Mode::Stuck { start.load } else { end.load };
+        let before = self.overshoot(state, start.slip, by);
+        if after <= before {
+            return None;
+        }
         let before = before.min(0.0);
         Some(((0.5 - before) / (after - before)).clamp(FRACTIONS.0, FRACTIONS.1))
     }
