@@ -56,7 +56,7 @@ class Runner(Closing):
 
     @contextmanager
     def _warns_when_stopped(self) -> Iterator[None]:
-        """Passes on the warnings of a run that Ctrl-C stops: they may say why it takes long."""
+        """Passes on the warnings of a run that Ctrl-C stops, because they often contain the reason for its duration."""
         try:
             yield
         except KeyboardInterrupt:
